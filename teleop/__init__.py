@@ -1,0 +1,1 @@
+"""A DJI handheld gimbal, any joystick and a YAML file as a motion-control head."""

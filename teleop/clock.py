@@ -1,0 +1,37 @@
+"""The only module that reads the time.
+
+Both clocks are absolute: a loop sleeps until a moment, never for a duration, so that lateness does not add up.
+"""
+
+from __future__ import annotations
+
+import time
+
+
+class SystemClock:
+    """The machine's monotonic clock, in seconds; a step of the wall clock does not move it."""
+
+    def now(self) -> float:
+        return time.monotonic()
+
+    def sleep_until(self, time: float) -> None:
+        """Returns at once when `time` has passed; signal handlers run meanwhile."""
+        _sleep_until(time)
+
+
+def _sleep_until(moment: float) -> None:
+    while (remaining := moment - time.monotonic()) > 0:
+        time.sleep(remaining)
+
+
+class VirtualClock:
+    """Time that passes only while somebody sleeps: hours of a run in seconds, and the same every time."""
+
+    def __init__(self, now: float = 0.0) -> None:
+        self._now = now
+
+    def now(self) -> float:
+        return self._now
+
+    def sleep_until(self, time: float) -> None:
+        self._now = max(self._now, time)
