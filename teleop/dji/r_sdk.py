@@ -1,0 +1,12 @@
+"""All messages of the handheld gimbal's R SDK, in one registry."""
+
+from __future__ import annotations
+
+from teleop.dji import camera, focus, gimbal
+from teleop.dji.registry import Registry, messages_of
+
+R_SDK = Registry(
+    sets={gimbal.GIMBAL: "gimbal", camera.CAMERA: "camera"},
+    messages=(*messages_of(gimbal), *messages_of(focus), *messages_of(camera)),
+    names={gimbal.Version.set_and_id: gimbal.Version.name, camera.Command.set_and_id: camera.Command.name},
+)

@@ -1,0 +1,143 @@
+"""A frame written down and read back is the same frame, whatever is in it; what is no frame is refused."""
+
+from __future__ import annotations
+
+import json
+from contextlib import suppress
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from teleop.dji.frame import Damage, Frame
+from teleop.dji.r_sdk import R_SDK
+from teleop.dji.record import RecordError, Transcriber, restore
+from teleop.ports import TeleopError
+
+SAMPLE = Frame(bytes.fromhex("0e00 2000 3000 4000 01 14"), 0x03, 0x1122)
+WRITTEN = {
+    "message": "gimbal.position",
+    "reply": False,
+    "cmd_type": 3,
+    "sequence": 4386,
+    "fields": {
+        "yaw": 3.2,
+        "roll": 4.8,
+        "pitch": 6.4,
+        "absolute": True,
+        "yaw_ignored": False,
+        "roll_ignored": False,
+        "pitch_ignored": False,
+        "time_for_action": 2.0,
+    },
+}
+
+prefixes = st.sampled_from([cls.set_and_id for cls in R_SDK.messages]) | st.binary(max_size=2)
+frames = st.builds(
+    Frame,
+    data=st.builds(bytes.__add__, prefixes, st.binary(max_size=40)),
+    cmd_type=st.integers(0, 255),
+    sequence=st.integers(0, 3),  # few, so that replies meet requests
+    encryption=st.sampled_from([0, 0, 0x05, 0x2D]),
+    reserved=st.sampled_from([bytes(3), bytes(3), b"\1\2\3"]),
+    version=st.sampled_from([0, 0, 63]),
+)
+
+
+def test_the_documents_sample() -> None:
+    assert list(Transcriber(R_SDK).record(SAMPLE).items()) == list(WRITTEN.items())
+    assert restore(R_SDK, WRITTEN) == SAMPLE.encode()
+
+
+@given(st.lists(frames, max_size=12))
+def test_restoring_gives_the_same_bytes(bus: list[Frame]) -> None:
+    transcriber = Transcriber(R_SDK)
+    for frame in bus:
+        assert restore(R_SDK, json.loads(json.dumps(transcriber.record(frame)))) == frame.encode()
+
+
+def test_what_is_unusual_in_a_header_is_written_down() -> None:
+    record = Transcriber(R_SDK).record(Frame(b"\x01\x02", 0x20, 7, 0x2D, b"\1\2\3", 5))
+    assert record == {
+        "message": "raw",
+        "reply": True,
+        "cmd_type": 32,
+        "sequence": 7,
+        "version": 5,
+        "reserved": "010203",
+        "encryption": 0x2D,
+        "fields": {"value": "0102"},
+    }
+
+
+def test_replies_of_old_firmware_are_named_by_the_request_before_them() -> None:
+    transcriber = Transcriber(R_SDK)
+    transcriber.record(Frame(b"\x0e\x02\x01", 0x03, 9))
+    transcriber.record(Frame(b"\x0e\x08" + bytes(22), 0x00, 9))  # a push is no request
+    reply = Frame(bytes.fromhex("00 01 0a00 1400 1e00"), 0x20, 9)
+    record = transcriber.record(reply)
+    assert (record["message"], record["bare"]) == ("gimbal.angles", True)
+    assert record["fields"] == {"return_code": "ok", "kind": "attitude", "yaw": 1.0, "roll": 2.0, "pitch": 3.0}
+    assert restore(R_SDK, record) == reply.encode()
+    assert Transcriber(R_SDK).record(reply)["message"] == "raw"
+
+
+def test_damage_keeps_its_bytes() -> None:
+    record = Transcriber(R_SDK).record(Damage("no start byte", b"\x01\x02"))
+    assert record == {"damage": "no start byte", "bytes": "0102"}
+    assert restore(R_SDK, record) == b"\x01\x02"
+
+
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [
+        ({"message": None}, "'message' must be of type str, not None"),
+        ({"sequence": True}, "'sequence' must be of type int, not True"),
+        ({"sequence": 70000}, "frame fields do not fit"),
+        ({"fields": []}, "'fields' must be of type dict, not []"),
+        ({"colour": 1}, "unknown 'colour'; there are message, reply"),
+        ({"reply": True}, "'reply' is True, which 'cmd_type' 3 contradicts"),
+        ({"reserved": "xy"}, "frame: reserved must be hexadecimal, not 'xy'"),
+        ({"reserved": "00"}, "frame fields do not fit"),
+        ({"message": "gimbal.nothing"}, "no message is called 'gimbal.nothing'"),
+        ({"fields": {"yaw": 1}}, "gimbal.position: roll, pitch missing"),
+        ({"fields": WRITTEN["fields"] | {"yaw": 1e300}}, "gimbal.position: yaw 1e+300 does not fit its 16 bits"),
+        ({"fields": {"value": "00" * 1006}}, "a frame of 1024 bytes is too long"),
+        ({"damage": "x", "bytes": 3}, "damage: bytes must be hexadecimal, not 3"),
+    ],
+)
+def test_what_is_no_frame_is_refused(change: dict[str, Any], error: str) -> None:
+    with pytest.raises(TeleopError) as raised:
+        restore(R_SDK, WRITTEN | change)
+    assert str(raised.value).startswith(error)
+
+
+@pytest.mark.parametrize("key", ["message", "reply", "cmd_type", "sequence", "fields"])
+def test_what_is_missing_is_named(key: str) -> None:
+    with pytest.raises(RecordError, match=f"'{key}' is missing"):
+        restore(R_SDK, {name: value for name, value in WRITTEN.items() if name != key})
+
+
+@pytest.mark.parametrize("record", [None, 3, [], "text"])
+def test_only_objects_are_records(record: object) -> None:
+    with pytest.raises(RecordError, match="not a JSON object"):
+        restore(R_SDK, record)
+
+
+json_values = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(list(WRITTEN["fields"])), inner, max_size=3)
+    ),
+    max_leaves=6,
+)
+
+
+@given(st.sampled_from([cls.name for cls in R_SDK.messages]), st.booleans(), st.data())
+def test_anything_else_raises_nothing_but_our_errors(name: str, reply: bool, data: st.DataObject) -> None:
+    names = {field.name for cls in R_SDK.messages if cls.name == name for field in cls.layout.fields}
+    fields = data.draw(st.dictionaries(st.sampled_from(sorted(names | {"extra", "value"})), json_values, max_size=6))
+    record = {"message": name, "reply": reply, "cmd_type": 0x20 if reply else 0x03, "sequence": 0, "fields": fields}
+    with suppress(TeleopError):
+        restore(R_SDK, record)
