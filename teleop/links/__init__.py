@@ -1,0 +1,70 @@
+"""Links carry bytes to a device and back, and know nothing of what they mean.
+
+Each transport is a row in a table and is imported when it is opened: python-can costs a quarter of a second, which a
+simulated run need not pay. `sim:` is not here, because the simulator stands above the links; the rig opens it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+from teleop.links.url import LinkAddress, LinkUrlError, parse
+from teleop.ports import Link
+
+if TYPE_CHECKING:
+    from teleop.links.can import CanListener
+
+__all__ = ["ClosableLink", "LinkAddress", "LinkUrlError", "open_link", "open_listener", "parse"]
+
+
+class ClosableLink(Link, Protocol):
+    """A link to a port that was opened and has to be closed; closing twice is fine."""
+
+    def close(self) -> None: ...
+
+
+def open_link(address: str | LinkAddress, *, host: bool = True, now: Callable[[], float]) -> ClosableLink:
+    """Opens a link URL or a parsed one; `host=False` is the device's end of a CAN bus. `now` is a clock in seconds.
+
+    Raises LinkUrlError for a URL that names nothing to open, LinkError when it cannot be opened.
+    """
+    if isinstance(address, str):
+        address = parse(address)
+    opener = _OPENERS.get(address.kind)
+    if opener is None:
+        raise LinkUrlError(f"link {str(address)!r} is simulated in this process: there is no port to open")
+    return opener(address, host, now)
+
+
+def open_listener(address: str | LinkAddress, *, now: Callable[[], float]) -> CanListener:
+    """Opens a CAN bus to hear what host and gimbal say to each other. `now` is a clock in seconds.
+
+    Raises LinkUrlError where there is no bus for a third party to be on, LinkError when it cannot be opened.
+    """
+    if isinstance(address, str):
+        address = parse(address)
+    if address.kind != "can":
+        raise LinkUrlError(f"link {str(address)!r} is no bus: only CAN lets a third party listen")
+    from teleop.links.can import CanListener
+
+    return CanListener(address, now=now)
+
+
+def _open_can(address: LinkAddress, host: bool, now: Callable[[], float]) -> ClosableLink:
+    from teleop.links.can import GIMBAL_ID, HOST_ID, CanLink
+
+    transmit, receive = (HOST_ID, GIMBAL_ID) if host else (GIMBAL_ID, HOST_ID)
+    return CanLink(address, transmit, receive, now=now)
+
+
+def _open_serial(address: LinkAddress, host: bool, now: Callable[[], float]) -> ClosableLink:  # noqa: ARG001
+    from teleop.links.serial import SerialLink
+
+    return SerialLink(address, now=now)
+
+
+_OPENERS: dict[str, Callable[[LinkAddress, bool, Callable[[], float]], ClosableLink]] = {
+    "can": _open_can,
+    "serial": _open_serial,
+}

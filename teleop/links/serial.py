@@ -1,0 +1,73 @@
+"""A plain serial line, for devices that speak DJI frames without CAN, and the port under it.
+
+pyserial's own zero write timeout spins for ever on a full port, so writability is asked first; `in_waiting` after an
+unplug raises past pyserial's exceptions, so it is never asked. The port is locked: a second program on the same line
+would mix its bytes into our frames.
+"""
+
+from __future__ import annotations
+
+import select
+from collections.abc import Callable
+from typing import Protocol
+
+import serial
+
+from teleop.links.buffered import BufferedLink
+from teleop.links.faults import opening_failed
+from teleop.links.url import LinkAddress
+
+_PIECE = 4096  # bytes in one write, more than the longest frame
+_READ = 65536  # bytes in one call, more than a kernel buffers
+
+
+class Port(Protocol):
+    """A stream of bytes that never waits. Every call may raise OSError."""
+
+    def write(self, data: bytes) -> int:
+        """How many of the bytes it took."""
+        ...
+
+    def read(self) -> bytes:
+        """What has arrived."""
+        ...
+
+    def close(self) -> None: ...
+
+
+class SerialPort:
+    """A Port on a serial line, 8N1, nobody else's. Raises OSError or ValueError when it cannot be opened."""
+
+    def __init__(self, path: str, baud: int) -> None:
+        self._port = serial.Serial(path, baud, timeout=0, write_timeout=0, exclusive=True)
+
+    def write(self, data: bytes) -> int:
+        if not select.select([], [self._port], [], 0)[1]:
+            return 0
+        return self._port.write(data) or 0
+
+    def read(self) -> bytes:
+        return self._port.read(_READ)
+
+    def close(self) -> None:
+        self._port.close()
+
+
+class SerialLink(BufferedLink):
+    """Bytes over a serial line, at the address's baud rate. Raises LinkError when it cannot be opened."""
+
+    def __init__(self, address: LinkAddress, *, now: Callable[[], float]) -> None:
+        super().__init__(address, _PIECE, now)
+        try:
+            self._port = SerialPort(address.channel, address.bitrate)
+        except (OSError, ValueError) as error:
+            raise opening_failed(address, error) from error
+
+    def _put(self, piece: bytes) -> int:
+        return self._port.write(piece)
+
+    def _take(self) -> bytes:
+        return self._port.read()
+
+    def _shut(self) -> None:
+        self._port.close()

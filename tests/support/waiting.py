@@ -1,0 +1,42 @@
+"""Waiting for a condition instead of for a time: returns as soon as it holds, fails when it never does."""
+
+import time
+from collections.abc import Callable
+
+from teleop.ports import Link, LinkError
+
+DEADLINE = 5.0  # s: far beyond any bus here, so that only a real fault reaches it
+
+
+def wait_until(holds: Callable[[], object], what: str = "condition") -> None:
+    deadline = time.monotonic() + DEADLINE
+    while not holds():
+        assert time.monotonic() < deadline, f"{what} never held"
+        time.sleep(0.0005)
+
+
+def collect(link: Link, length: int) -> bytes:
+    """The next `length` bytes that arrive, or more if more have."""
+    arrived = bytearray()
+
+    def enough() -> bool:
+        arrived.extend(link.receive())
+        return len(arrived) >= length
+
+    wait_until(enough, f"{length} bytes from {link}")
+    return bytes(arrived)
+
+
+def wait_for_loss(link: Link) -> LinkError:
+    """The LinkError with which receiving ends."""
+    lost: list[LinkError] = []
+
+    def raises() -> bool:
+        try:
+            link.receive()
+        except LinkError as error:
+            lost.append(error)
+        return bool(lost)
+
+    wait_until(raises, f"loss of {link}")
+    return lost[0]
