@@ -1,0 +1,1 @@
+"""Simulated devices: they obey nothing but real frames, over any link."""

@@ -1,0 +1,178 @@
+"""A DJI handheld gimbal that obeys nothing but R SDK frames: no I/O, no clock, no other way in.
+
+It is the far end of the same Session as the program's own, so a mistake in the frames, the fields or their meaning
+shows as a wrong angle, a refusal or silence. Which handler obeys a message is a table, put together from the parts of
+the gimbal; what no part knows, what is malformed and what has a value that the document does not list is a parse error.
+Only streams are read generously, as real firmware does: speeds are clipped and reserved bits ignored.
+
+Every part is a function of time between commands, so looking often or seldom makes no difference.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from operator import itemgetter
+from typing import Any
+
+from teleop.dji import gimbal
+from teleop.dji.frame import Frame
+from teleop.dji.message import FieldError, Message, Result, ReturnCode
+from teleop.dji.session import Session
+from teleop.sim.accessories import Camera, FocusMotor
+from teleop.sim.handlers import Answer, Handlers
+from teleop.sim.head import Angles, Head
+from teleop.sim.pushes import Beat, Due
+from teleop.sim.settings import Settings
+from teleop.sim.tuning import Tuning
+
+PUSH_RATE = 10.0  # Hz; it varies with the firmware, from 1 Hz up (r-sdk-facts.md, "Layouts, settled")
+
+_MOTION = gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Mode
+_READ_GENEROUSLY = gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Dial
+_REPLY_TYPE = 0x1F  # bits of cmd_type; 0 is the only type that is not answered: section 2.2
+
+
+class SimulatedGimbal:
+    """A gimbal with camera and focus motor. Angles and rates are (yaw, roll, pitch) in deg and deg/s.
+
+    `boot` is where it stands at first. `signs` are those of its firmware against teleop.motion, 1 or -1 for each axis.
+    `lag` is the time constant of its speeds in s, `joystick_speed` the rates at full deflection. A `continuous` gimbal
+    has no stops for yaw. `focus_speed` is in counts/s. With `bare_replies` it leaves set and id out of its replies, as
+    firmware before 01.04.00.20 does. `push_rate` is in Hz, once the push is switched on.
+    """
+
+    def __init__(
+        self,
+        *,
+        boot: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        signs: tuple[int, int, int] = (1, 1, 1),
+        lag: float = 0.05,
+        joystick_speed: tuple[float, float, float] = (60.0, 30.0, 60.0),
+        continuous: bool = False,
+        focus_speed: float = 4095.0,
+        focus_calibrated: bool = True,
+        push_rate: float = PUSH_RATE,
+        bare_replies: bool = False,
+        version: str = "02.02.00.07",
+    ) -> None:
+        self.counts: Counter[str] = Counter()  # messages by name, as they were understood
+        self.follow = gimbal.FollowMode.YAW
+        self.settings = Settings(version)
+        self._head = Head(Angles(*boot), Angles(*signs), lag, Angles(*joystick_speed), continuous)
+        self._camera = Camera()
+        self._focus = FocusMotor(focus_speed, focus_calibrated)
+        self._tuning = Tuning()
+        self._push_rate = push_rate
+        self._bare_replies = bare_replies
+        self._push: Beat | None = None
+        self._session = Session()
+        self._now = float("-inf")
+        self._outgoing = bytearray()
+        self._handlers: Handlers = {
+            gimbal.PushSettings: self._switch_push,
+            gimbal.Mode: self._change_mode,
+        }
+        for part in (self._head, self._camera, self._focus, self._tuning, self.settings):
+            self._handlers |= part.handlers
+
+    @property
+    def angles(self) -> Angles:
+        """Where it is at the last time it was given, exact; an axis without stops counts its turns."""
+        return self._head.angles(self._now)
+
+    @property
+    def rates(self) -> Angles:
+        """How fast it turns at the last time it was given."""
+        return self._head.rates(self._now)
+
+    @property
+    def focus(self) -> float:
+        """Where the focus motor is at the last time it was given: counts, 0 .. 4095, exact."""
+        return self._focus.position(self._now)
+
+    @property
+    def controlled(self) -> bool:
+        """Whether a speed command has taken over, and none has given back since."""
+        return self._head.controlled
+
+    @property
+    def recording(self) -> bool:
+        return self._camera.recording
+
+    @property
+    def shutter_count(self) -> int:
+        return self._camera.shutter_count
+
+    def receive(self, data: bytes, now: float) -> None:
+        """Obeys the frames that `data`, arriving at `now` (s, never going back), completes."""
+        self._pass(now)
+        for received in self._session.receive(data, self._now):
+            frame = received.frame
+            if frame.is_reply:
+                continue
+            self.counts[received.message.name] += 1
+            answer = self._obey(received.message)
+            if frame.cmd_type & _REPLY_TYPE:
+                self._reply(frame, answer)
+
+    def advance(self, now: float) -> bytes:
+        """What it has sent up to `now`: replies, and pushes at their own times."""
+        self._pass(now)
+        sent = bytes(self._outgoing)
+        self._outgoing.clear()
+        return sent
+
+    def _pass(self, now: float) -> None:
+        self._now = max(self._now, now)
+        due: list[Due] = self._tuning.due(self._now)
+        if self._push:
+            due += [(time, self._parameters(time)) for time in self._push.due(self._now)]
+        for _, push in sorted(due, key=itemgetter(0)):
+            self._outgoing += self._session.command(push)
+
+    def _obey(self, message: Message) -> Answer:
+        handler = self._handlers.get(type(message))
+        if handler is None:
+            return ReturnCode.PARSE_ERROR
+        if not isinstance(message, _READ_GENEROUSLY):
+            try:
+                message.check()
+            except FieldError:
+                return ReturnCode.PARSE_ERROR
+        if isinstance(message, _MOTION) and (self.settings.asleep or self._tuning.running(self._now)):
+            return ReturnCode.FAILED
+        answer = handler(message, self._now)
+        if self.settings.asleep:
+            self._head.halt(self._now)
+        return answer
+
+    def _reply(self, frame: Frame, answer: Answer) -> None:
+        message = Result(answer) if isinstance(answer, ReturnCode) else answer
+        self._outgoing += self._session.reply(frame, message, bare=self._bare_replies)
+
+    def _switch_push(self, message: gimbal.PushSettings, now: float) -> Answer:
+        if message.switch == gimbal.Switch.ON and self._push is None:
+            self._push = Beat(now, 1.0 / self._push_rate)
+        elif message.switch == gimbal.Switch.OFF:
+            self._push = None
+        return ReturnCode.OK
+
+    def _change_mode(self, message: gimbal.Mode, now: float) -> Answer:
+        if message.action == gimbal.CentreAction.NONE:
+            self.follow = gimbal.FollowMode(message.mode)
+        else:
+            yaw = 180.0 if message.action == gimbal.CentreAction.SELFIE else 0.0
+            self._head.turn(now, Angles(yaw, 0.0, 0.0))
+        return ReturnCode.OK
+
+    def _parameters(self, time: float) -> gimbal.Push:
+        angles: dict[str, Any] = self._head.reported(time)._asdict()
+        return gimbal.Push(
+            angles_valid=True,
+            limits_valid=True,
+            stiffness_valid=True,
+            **angles,
+            **{f"joint_{axis}": angle for axis, angle in angles.items()},
+            **self._head.limits(),
+            **{f"{axis}_stiffness": value for axis, value in self.settings.stiffness.items()},
+        )
