@@ -1,0 +1,50 @@
+"""To a place and rest, gently: back-to-one, the way to the first key, a preset in rehearsal.
+
+One rest-to-rest minimum-jerk quintic for all axes, so that they set off and arrive together and nothing can overshoot.
+Its peaks over distance d and time T are 15/8 d/T, 10/sqrt(3) d/T2 and 60 d/T3, so the shortest T is a formula.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from teleop.motion import Axis, Limits, Motion
+from teleop.planner.move import Move, Track
+
+PEAK_VELOCITY = 15 / 8
+PEAK_ACCELERATION = 10 / math.sqrt(3)
+PEAK_JERK = 60.0
+NEGLIGIBLE = 1e-12  # units: already there, and too near to divide by the time it takes
+
+
+def ease(start: Motion, target: Mapping[Axis, float], limits: Mapping[Axis, Limits], share: float = 0.5) -> Move:
+    """From rest at `start` to rest at `target`, within `share` of each axis' V, A and J; 0 s long when already there.
+
+    The axes of the move are those of `target`; each needs a start and limits.
+    """
+    distances = {axis: position - start[axis].position for axis, position in target.items()}
+    duration = max(
+        (_shortest(abs(distance), limits[axis].scaled(share)) for axis, distance in distances.items()), default=0.0
+    )
+    return Move({axis: _quintic(start[axis].position, target[axis], duration) for axis in target})
+
+
+def _shortest(distance: float, limits: Limits) -> float:
+    if distance <= NEGLIGIBLE:
+        return 0.0
+    return max(
+        PEAK_VELOCITY * distance / limits.velocity,
+        math.sqrt(PEAK_ACCELERATION * distance / limits.acceleration),
+        math.cbrt(PEAK_JERK * distance / limits.jerk),
+    )
+
+
+def _quintic(start: float, end: float, duration: float) -> Track:
+    if abs(end - start) <= NEGLIGIBLE:
+        return Track(np.array([duration]), np.empty((0, 6)), end)
+    distance = end - start
+    row = [start, 0.0, 0.0, 10 * distance / duration**3, -15 * distance / duration**4, 6 * distance / duration**5]
+    return Track(np.array([0.0, duration]), np.array([row]), end)

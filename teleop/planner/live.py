@@ -1,0 +1,163 @@
+"""From demands to the next tick's motion, legal whatever is asked and whenever it changes.
+
+Each axis tries a short ladder of plans, and the first whose next state can still be stopped inside the soft limits
+wins (planning.md, section A): for a stick, Ruckig's velocity interface under the operator's limits, then its position
+interface exactly onto the soft limit, then the guard stop. A preset and a compiled move have ladders of their own,
+which end in the same guard stop. Since every committed state can be stopped, the guard stop is legal by induction, and
+since a plan is only ever a proposal for one tick, demands may change kind at any tick without a bump.
+
+All velocities go through one solver call because that costs half of four; whatever needs more is an axis's own affair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from teleop.motion import Axis, Cruise, Demand, Follow, Goto, Halt, Limits, Motion, State
+from teleop.planner.drive import Drive
+from teleop.planner.recall import Recall, plan_recalls
+from teleop.planner.solver import PositionSolver, VelocitySolver
+from teleop.planner.stop import inevitable_velocity
+from teleop.planner.tracking import Tracker
+
+INSET = 1e-7  # units inside the soft limit that a stick comes to rest, so that Ruckig's tolerance stays inside too
+SLOWEST = 1e-3  # share of V with which a soft limit is approached at least: Ruckig needs more than 0
+RESIDUE = 1e-10  # unit/s and unit/s2 left by rounding when Ruckig's plan has come to rest
+HALT = Halt()
+STICK = (Cruise, Halt)  # what goes by velocity
+
+
+class Live:
+    """The live planner of all axes. `limits` are the axes' own, `dt` is the tick in seconds.
+
+    An axis takes part once `reset` has placed it.
+    """
+
+    def __init__(self, limits: Mapping[Axis, Limits], dt: float) -> None:
+        self._limits = dict(limits)
+        self._dt = dt
+        self._drives: list[Drive] = []
+        self._position = PositionSolver()
+        self._velocity = [VelocitySolver(max(1, count)) for count in range(len(limits) + 1)]  # by number of axes
+        self._recalls: dict[Axis, Recall] = {}
+        self._tracker = Tracker()
+        self._before: Motion = {}
+        self._after: Motion = {}
+
+    def reset(self, motion: Motion) -> None:
+        """The axes of `motion` are here now, outside their limits too: then only inward motion is allowed.
+
+        Raises KeyError for an axis without limits.
+        """
+        drives = {drive.axis: drive for drive in self._drives}
+        drives |= {axis: Drive(axis, self._limits[axis], state) for axis, state in motion.items()}
+        self._drives = list(drives.values())
+        for axis in motion:
+            self._recalls.pop(axis, None)
+        self._before, self._after = {}, self.motion
+
+    def limit(self, limits: Mapping[Axis, Limits]) -> None:
+        """Change the limits of the axes named, at any time. One that is now beyond them comes back inside first."""
+        self._limits |= limits
+        self.reset({drive.axis: drive.state for drive in self._drives if drive.axis in limits})
+
+    @property
+    def motion(self) -> dict[Axis, State]:
+        """Where each axis is commanded to be."""
+        return {drive.axis: drive.state for drive in self._drives}
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the last step left every axis where it was, at rest: the same demand will do so again."""
+        return self._after == self._before and all(drive.rests for drive in self._drives)
+
+    def step(self, demand: Demand, dt_steps: int = 1) -> dict[Axis, State]:
+        """The motion `dt_steps` ticks on. An axis absent from `demand` comes to rest and stays."""
+        seconds = self._dt * dt_steps
+        sticks: list[Drive] = []
+        velocities: list[float] = []
+        presets: list[tuple[Drive, Goto]] = []
+        for drive in self._drives:
+            wish = demand.get(drive.axis, HALT)
+            if isinstance(wish, STICK):
+                velocity = drive.aim(wish)
+                if velocity != 0.0 or not drive.rests:
+                    sticks.append(drive)
+                    velocities.append(velocity)
+            elif isinstance(wish, Follow):
+                self._commit(drive, self._tracker.step(drive, wish, seconds), seconds)
+            else:
+                presets.append((drive, wish))
+        if sticks:
+            self._cruise(sticks, velocities, seconds)
+        if presets or self._recalls:
+            self._recall(presets, seconds)
+        motion = {drive.axis: drive.state for drive in self._drives}
+        self._before, self._after = self._after, motion
+        return motion
+
+    def _commit(self, drive: Drive, state: State | None, seconds: float) -> None:
+        """Take a proposed state, or the guard stop in its place."""
+        if state is None:
+            state = drive.guard_stop(seconds)
+        drive.state = state
+        if drive.outside:
+            drive.narrow()
+
+    def _cruise(self, drives: list[Drive], velocities: list[float], seconds: float) -> None:
+        """Each of `drives` a step towards its velocity, as far as its soft limits let it."""
+        answer = self._velocity[len(drives)].step(
+            [drive.state for drive in drives], velocities, [drive.now for drive in drives], seconds
+        )
+        if answer is None:
+            for drive in drives:
+                self._commit(drive, None, seconds)
+            return
+        for drive, target, state in zip(drives, velocities, answer, strict=True):
+            if target == 0.0 and -RESIDUE < state[1] < RESIDUE and -RESIDUE < state[2] < RESIDUE:
+                state = State(state[0])
+            if drive.clear_low < state[0] < drive.clear_high:
+                drive.state = state
+            else:
+                side = drive.trips(state, gently=True)
+                self._commit(drive, self._approach_limit(drive, side, target, seconds) if side else state, seconds)
+
+    def _approach_limit(self, drive: Drive, side: int, wanted: float, seconds: float) -> State | None:
+        """Onto the soft limit on `side` (1 upper, -1 lower: planned in a mirror), to rest there; None if not legal."""
+        position, velocity, acceleration = (side * x for x in drive.state)
+        target = (drive.high if side > 0 else -drive.low) - INSET
+        if drive.rests and abs(position - target) <= INSET:
+            return drive.state
+        max_acceleration, max_jerk = drive.now
+        fastest = max(
+            inevitable_velocity(velocity, acceleration, max_jerk), side * wanted, SLOWEST * drive.limits.velocity
+        )
+        answer = self._position.solve(
+            [State(position, velocity, acceleration)], [State(target)], [fastest], [max_acceleration], [max_jerk]
+        )
+        if answer is None:
+            return None
+        if answer.duration <= seconds:
+            return State(side * target)
+        (position,), (velocity,), (acceleration,) = answer.at_time(seconds)
+        state = State(side * position, side * velocity, side * acceleration)
+        return None if drive.trips(state) else state
+
+    def _recall(self, presets: list[tuple[Drive, Goto]], seconds: float) -> None:
+        """Go on with the recalls still wanted, plan those just asked for, drop the others."""
+        going: dict[Axis, Recall] = {}
+        asked: list[tuple[Drive, Goto]] = []
+        for drive, wish in presets:
+            recall = self._recalls.get(drive.axis)
+            if recall is not None and recall.goes_on(wish, seconds):
+                going[drive.axis] = recall
+            else:
+                asked.append((drive, wish))
+        self._recalls = {**going, **plan_recalls(asked)}
+        for drive, _ in presets:
+            recall = self._recalls.get(drive.axis)
+            state = None if recall is None else recall.step(seconds)
+            if state is not None and drive.trips(state):
+                del self._recalls[drive.axis]
+                state = None
+            self._commit(drive, state, seconds)

@@ -1,0 +1,148 @@
+"""Speed override, pause, resume and stepping back: the move's own path, at another pace.
+
+The move is read at its own time s instead of the clock's, so it never leaves its path; v = p' s',
+a = p'' s'^2 + p' s'', j = p''' s'^3 + 3 p'' s' s'' + p' s'''. A steady rate is legal up to what the move's peaks
+leave (`at_most`). A change of rate is not, in general, so it is searched for: ever longer changes are tried on the very
+stretch of the move they would happen on until every axis keeps its limits there, and only that one is returned. The
+search takes milliseconds, so it happens outside the tick: ask for a moment a little ahead, and take the answer, or not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from teleop.motion import Axis, Limits, State
+from teleop.planner.findings import PlanError
+from teleop.planner.move import Move
+
+HEADROOM = 0.97  # of V, A and J: what checking at instants can miss, and every sample must still be a single step
+SHORTEST = 0.25  # s, of a change of rate
+LONGER = 1.25  # factor from one trial to the next
+TRIALS = 40  # the last is half an hour long
+SAMPLES = 2000  # instants at which a change is checked
+
+
+@dataclass(frozen=True)
+class Pace:
+    """The move's time over the clock's: a polynomial from `start` (s, clock) for `duration`, then a steady `rate`.
+
+    `coefficients` are ascending, of the move's time in seconds over seconds since `start`.
+    """
+
+    start: float
+    duration: float
+    coefficients: tuple[float, ...]
+    rate: float
+
+    def at(self, now: float) -> tuple[float, float, float]:
+        """The move's time, its rate and the change of the rate (1/s) at `now` (s, clock)."""
+        t = max(0.0, now - self.start)
+        beyond = max(0.0, t - self.duration)
+        t = min(t, self.duration)
+        time = rate = change = 0.0
+        for coefficient in reversed(self.coefficients):
+            change = change * t + 2 * rate
+            rate = rate * t + time
+            time = time * t + coefficient
+        if beyond > 0.0:
+            return time + self.rate * beyond, self.rate, 0.0
+        return time, rate, change
+
+
+def steady(time: float, rate: float, now: float) -> Pace:
+    """At the move's `time` now, and on at `rate`."""
+    return Pace(now, 0.0, (time, rate), rate)
+
+
+def at_most(move: Move, limits: Mapping[Axis, Limits]) -> float:
+    """The highest steady rate at which the whole move keeps its limits; inf for a move that stands still."""
+    rate = np.inf
+    for axis, peaks in move.peaks().items():
+        of_axis = limits[axis]
+        for peak, limit, order in (
+            (peaks.velocity, of_axis.velocity, 1),
+            (peaks.acceleration, of_axis.acceleration, 2),
+            (peaks.jerk, of_axis.jerk, 3),
+        ):
+            if peak > 0:
+                rate = min(rate, (HEADROOM * limit / peak) ** (1 / order))
+    return float(rate)
+
+
+def state_at(move: Move, pace: Pace, now: float) -> dict[Axis, State]:
+    """Where every axis is at `now` (s, clock); scalar and quick, for the tick."""
+    time, rate, change = pace.at(now)
+    return {axis: State(p, v * rate, a * rate * rate + v * change) for axis, (p, v, a) in move.at(time).items()}
+
+
+def change_rate(move: Move, limits: Mapping[Axis, Limits], pace: Pace, rate: float, now: float) -> Pace:
+    """To `rate` from `now` on, as soon as the limits allow: 0 pauses, negative goes back. `now` may lie ahead.
+
+    Raises PlanError for a rate beyond `at_most`, and when no change however long will do.
+    """
+    most = at_most(move, limits)
+    if abs(rate) > most:
+        raise PlanError(
+            f"the move allows at most {100 * most:.0f} % of its speed, {100 * abs(rate):.0f} % was asked for"
+        )
+    time, current, change = pace.at(now)
+
+    def attempt(duration: float) -> Pace:
+        # s' is the cubic with s' and s'' given at the start, `rate` and 0 at the end
+        rise = rate - current
+        square = (3 * rise / duration - 2 * change) / duration
+        cube = (change - 2 * rise / duration) / duration**2
+        return Pace(now, duration, (time, current, change / 2, square / 3, cube / 4), rate)
+
+    return _first_legal(move, limits, attempt)
+
+
+def go_to(move: Move, limits: Mapping[Axis, Limits], pace: Pace, time: float, now: float) -> Pace:
+    """From a pause at `now` to a pause at the move's `time`, along its path, back or forth: stepping to a key.
+
+    Raises PlanError while the move is running.
+    """
+    here, current, change = pace.at(now)
+    if current or change:
+        raise PlanError("the move is running: pause it before stepping to a key")
+    distance = time - here
+    if distance == 0.0:
+        return steady(time, 0.0, now)
+
+    def attempt(duration: float) -> Pace:
+        shape = (10 / duration**3, -15 / duration**4, 6 / duration**5)
+        return Pace(now, duration, (here, 0.0, 0.0, *(distance * x for x in shape)), 0.0)
+
+    shortest = 15 / 8 * abs(distance) / max(at_most(move, limits), 1.0)
+    return _first_legal(move, limits, attempt, max(SHORTEST, shortest / LONGER))
+
+
+def _first_legal(
+    move: Move, limits: Mapping[Axis, Limits], attempt: Callable[[float], Pace], duration: float = SHORTEST
+) -> Pace:
+    for _ in range(TRIALS):
+        pace = attempt(duration)
+        if _legal(move, limits, pace):
+            return pace
+        duration *= LONGER
+    raise PlanError("no change of speed, however slow, keeps the limits here: stop instead")
+
+
+def _legal(move: Move, limits: Mapping[Axis, Limits], pace: Pace) -> bool:
+    """Whether every axis keeps V, A and J (HEADROOM of them) during the change."""
+    whole = np.polynomial.Polynomial(pace.coefficients)
+    clock = np.linspace(0.0, pace.duration, SAMPLES)
+    rate, change, jolt = (whole.deriv(order)(clock) for order in (1, 2, 3))
+    for axis, (_, v, a, j) in move.sample(whole(clock)).items():
+        of_axis = limits[axis]
+        for value, limit in (
+            (v * rate, of_axis.velocity),
+            (a * rate**2 + v * change, of_axis.acceleration),
+            (j * rate**3 + 3 * a * rate * change + v * jolt, of_axis.jerk),
+        ):
+            if np.abs(value).max() > HEADROOM * limit:
+                return False
+    return True

@@ -1,0 +1,93 @@
+"""Refusals are true: what they say would do does, and less does not."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from teleop.motion import Axis, Limits
+from teleop.planner.findings import Finding, Infeasible
+from teleop.planner.keyframes import Key, plan
+
+PAN, TILT = Axis.PAN, Axis.TILT
+LIMITS = {PAN: Limits(-170, 170, 60, 120, 600), TILT: Limits(-30, 40, 40, 90, 480)}
+
+
+def refusal(keys) -> Sequence[Finding]:
+    try:
+        plan(keys, LIMITS)
+    except Infeasible as error:
+        return error.findings
+    return ()
+
+
+def named(times, positions):
+    return [Key(t, p, where=f"keyframes[{i}]") for i, (t, p) in enumerate(zip(times, positions, strict=True))]
+
+
+def lengthened(keys, durations):
+    """The keys with each segment named by its last key's `where` lasting so long, later keys shifted."""
+    shift, result = 0.0, [keys[0]]
+    for first, last in pairwise(keys):
+        shift += durations.get(last.where, last.at - first.at) - (last.at - first.at)
+        result.append(replace(last, at=last.at + shift))
+    return result
+
+
+@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(
+    st.lists(st.tuples(st.floats(0.2, 2.5), st.floats(-60, 60)), min_size=1, max_size=4),
+)
+def test_the_shortest_times_would_do_and_five_percent_less_would_not(segments):
+    times, positions = [0.0], [0.0]
+    for seconds, step in segments:
+        times.append(times[-1] + seconds)
+        positions.append(positions[-1] / 2 + step)
+    keys = named(times, positions)
+    findings = refusal({PAN: keys})
+    assume(findings)
+    durations = {f.last: f.shortest for f in findings if f.shortest is not None and f.seconds is not None}
+    assert len(durations) == len(findings)
+    assert refusal({PAN: lengthened(keys, durations)}) == ()
+    last, given_seconds = findings[-1].last, findings[-1].seconds
+    shorter = durations | {last: max(given_seconds or 0.0, 0.95 * durations[last])}
+    assert refusal({PAN: lengthened(keys, shorter)}) != ()
+    for finding in findings:
+        assert durations[finding.last] > (finding.seconds or 0.0)
+        assert finding.factor > 1
+
+
+def test_all_findings_of_all_axes_at_once():
+    keys = {PAN: named([0, 4, 4.5, 9], [0, 40, 80, 80]), TILT: named([0, 0.5, 1.0], [0, 30, 0])}
+    found = {(f.axis, f.first) for f in refusal(keys)}
+    assert {axis for axis, _ in found} == {PAN, TILT}
+    assert (PAN, "keyframes[1]") in found
+
+
+def test_too_far_in_the_time_is_the_velocity():
+    (finding,) = refusal({PAN: named([0, 2], [0, 150])})
+    assert (finding.limit, finding.first, finding.last) == ("velocity", "keyframes[0]", "keyframes[1]")
+    assert finding.factor > 150 / 2 / (0.95 * 60)  # the mean velocity, and it starts and ends at rest
+
+
+def test_a_short_step_is_the_jerk():
+    # rest to rest, jerk-limited: 32 d / T^3
+    (finding,) = refusal({PAN: named([0, 0.2], [0, 0.5])})
+    assert finding.limit == "jerk"
+    assert finding.shortest == pytest.approx((32 * 0.5 / 570) ** (1 / 3), rel=0.05)
+
+
+def test_only_the_segment_in_the_way_is_blamed():
+    found = refusal({PAN: named([0, 0.854, 3], [0, 40, 50])})
+    assert [f.last for f in found] == ["keyframes[1]"]
+
+
+def test_the_text_says_it_all():
+    finding = Finding(PAN, "keyframes[2]", "keyframes[3]", "jerk", 2.031, 0.854, 1.022)
+    assert str(finding) == "pan, keyframes[2]..[3]: jerk 2.03 x its limit in 0.854 s; 1.022 s would do"
+    beyond = Finding(TILT, "keyframes[1]", "keyframes[1]", "maximum", 1.5)
+    assert str(beyond) == "tilt, keyframes[1]: 1.5 beyond the soft limit (maximum)"
+    assert "\n" not in str(Infeasible([finding, beyond]))
