@@ -1,0 +1,74 @@
+"""One link and the session over it, shared by all that a device does: gimbal, focus motor and camera are one bus.
+
+A connection is served by the control thread alone and never waits: a poll takes in whatever has arrived and hands
+each frame to those who asked for its kind. It also decides when the far end counts as lost, because it alone sees
+every byte: not by time alone, since a resting loop asks seldom, but by time and unanswered requests together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from teleop.dji.message import Message
+from teleop.dji.session import Session
+from teleop.ports import Link, LinkError
+
+SILENCE = 0.5  # s without a good frame; a gimbal answers within 5 ms
+UNANSWERED = 3  # requests in a row, at least: one lost reply is ordinary on a shared bus
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What came of a request: its reply, None when none came in time, and when the request was `sent` (s)."""
+
+    sequence: int
+    sent: float
+    reply: Message | None
+
+
+class Connection:
+    """`name` is what errors call the far end, `url` where it is; it is first expected to be heard after `now`."""
+
+    def __init__(self, name: str, url: str, link: Link, now: float) -> None:
+        self.session = Session()
+        self._name, self._url, self._link = name, url, link
+        self._handlers: dict[type[Message], list[Callable[[Answer], None]]] = {}
+        self._sent: dict[int, float] = {}
+        self._heard = self._polled = now
+        self._unanswered = 0
+
+    def on_answer(self, request: type[Message], handler: Callable[[Answer], None]) -> None:
+        """Have `handler` called with the answer to each request of a kind, and when one has none."""
+        self._handlers.setdefault(request, []).append(handler)
+
+    def stream(self, message: Message) -> None:
+        """Send a message that has no reply. Raises LinkError, or FieldError when a field is out of its range."""
+        self._link.send(self.session.command(message))
+
+    def request(self, message: Message, now: float) -> int:
+        """Send a message that has a reply; its sequence number. Raises as `stream` does."""
+        frame, sequence = self.session.request(message, now)
+        self._sent[sequence] = now
+        self._link.send(frame)
+        return sequence
+
+    def poll(self, now: float) -> None:
+        """Take in what has arrived, once per tick however many ask. Raises LinkError when the far end is lost."""
+        if now == self._polled:
+            return
+        self._polled = now
+        for received in self.session.receive(self._link.receive(), now):
+            self._heard, self._unanswered = now, 0
+            if received.request is not None:
+                self._answer(received.request, received.frame.sequence, received.message)
+        for lost in self.session.overdue(now):
+            self._unanswered += 1
+            self._answer(lost.request, lost.sequence, None)
+        if self._unanswered >= UNANSWERED and now - self._heard > SILENCE:
+            raise LinkError(f"{self._name} on {self._url} does not answer: is it on, is the cable in?")
+
+    def _answer(self, request: Message, sequence: int, reply: Message | None) -> None:
+        answer = Answer(sequence, self._sent.pop(sequence), reply)
+        for handler in self._handlers.get(type(request), ()):
+            handler(answer)

@@ -1,0 +1,60 @@
+"""The speed that takes an axis along its plan: feed-forward, plus what corrects the measured error (PI).
+
+The error is taken at the time of the reading, so that the age of a report does not look like lag, and an old one
+corrects nothing (design page planning.md, E).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+
+from teleop.motion import Axis, Limits, Motion, State, Tick
+
+PROPORTIONAL = 3.0  # deg/s per deg, and
+INTEGRAL = 2.0  # deg/s2 per deg: planning.md, E
+MAX_INTEGRAL = 5.0  # deg/s: an axis held by hand must not wind up a lunge
+DEAD_BAND = 0.05  # deg, half of the gimbal's grid
+FRESH = 0.2  # s: an older reading corrects nothing
+HISTORY = 100  # ticks of commanded motion that readings are compared with
+
+
+class Correction:
+    """`ahead` is in s: how much later than commanded a speed is reached, half a command's period included."""
+
+    def __init__(self, limits: Mapping[Axis, Limits], ahead: float) -> None:
+        self._limits, self._ahead = limits, ahead
+        self._commanded: deque[tuple[float, Motion]] = deque(maxlen=HISTORY)
+        self._errors: dict[Axis, tuple[float, float]] = {}  # time of the reading (s), error (deg)
+        self._integrals: dict[Axis, float] = {}
+
+    def note(self, tick: Tick) -> None:
+        """Remember what this tick commands; call it for every tick."""
+        self._commanded.append((tick.time, tick.motion))
+
+    def speeds(self, tick: Tick) -> dict[Axis, float]:
+        """The speed to command now for each axis, in deg/s, never beyond the axis's own velocity."""
+        return {axis: self._speed(axis, state, tick) for axis, state in tick.motion.items() if axis in self._limits}
+
+    def _speed(self, axis: Axis, state: State, tick: Tick) -> float:
+        feed_forward = state.velocity + self._ahead * state.acceleration
+        most = self._limits[axis].velocity
+        return min(max(feed_forward + self._correction(axis, tick), -most), most)
+
+    def _correction(self, axis: Axis, tick: Tick) -> float:
+        reading = tick.reported.get(axis)
+        if reading is None or tick.time - reading.time > FRESH or reading.time < self._commanded[0][0]:
+            return 0.0
+        before, error = self._errors.get(axis, (reading.time, 0.0))
+        if reading.time != before or axis not in self._errors:
+            error = self._at(axis, reading.time) - reading.position
+            error = error if abs(error) > DEAD_BAND else 0.0
+            self._errors[axis] = (reading.time, error)
+            integral = self._integrals.get(axis, 0.0) + INTEGRAL * error * min(reading.time - before, FRESH)
+            self._integrals[axis] = min(max(integral, -MAX_INTEGRAL), MAX_INTEGRAL)
+        return PROPORTIONAL * error + self._integrals[axis]
+
+    def _at(self, axis: Axis, time: float) -> float:
+        """Where the axis was commanded to be at the tick nearest to a time in the last second."""
+        _, motion = min(self._commanded, key=lambda commanded: abs(commanded[0] - time))
+        return motion[axis].position

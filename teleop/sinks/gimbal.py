@@ -1,0 +1,135 @@
+"""Makes a DJI gimbal follow the planner by position commands, and asks it where it is.
+
+The gimbal goes to each position at constant speed over `time_for_action` and drops it for the next one, so a command
+aims ahead, at where the axis will be that much later at its present velocity; on course, the gimbal then moves at just
+that velocity (design page planning.md, E). What is aimed at never lies beyond a soft limit, because it is where the
+gimbal ends up when the next command does not come.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from teleop.dji import gimbal
+from teleop.dji.message import Message, Result
+from teleop.dji.words import AngleKind
+from teleop.motion import Axis, Limits, Reading, State, Tick
+from teleop.ports import DeviceError
+from teleop.sinks.connection import Answer, Connection
+from teleop.sinks.pace import Pace
+from teleop.sinks.wiring import Wiring
+
+TIME_FOR_ACTION = 0.1  # s, the shortest there is
+POLL_RATE = 25  # Hz, questions for the angles: pushes may come once a second only (r-sdk-facts.md)
+REPEAT = 1.0  # s after which the position of a resting axis is sent again
+REFUSALS = 5  # refused commands in a row before it is a fault: one may be damage that a checksum missed
+
+
+class Angles:
+    """Asks the gimbal where it is. Readings carry the time of the question: a gimbal samples within 5 ms of it.
+
+    Angles come in -180..180; a reading continues the one before it, so that an axis may turn on and on.
+    """
+
+    def __init__(self, connection: Connection, wiring: Wiring) -> None:
+        self._connection, self._wiring = connection, wiring
+        self._pace = Pace(POLL_RATE)
+        self._readings: dict[Axis, Reading] = {}
+        connection.on_answer(gimbal.Angles, self._answered)
+
+    def report(self, now: float) -> Mapping[Axis, Reading]:
+        self._connection.poll(now)
+        if self._pace.due(now):
+            self._connection.request(gimbal.Angles(AngleKind.ATTITUDE), now)
+        return self._readings
+
+    def _answered(self, answer: Answer) -> None:
+        reply = answer.reply
+        if not isinstance(reply, gimbal.AnglesReply) or reply.return_code or reply.kind != AngleKind.ATTITUDE:
+            return
+        for axis, angle in self._wiring.from_gimbal(reply.yaw, reply.roll, reply.pitch).items():
+            if before := self._readings.get(axis):
+                angle += 360 * round((before.position - angle) / 360)
+            self._readings[axis] = Reading(angle, answer.sent)
+
+
+class Refusals:
+    """Raises DeviceError when the gimbal goes on refusing what it is sent."""
+
+    def __init__(self, connection: Connection, command: type[Message]) -> None:
+        self._in_a_row, self._code = 0, 0
+        connection.on_answer(command, self._answered)
+
+    def check(self) -> None:
+        if self._in_a_row >= REFUSALS:
+            self._in_a_row = 0
+            raise DeviceError(f"the gimbal refuses to move (return code {self._code:#04x})")
+
+    def _answered(self, answer: Answer) -> None:
+        if isinstance(answer.reply, Result):
+            self._code = answer.reply.return_code
+            self._in_a_row = self._in_a_row + 1 if self._code else 0
+
+
+class PositionSink:
+    """Streams position commands; axes that are not in use are marked to be ignored.
+
+    `rate` is in Hz, `delay` in s: how much later than commanded the gimbal moves.
+    """
+
+    def __init__(
+        self, connection: Connection, rate: int, delay: float, wiring: Wiring, limits: Mapping[Axis, Limits]
+    ) -> None:
+        self._connection, self._delay, self._wiring, self._limits = connection, delay, wiring, limits
+        self._pace = Pace(rate)
+        self._refusals = Refusals(connection, gimbal.Position)
+        self._sent: Mapping[Axis, float] = {}
+        self._sent_at = -math.inf
+        self._waited = False
+
+    def write(self, tick: Tick) -> None:
+        self._refusals.check()
+        if self._pace.due(tick.time):
+            aims = {axis: self._aim(axis, state) for axis, state in tick.motion.items() if axis in self._limits}
+            if aims != self._sent or tick.time - self._sent_at >= REPEAT:
+                self._connection.request(position_command(aims, self._wiring, TIME_FOR_ACTION), tick.time)
+                self._sent, self._sent_at = aims, tick.time
+
+    def release(self, now: float) -> float | None:
+        """Nothing was taken over; the last command is left the time to be carried out."""
+        if self._waited:
+            return None
+        self._waited = True
+        return now + TIME_FOR_ACTION
+
+    def _aim(self, axis: Axis, state: State) -> float:
+        soon = (
+            self._delay + self._pace.period / 2
+        )  # a command is in force for a period: its speed is that of the middle
+        velocity = state.velocity + soon * state.acceleration
+        position = state.position + self._delay * (state.velocity + self._delay / 2 * state.acceleration)
+        limits = self._limits[axis]
+        beyond = min(limits.minimum, state.position), max(limits.maximum, state.position)
+        return min(max(position + TIME_FOR_ACTION * velocity, beyond[0]), beyond[1])
+
+
+def position_command(angles: Mapping[Axis, float], wiring: Wiring, seconds: float) -> gimbal.Position:
+    """Go to these angles (deg, the operator's signs) over `seconds`; an axis that is not among them is ignored."""
+    yaw, roll, pitch = wiring.to_gimbal({axis: _wrapped(angle) for axis, angle in angles.items()})
+    no_yaw, no_roll, no_pitch = wiring.undriven(angles)
+    return gimbal.Position(
+        yaw,
+        roll,
+        pitch,
+        absolute=True,
+        yaw_ignored=no_yaw,
+        roll_ignored=no_roll,
+        pitch_ignored=no_pitch,
+        time_for_action=seconds,
+    )
+
+
+def _wrapped(angle: float) -> float:
+    """A continuous axis's angle within -180..180, where the protocol has it; +-180 stay apart."""
+    return angle if -180 <= angle <= 180 else angle - 360 * round(angle / 360)

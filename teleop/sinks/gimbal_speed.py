@@ -1,0 +1,76 @@
+"""Makes a DJI gimbal follow the planner by speed commands: six times smoother than positions, for slow moves.
+
+The gimbal forgets a speed after 0.5 s. Speed control is taken over with the first command and given back with
+`release`: zero speed first, and then a short position command that levels what drifted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from teleop.dji import gimbal
+from teleop.motion import Axis, Limits, Tick
+from teleop.sinks.connection import Connection
+from teleop.sinks.correction import Correction
+from teleop.sinks.gimbal import Refusals, position_command
+from teleop.sinks.pace import Pace
+from teleop.sinks.wiring import Wiring
+
+ZEROS, BETWEEN_ZEROS = 3, 0.05  # how to stop: zero speed so often, so many s apart (r-sdk-facts.md, Behaviour)
+SETTLE = 0.5  # s for the last position command,
+SETTLE_WITHIN = 1.0  # deg of error at the most,
+SETTLE_FRESH = 1.0  # s since that was measured
+
+
+class SpeedSink:
+    """Streams speed commands for `limits`' axes; `delay` is how much later than commanded a speed is reached, in s."""
+
+    def __init__(
+        self, connection: Connection, rate: int, delay: float, wiring: Wiring, limits: Mapping[Axis, Limits]
+    ) -> None:
+        self._connection, self._wiring = connection, wiring
+        self._pace = Pace(rate)
+        self._correction = Correction(limits, delay + self._pace.period / 2)
+        self._refusals = Refusals(connection, gimbal.Speed)
+        self._last: Tick | None = None
+        self._taken_over = False
+        self._zeros = 0
+
+    def write(self, tick: Tick) -> None:
+        self._refusals.check()
+        self._last = tick
+        self._correction.note(tick)
+        if self._pace.due(tick.time):
+            self._taken_over = True  # before it is sent: what may have left must be given back
+            self._send(self._correction.speeds(tick), tick.time)
+
+    def release(self, now: float) -> float | None:
+        """Zero speed three times, control given back, and a short position command that levels what drifted."""
+        if not self._taken_over:
+            return None
+        if self._zeros < ZEROS:
+            self._send({}, now)
+            self._zeros += 1
+            return now + BETWEEN_ZEROS
+        self._connection.request(gimbal.Speed(0.0, 0.0, 0.0, take_over=False, ignore_focal_length=True), now)
+        self._taken_over = False
+        targets = self._settled(now)
+        if not targets:
+            return None
+        self._connection.request(position_command(targets, self._wiring, SETTLE), now)
+        return now + SETTLE
+
+    def _send(self, speeds: Mapping[Axis, float], now: float) -> None:
+        yaw, roll, pitch = self._wiring.to_gimbal(speeds)
+        self._connection.request(gimbal.Speed(yaw, roll, pitch, take_over=True, ignore_focal_length=True), now)
+
+    def _settled(self, now: float) -> Mapping[Axis, float]:
+        """Where to settle: nowhere when the gimbal is not known to be close, it must not set out again unasked."""
+        if self._last is None:
+            return {}
+        targets = {axis: state.position for axis, state in self._last.motion.items() if axis in self._wiring.axes}
+        for axis, target in targets.items():
+            reading = self._last.reported.get(axis)
+            if reading is None or now - reading.time > SETTLE_FRESH or abs(reading.position - target) > SETTLE_WITHIN:
+                return {}
+        return targets

@@ -1,0 +1,59 @@
+"""Makes a DJI gimbal follow the planner as if somebody held its joystick: pushes of 0x0A.
+
+Some firmware ignores speed commands and obeys these (r-sdk-facts.md, Behaviour users report). How fast full deflection
+is follows a setting on the gimbal, which the profile repeats; what that gets wrong, the correction has to make up.
+A push has no reply and nothing is taken over: `release` lets the stick go.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from teleop.dji.gimbal import Joystick
+from teleop.dji.joystick import deflection
+from teleop.motion import Axis, Limits, Tick
+from teleop.sinks.connection import Connection
+from teleop.sinks.correction import Correction
+from teleop.sinks.gimbal_speed import BETWEEN_ZEROS, ZEROS
+from teleop.sinks.pace import Pace
+from teleop.sinks.wiring import Wiring
+
+
+class StickSink:
+    """Streams joystick pushes, `rate` a second; `full` is what full deflection gives each axis, in deg/s.
+
+    `delay` is how much later than commanded a speed is reached, in s.
+    """
+
+    def __init__(
+        self,
+        connection: Connection,
+        rate: int,
+        delay: float,
+        wiring: Wiring,
+        limits: Mapping[Axis, Limits],
+        full: Mapping[Axis, float],
+    ) -> None:
+        self._connection, self._wiring, self._full = connection, wiring, full
+        self._pace = Pace(rate)
+        self._correction = Correction(limits, delay + self._pace.period / 2)
+        self._zeros = ZEROS  # nothing to let go yet
+
+    def write(self, tick: Tick) -> None:
+        self._correction.note(tick)
+        if self._pace.due(tick.time):
+            self._zeros = 0
+            self._push(self._correction.speeds(tick))
+
+    def release(self, now: float) -> float | None:
+        """The stick in its middle, three times: a push is not answered, and one may be lost."""
+        if self._zeros >= ZEROS:
+            return None
+        self._push({})
+        self._zeros += 1
+        return now + BETWEEN_ZEROS
+
+    def _push(self, speeds: Mapping[Axis, float]) -> None:
+        deflections = {axis: deflection(speed, 0.0, self._full[axis]) for axis, speed in speeds.items()}
+        yaw, roll, pitch = (round(value) for value in self._wiring.to_gimbal(deflections))
+        self._connection.stream(Joystick(pitch=pitch, roll=roll, yaw=yaw))

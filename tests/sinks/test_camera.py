@@ -1,0 +1,52 @@
+"""The camera: what is said how often when replies are lost, and what a refusal does."""
+
+import pytest
+from far_end import FarEnd
+
+from teleop.dji import camera
+from teleop.dji.camera import CameraCommand
+from teleop.dji.message import Result
+from teleop.motion import Action, Tick
+from teleop.ports import DeviceError
+from teleop.sinks.camera import CameraSink
+
+
+def run(far: FarEnd, *actions: Action) -> list[int]:
+    """Half a second of ticks, the actions in the first; the commands that arrived."""
+    sink = CameraSink(far.connection)
+    for number in range(50):
+        now = number / 100
+        far.connection.poll(now)
+        sink.write(Tick(now, {}, {}, actions if number == 0 else (), {}))
+        far.serve(now)
+    return [message.command for message in far.heard if isinstance(message, camera.Command)]
+
+
+def test_each_action_is_said_once_when_it_is_answered() -> None:
+    far = FarEnd()
+    far.replies[camera.Command] = lambda _command: Result(0)
+    assert run(far, Action.RECORD, Action.SHUTTER) == [CameraCommand.RECORD, CameraCommand.SHUTTER]
+
+
+def test_recording_survives_a_lost_reply() -> None:
+    far = FarEnd()
+    answers = iter([None, None, Result(0)])
+    far.replies[camera.Command] = lambda _command: next(answers)
+    assert run(far, Action.RECORD) == [CameraCommand.RECORD] * 3
+
+
+@pytest.mark.parametrize(("action", "times"), [(Action.RECORD, 3), (Action.STOP, 3), (Action.SHUTTER, 1)])
+def test_a_camera_that_does_not_answer_is_a_fault_and_the_shutter_is_never_said_twice(
+    action: Action, times: int
+) -> None:
+    far = FarEnd()
+    with pytest.raises(DeviceError, match=f"the camera did not answer when asked to {action}"):
+        run(far, action)
+    assert len([message for message in far.heard if isinstance(message, camera.Command)]) == times
+
+
+def test_a_refusal_is_a_fault() -> None:
+    far = FarEnd()
+    far.replies[camera.Command] = lambda _command: Result(2)
+    with pytest.raises(DeviceError, match=r"the camera refused to record \(return code 0x02\)"):
+        run(far, Action.RECORD)

@@ -1,0 +1,142 @@
+"""Position commands and angle questions on the wire: words, signs, flags, aim, soft limits, wrap."""
+
+import math
+
+import pytest
+from far_end import FarEnd
+from hypothesis import given
+from hypothesis import strategies as st
+
+from teleop.dji import gimbal
+from teleop.dji.message import Result
+from teleop.motion import Axis, Limits, Motion, State, Tick
+from teleop.ports import DeviceError
+from teleop.sinks.gimbal import POLL_RATE, REFUSALS, REPEAT, TIME_FOR_ACTION, Angles, PositionSink
+from teleop.sinks.wiring import Wiring
+
+LIMITS = {
+    Axis.PAN: Limits(-math.inf, math.inf, 120, 240, 1200),
+    Axis.TILT: Limits(-56, 146, 90, 180, 900),
+    Axis.ROLL: Limits(-30, 30, 60, 120, 600),
+}
+
+
+def tick(time: float, motion: Motion) -> Tick:
+    return Tick(time, motion, {}, (), {})
+
+
+def sent(motion: Motion, signs: dict[Axis, int] | None = None, rate: int = 50, delay: float = 0.0) -> gimbal.Position:
+    far = FarEnd()
+    PositionSink(far.connection, rate, delay, Wiring(signs=signs or {}), LIMITS).write(tick(1.0, motion))
+    [message] = far.serve(1.0)
+    assert isinstance(message, gimbal.Position)
+    return message
+
+
+def test_each_axis_goes_into_its_own_field() -> None:
+    command = sent({Axis.PAN: State(10.0), Axis.TILT: State(-20.0), Axis.ROLL: State(5.0)})
+    assert (command.yaw, command.pitch, command.roll) == (10.0, -20.0, 5.0)
+    assert command.absolute
+    assert (command.yaw_ignored, command.roll_ignored, command.pitch_ignored) == (False, False, False)
+    assert command.time_for_action == TIME_FOR_ACTION
+
+
+def test_an_axis_that_is_not_in_use_is_ignored_by_the_gimbal() -> None:
+    command = sent({Axis.TILT: State(-20.0)})
+    assert (command.yaw_ignored, command.roll_ignored, command.pitch_ignored) == (True, True, False)
+
+
+def test_signs_are_the_profiles() -> None:
+    motion = {Axis.PAN: State(10.0), Axis.TILT: State(-20.0), Axis.ROLL: State(5.0)}
+    command = sent(motion, {Axis.PAN: -1, Axis.ROLL: -1})
+    assert (command.yaw, command.pitch, command.roll) == (-10.0, -20.0, -5.0)
+
+
+def test_it_aims_ahead_by_the_time_for_action_at_the_speed_of_half_a_period_later() -> None:
+    assert sent({Axis.PAN: State(10.0, 30.0, 0.0)}).yaw == pytest.approx(10 + 30 * TIME_FOR_ACTION, abs=0.05)
+    assert sent({Axis.PAN: State(10.0, 30.0, 200.0)}).yaw == pytest.approx(10 + 32 * TIME_FOR_ACTION, abs=0.05)
+
+
+def test_a_gimbal_that_is_known_to_be_late_is_told_earlier() -> None:
+    assert sent({Axis.PAN: State(10.0, 30.0, 0.0)}, delay=0.1).yaw == pytest.approx(16.0, abs=0.05)
+
+
+@given(st.floats(-56, 146), st.floats(-90, 90), st.floats(-180, 180))
+def test_it_never_aims_beyond_a_soft_limit(position: float, velocity: float, acceleration: float) -> None:
+    assert -56 <= sent({Axis.TILT: State(position, velocity, acceleration)}).pitch <= 146
+
+
+@pytest.mark.parametrize(
+    ("pan", "yaw"), [(180.0, 180.0), (-180.0, -180.0), (190.0, -170.0), (-200.0, 160.0), (720.5, 0.5)]
+)
+def test_a_continuous_axis_is_wrapped_on_the_wire(pan: float, yaw: float) -> None:
+    assert sent({Axis.PAN: State(pan)}).yaw == yaw
+
+
+def test_it_keeps_its_own_rate() -> None:
+    far = FarEnd()
+    sink = PositionSink(far.connection, 50, 0.0, Wiring(), LIMITS)
+    for number in range(100):
+        sink.write(tick(1 + number / 100, {Axis.PAN: State(number / 10)}))
+    assert len(far.serve(2.0)) == 50
+    sink.write(tick(10.0, {Axis.PAN: State(10.0)}))
+    sink.write(tick(10.01, {Axis.PAN: State(10.1)}))
+    assert len(far.serve(10.02)) == 1, "after a pause it must not catch up"
+
+
+def test_what_rests_is_said_again_but_seldom() -> None:
+    far = FarEnd()
+    sink = PositionSink(far.connection, 50, 0.0, Wiring(), LIMITS)
+    for number in range(500):
+        sink.write(tick(1 + number / 100, {Axis.PAN: State(0.0)}))
+    assert len(far.serve(6.0)) == pytest.approx(5 / REPEAT, abs=1)
+
+
+def test_a_gimbal_that_goes_on_refusing_is_a_fault() -> None:
+    far = FarEnd()
+    far.replies[gimbal.Position] = lambda _command: Result(2)
+    sink = PositionSink(far.connection, 50, 0.0, Wiring(), LIMITS)
+
+    def move_for_a_second() -> None:
+        for number in range(50):
+            sink.write(tick(1 + number / 50, {Axis.PAN: State(number)}))
+            far.serve(1 + number / 50)
+            far.connection.poll(1.01 + number / 50)
+
+    with pytest.raises(DeviceError, match=r"refuses to move \(return code 0x02\)"):
+        move_for_a_second()
+    assert len(far.heard) == REFUSALS
+
+
+def angles_over(readings: list[tuple[float, float, float]], signs: dict[Axis, int]) -> list[dict[Axis, float]]:
+    """What `Angles` reports after each of the gimbal's (yaw, roll, pitch)."""
+    far = FarEnd()
+    reporter = Angles(far.connection, Wiring(signs=signs))
+    reported = []
+    for number, (yaw, roll, pitch) in enumerate(readings):
+        now = 1 + number / POLL_RATE
+        far.replies[gimbal.Angles] = lambda _request, at=(yaw, roll, pitch): gimbal.AnglesReply(
+            0, gimbal.AngleKind.ATTITUDE, *at
+        )
+        reporter.report(now)
+        far.serve(now)
+        reported.append({axis: reading.position for axis, reading in reporter.report(now + 0.01).items()})
+    return reported
+
+
+def test_angles_come_back_in_the_operators_words_and_signs() -> None:
+    assert angles_over([(1.0, 2.0, 3.0)], {Axis.ROLL: -1}) == [{Axis.PAN: 1.0, Axis.ROLL: -2.0, Axis.TILT: 3.0}]
+
+
+def test_an_angle_that_wraps_goes_on() -> None:
+    pans = [each[Axis.PAN] for each in angles_over([(yaw, 0.0, 0.0) for yaw in (170.0, 179.9, -179.9, -90.0, 0.0)], {})]
+    assert pans == pytest.approx([170, 179.9, 180.1, 270, 360])
+
+
+def test_angles_that_are_not_ready_are_no_reading() -> None:
+    far = FarEnd()
+    far.replies[gimbal.Angles] = lambda _request: gimbal.AnglesReply(0, gimbal.AngleKind.NONE, 0.0, 0.0, 0.0)
+    reporter = Angles(far.connection, Wiring())
+    reporter.report(1.0)
+    far.serve(1.0)
+    assert reporter.report(1.01) == {}

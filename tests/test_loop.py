@@ -1,0 +1,207 @@
+"""The loop: what a run looks like from its sinks, and that every fault ends in rest, release and a reason."""
+
+import math
+from collections.abc import Callable
+from itertools import pairwise
+
+import pytest
+from fakes import PlacedReporter, RecordingSink, ScriptedSource, StallingClock, cruising
+
+from teleop.clock import VirtualClock
+from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, RELEASE_PATIENCE, STALL, Loop
+from teleop.motion import Action, Axis, Cruise, Limits, State
+from teleop.planner.live import Live
+from teleop.ports import Clock, LinkError
+from teleop.supervisor import Result, Run
+
+LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-56, 146, 60, 120, 600)}
+PLACES = {Axis.PAN: 10.0, Axis.TILT: -5.0}
+
+
+def loop_of(sources, sinks, reporters=None, clock: Clock | None = None, planner=None) -> Loop:
+    reporters = [PlacedReporter(PLACES)] if reporters is None else reporters
+    return Loop(clock or VirtualClock(), planner or Live(LIMITS, PERIOD), LIMITS, sources, sinks, reporters)
+
+
+def assert_smooth_to_rest(sink: RecordingSink, axis: Axis = Axis.PAN) -> None:
+    """From its first to its last tick the axis moved within its limits, and it ended at rest."""
+    limits = LIMITS[axis]
+    states = [(tick.time, tick.motion[axis]) for tick in sink.ticks]
+    for (before, one), (after, other) in pairwise(states):
+        dt = after - before
+        assert abs(other.velocity) <= limits.velocity + 1e-6
+        assert abs(other.velocity - one.velocity) <= limits.acceleration * dt + 1e-6
+        assert abs(other.acceleration - one.acceleration) <= limits.jerk * dt + 1e-6
+        assert abs(other.position - one.position) <= limits.velocity * dt + 1e-6
+    assert states[-1][1].velocity == states[-1][1].acceleration == 0
+
+
+def test_a_run_starts_where_the_axes_are_and_ends_at_rest() -> None:
+    sink = RecordingSink()
+    ended = loop_of([cruising(Axis.PAN, 30, end=1.0)], [sink]).run()
+    assert (ended.state, ended.result, ended.reasons) == (Run.OVER, Result.DONE, [])
+    assert sink.ticks[0].motion[Axis.PAN].position == pytest.approx(10.0, abs=0.01)
+    assert max(tick.motion[Axis.PAN].velocity for tick in sink.ticks) == pytest.approx(30)
+    assert all(tick.motion[Axis.TILT] == State(-5.0) for tick in sink.ticks)
+    assert len(sink.released) == 1
+    assert_smooth_to_rest(sink)
+
+
+def test_the_first_source_with_an_opinion_drives() -> None:
+    sink = RecordingSink()
+    above = ScriptedSource(lambda elapsed: {Axis.PAN: Cruise(-20)} if 1 <= elapsed < 2 else {}, 3)
+    below = ScriptedSource(lambda _elapsed: {Axis.PAN: Cruise(20), Axis.TILT: Cruise(5)}, 3)
+    loop_of([above, below], [sink]).run()
+    velocity = {round(tick.time, 2): tick.motion[Axis.PAN].velocity for tick in sink.ticks}
+    assert velocity[0.9] == pytest.approx(20)
+    assert velocity[1.9] == pytest.approx(-20)
+    assert velocity[2.9] == pytest.approx(20)
+    assert max(tick.motion[Axis.TILT].velocity for tick in sink.ticks) == pytest.approx(5)
+    assert_smooth_to_rest(sink)
+
+
+def test_actions_ride_the_tick_once() -> None:
+    sink = RecordingSink()
+    loop_of([ScriptedSource(lambda _elapsed: {}, 2, [(0.5, Action.RECORD), (1.5, Action.STOP)])], [sink]).run()
+    actions = [(round(tick.time, 2), *tick.actions) for tick in sink.ticks if tick.actions]
+    assert [action for _, action in actions] == [Action.RECORD, Action.STOP]
+
+
+def test_a_resting_loop_sleeps_but_not_past_the_keep_alive_nor_a_change() -> None:
+    class Sleeper(ScriptedSource):
+        def next_change(self, now: float) -> float:
+            return self.begin + 3.0 if now < self.begin + 3.0 - 1e-9 else super().next_change(now)
+
+    sink = RecordingSink()
+    source = Sleeper(lambda elapsed: {Axis.PAN: Cruise(10)} if elapsed >= 3.0 - 1e-9 else {}, 4)
+    loop_of([source], [sink]).run()
+    waiting = [tick.time for tick in sink.ticks if tick.time < source.begin + 3.0]
+    assert len(waiting) < 20
+    assert max(after - before for before, after in pairwise(waiting)) <= KEEP_ALIVE + 1e-9
+    first = next(tick for tick in sink.ticks if tick.motion[Axis.PAN].velocity)
+    assert first.time == pytest.approx(source.begin + 3.0, abs=1e-6)
+    assert first.motion[Axis.PAN].velocity < 1, "waking must not make up for the time slept"
+    assert_smooth_to_rest(sink)
+
+
+def failing(after: float, clock: VirtualClock, what: Callable) -> Callable:
+    """`what`, until `after`; from then on it always raises."""
+
+    def call(*arguments):
+        if clock.now() >= after - 1e-9:
+            raise ZeroDivisionError("a defect")
+        return what(*arguments)
+
+    return call
+
+
+@pytest.mark.parametrize("culprit", ["source", "planner", "sink", "reporter", "next_change"])
+def test_an_exception_anywhere_ramps_to_rest_and_releases_everything(culprit: str) -> None:
+    clock = VirtualClock()
+    source, sink, bad_sink = cruising(Axis.PAN, 50, end=60.0), RecordingSink(steps=3), RecordingSink()
+    reporter, planner = PlacedReporter(PLACES), Live(LIMITS, PERIOD)
+    target, name = {
+        "source": (source, "read"),
+        "next_change": (source, "next_change"),
+        "planner": (planner, "step"),
+        "sink": (bad_sink, "write"),
+        "reporter": (reporter, "report"),
+    }[culprit]
+    setattr(target, name, failing(1.0, clock, getattr(target, name)))
+    ended = loop_of([source], [bad_sink, sink], [reporter], clock, planner).run()
+    assert ended.result is Result.FAILED
+    assert ended.reasons == ["ZeroDivisionError: a defect"]
+    assert clock.now() < 1.0 + 2.0
+    assert len(sink.released) == 3
+    assert len(bad_sink.released) == 1
+    assert max(tick.motion[Axis.PAN].velocity for tick in sink.ticks) == pytest.approx(50)
+    assert_smooth_to_rest(sink)
+
+
+def test_an_interrupt_ramps_to_rest_however_often_it_comes() -> None:
+    clock, sink = VirtualClock(), RecordingSink()
+    loop = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], clock=clock)
+    write = sink.write
+
+    def interrupting(tick) -> None:
+        write(tick)
+        if tick.time > 1:
+            loop.interrupt("SIGINT received")
+
+    sink.write = interrupting
+    ended = loop.run()
+    assert (ended.result, ended.reasons) == (Result.INTERRUPTED, ["SIGINT received"])
+    assert clock.now() < 3
+    assert_smooth_to_rest(sink)
+
+
+def test_ctrl_c_without_a_handler_is_an_interrupt_too() -> None:
+    pressed = []
+
+    class Interrupted(VirtualClock):
+        def sleep_until(self, time: float) -> None:
+            super().sleep_until(time)
+            if self.now() >= 1 and not pressed:
+                pressed.append(True)
+                raise KeyboardInterrupt
+
+    sink = RecordingSink()
+    ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], clock=Interrupted()).run()
+    assert (ended.result, ended.reasons) == (Result.INTERRUPTED, ["Ctrl-C"])
+    assert_smooth_to_rest(sink)
+
+
+def test_lateness_is_made_up_in_one_legal_step() -> None:
+    sink = RecordingSink()
+    ended = loop_of([cruising(Axis.PAN, 50, end=2.0)], [sink], clock=StallingClock(0.3, 0.1)).run()
+    assert ended.result is Result.DONE
+    assert max(after.time - before.time for before, after in pairwise(sink.ticks)) == pytest.approx(0.11)
+    assert sink.ticks[-1].time - sink.ticks[0].time > 2.0
+    assert_smooth_to_rest(sink)
+
+
+def test_a_stall_stops_the_run_and_is_said() -> None:
+    sink = RecordingSink()
+    ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], clock=StallingClock(1.0, STALL + 0.05)).run()
+    assert ended.result is Result.FAILED
+    assert ended.reasons == ["the computer stalled for 0.30 s"]
+    velocities = [tick.motion[Axis.PAN].velocity for tick in sink.ticks]
+    assert velocities[-1] == 0
+    assert max(abs(after - before) for before, after in pairwise(velocities)) <= 120 * PERIOD + 1e-6
+
+
+def test_without_a_report_nothing_moves() -> None:
+    clock, sink = VirtualClock(), RecordingSink()
+    ended = loop_of([cruising(Axis.PAN, 50, 1.0)], [sink], [PlacedReporter({Axis.PAN: 0.0})], clock).run()
+    assert ended.result is Result.FAILED
+    assert ended.reasons == [f"no position of tilt was reported within {FIRST_REPORT:g} s"]
+    assert sink.ticks == []
+    assert clock.now() < FIRST_REPORT + 1
+
+
+def test_a_link_lost_before_the_start_is_said_and_ends_it() -> None:
+    class Dead:
+        def report(self, now: float):
+            raise LinkError("the gimbal does not answer")
+
+    ended = loop_of([cruising(Axis.PAN, 50, 1.0)], [RecordingSink()], [Dead()]).run()
+    assert (ended.result, ended.reasons) == (Result.FAILED, ["the gimbal does not answer"])
+
+
+@pytest.mark.parametrize("failures", [1, 3, math.inf])
+def test_release_is_tried_again_while_the_link_fails_but_not_for_ever(failures: float) -> None:
+    clock, sink, other = VirtualClock(), RecordingSink(), RecordingSink(steps=3)
+    attempts = []
+
+    def release(now: float) -> float | None:
+        attempts.append(now)
+        if len(attempts) <= failures:
+            raise LinkError("the bus is full")
+        return None
+
+    sink.release = release
+    ended = loop_of([cruising(Axis.PAN, 10, 0.5)], [sink, other], clock=clock).run()
+    assert ended.result is Result.FAILED
+    assert ended.reasons == ["the bus is full"]
+    assert len(attempts) == failures + 1 or attempts[-1] - attempts[0] >= RELEASE_PATIENCE - PERIOD
+    assert len(other.released) == 3
