@@ -1,0 +1,65 @@
+"""The command line: what was typed becomes a call, what goes wrong becomes a line and an exit code.
+
+Commands are named here and imported when they are used, so that `teleop check` does not pay for what `teleop live`
+needs. Exit codes: 0 done, 1 the run or the check failed, 2 bad usage or a bad file, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import logging
+import sys
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+
+from cyclopts import App, CycloptsError
+
+import teleop
+from teleop.document import DocumentError, UnplayableError
+from teleop.ports import TeleopError, UsageError
+
+DONE, FAILED, BAD_USAGE, INTERRUPTED = 0, 1, 2, 130
+
+COMMANDS: Mapping[str, tuple[str, str]] = {
+    "play": ("teleop.cli.play:play", "Play a sequence on a rig."),
+    "live": ("teleop.cli.live:live", "Move a rig by its sticks."),
+    "check": ("teleop.cli.check:check", "Check a sequence against a rig."),
+    "sim": ("teleop.cli.sim:sim", "Simulate a rig's devices on a real bus."),
+}
+"""Where each command is, imported when it is used, and its line of help."""
+
+app = App(name="teleop", help=teleop.__doc__, version=lambda: version("rs-teleop"), suppress_keyboard_interrupt=False)
+for _name, (_place, _help) in COMMANDS.items():
+    app.command(_place, name=_name, help=_help)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """The `teleop` command; exits with one of the codes above."""
+    sys.exit(run(sys.argv[1:] if arguments is None else arguments))
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Do what was typed; its exit code."""
+    debug = "--debug" in arguments  # of every command, those that have no options of their own included
+    arguments = [argument for argument in arguments if argument != "--debug"]
+    logging.basicConfig(level=logging.DEBUG if debug else logging.WARNING, format="teleop: %(message)s")
+    try:
+        return app(arguments, print_error=False, exit_on_error=False, result_action="return_int_as_exit_code_else_zero")
+    except (CycloptsError, TeleopError) as error:
+        if debug and not isinstance(error, CycloptsError):
+            logging.getLogger(__name__).debug("here is where it came from", exc_info=error)
+        _say(error)
+        bad_usage = isinstance(error, CycloptsError | UsageError) and not isinstance(error, UnplayableError)
+        return BAD_USAGE if bad_usage else FAILED
+    except KeyboardInterrupt:
+        print("teleop: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:  # the reader of our output has left; there is nobody to tell
+        sys.stderr.close()
+        return FAILED
+
+
+def _say(error: Exception) -> None:
+    if isinstance(error, DocumentError):
+        print("\n".join(error.problems), file=sys.stderr)
+    else:
+        print(f"teleop: {error}", file=sys.stderr)

@@ -1,0 +1,99 @@
+"""What an operator sees of a run: a bar, the time and each axis, drawn beside the control thread and never in it.
+
+On a terminal a second thread redraws ten times a second from the latest tick; elsewhere a line is written each second,
+so that a log stays readable. Both go to stderr: stdout is for the result.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable
+from types import TracebackType
+from typing import Self
+
+from rich.console import Console, RenderableType
+from rich.live import Live
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+
+from teleop.motion import Axis, Tick
+from teleop.sinks.tally import Tally
+
+UNITS = {Axis.PAN: "deg", Axis.TILT: "deg", Axis.ROLL: "deg"}  # the others have none
+_REDRAWS = 10  # a second
+
+
+class Display:
+    """A sink that only shows. `begin` is when the run's own time is zero, `duration` its length in s, inf for none."""
+
+    def __init__(self, title: str, begin: Callable[[], float], duration: float, silent: bool = False) -> None:
+        self._title, self._begin, self._duration, self._silent = title, begin, duration, silent
+        self._latest: Tick | None = None
+        self._said = -math.inf
+        console = Console(stderr=True)
+        self._live = (
+            Live(console=console, get_renderable=self._draw, refresh_per_second=_REDRAWS)
+            if console.is_terminal and not silent
+            else None
+        )
+
+    def __enter__(self) -> Self:
+        if self._live:
+            self._live.start()
+        elif not self._silent:
+            print(self._title, file=sys.stderr)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._live:
+            self._live.stop()
+
+    def write(self, tick: Tick) -> None:
+        self._latest = tick
+        if self._live is None and not self._silent and tick.time - self._said >= 1:
+            self._said = tick.time
+            print("  ".join([self._time(tick), *(_angle(tick, axis) for axis in tick.motion)]), file=sys.stderr)
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
+        return None
+
+    def _time(self, tick: Tick) -> str:
+        elapsed = tick.time - self._begin()
+        if elapsed < 0:
+            return f"to the start {-elapsed:4.1f} s"
+        if math.isinf(self._duration):
+            return f"{elapsed:6.1f} s"
+        return f"{min(elapsed, self._duration):6.1f} / {self._duration:.1f} s"
+
+    def _draw(self) -> RenderableType:
+        tick = self._latest
+        grid = Table.grid(padding=(0, 2))
+        if tick is None:
+            grid.add_row(self._title, "waiting for the first report")
+            return grid
+        row: list[RenderableType] = [self._title]
+        if math.isfinite(self._duration):
+            elapsed = min(max(tick.time - self._begin(), 0.0), self._duration)
+            row.append(ProgressBar(total=max(self._duration, 1e-9), completed=elapsed, width=30))
+        grid.add_row(*row, self._time(tick), *(_angle(tick, axis) for axis in tick.motion))
+        return grid
+
+
+def _angle(tick: Tick, axis: Axis) -> str:
+    position = round(tick.motion[axis].position, 3) + 0.0  # no -0.00
+    return f"{axis} {position:+8.2f}" if axis in UNITS else f"{axis} {position:.3f}"
+
+
+def error_table(tally: Tally) -> None:
+    """Commanded against measured, a row an axis, on stdout."""
+    table = Table(title="Commanded against measured")
+    for heading in ("Axis", "Commanded", "Measured", "RMS error", "Peak error", "Unit"):
+        table.add_column(heading, justify="left" if heading in ("Axis", "Unit") else "right")
+    for axis, score in tally.scores.items():
+        commanded, measured = tally.ends(axis)
+        numbers = (commanded, measured, score.rms, score.peak)
+        table.add_row(axis.value, *(f"{value:.3f}" for value in numbers), UNITS.get(axis, "0..1"))
+    Console().print(table)

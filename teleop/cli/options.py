@@ -1,0 +1,38 @@
+"""The options that every command has, and what they mean."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from teleop.document import DocumentError
+from teleop.profile import Profile, load_profile
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Options:
+    """Which rig, where, and how to talk about it."""
+
+    rig: Annotated[str, Parameter(help="The rig: a shipped profile's name, or a file.")] = "sim"
+    link: Annotated[
+        tuple[str, ...],
+        Parameter(help="NAME=URL: another place for one of the rig's links.", negative=(), show_default=False),
+    ] = ()
+    json: Annotated[bool, Parameter(help="Print JSON, for programs.", negative=(), show_default=False)] = False
+    debug: Annotated[bool, Parameter(help="Print tracebacks.", negative=(), show_default=False)] = False
+
+    def profile(self) -> Profile:
+        """The rig asked for; raises DocumentError."""
+        links: dict[str, str] = {}
+        for text in self.link:
+            name, equals, url = text.partition("=")
+            if not equals or not name:
+                raise DocumentError([f"--link {text}: write it as NAME=URL, as in gimbal=socketcan:can0"])
+            links[name] = url
+        return load_profile(self.rig, links)
+
+
+DEFAULTS = Options()

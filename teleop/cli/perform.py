@@ -1,0 +1,72 @@
+"""What `play` and `live` share: a run that shows itself, stops at a signal, and is reported."""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from types import FrameType
+
+from teleop.cli.display import Display, error_table
+from teleop.motion import Axis
+from teleop.ports import Source
+from teleop.rig import Rig
+from teleop.sinks.tally import Tally
+from teleop.supervisor import Result, Supervisor
+
+EXIT_CODES: Mapping[Result, int] = {Result.DONE: 0, Result.FAILED: 1, Result.INTERRUPTED: 130}
+SWITCH_INTERVAL = 0.0005  # s: how long the display's thread may hold up the control thread
+STOPPING = ("SIGINT", "SIGTERM")
+LEAVING = ("SIGHUP", "SIGQUIT")  # these stop it too, unless whoever started it had them ignored: nohup
+
+
+def perform(
+    rig: Rig, axes: Sequence[Axis], sources: Sequence[Source], tally: Tally, display: Display, as_json: bool
+) -> int:
+    """Run the sources on the rig, show it, print the report; the exit code."""
+    loop = rig.loop(axes, sources, [tally, display])
+    sys.setswitchinterval(SWITCH_INTERVAL)
+    with signals_to(loop.interrupt), display:
+        ended = loop.run()
+    if as_json:
+        print(json.dumps(_report(ended, tally)))
+    else:
+        for reason in ended.reasons:
+            print(f"teleop: stopped: {reason}", file=sys.stderr)
+        error_table(tally)
+    return EXIT_CODES[ended.result]
+
+
+@contextmanager
+def signals_to(interrupt: Callable[[str], object]) -> Iterator[None]:
+    """Ctrl-C and its kin call `interrupt` with their name, however often they are sent, and do nothing else."""
+
+    def stop(number: int, _frame: FrameType | None) -> None:
+        interrupt(f"{signal.Signals(number).name} received")
+
+    numbers = [*_known(STOPPING), *(number for number in _known(LEAVING) if signal.getsignal(number) != signal.SIG_IGN)]
+    before = {number: signal.signal(number, stop) for number in numbers}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _known(names: Sequence[str]) -> Sequence[signal.Signals]:
+    """Those of the signals that this system has."""
+    return [signal.Signals[name] for name in names if name in signal.Signals.__members__]
+
+
+def _report(ended: Supervisor, tally: Tally) -> Mapping[str, object]:
+    return {
+        "result": ended.result.name.lower(),
+        "reasons": ended.reasons,
+        "seconds": round(tally.seconds, 3),
+        "axes": {
+            axis.value: {"readings": score.readings, "rms": round(score.rms, 6), "peak": round(score.peak, 6)}
+            for axis, score in tally.scores.items()
+        },
+    }

@@ -1,0 +1,107 @@
+"""A profile brought to life: its links open, its devices at hand, and all of it closed in reverse whatever happens.
+
+Which class serves a type of sink is a row in a table. Devices that share a link share one connection, because two
+frames must never interleave on a bus. A simulated device is an ordinary one on a link that ends in this process.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+
+from teleop.links import open_link, parse
+from teleop.loop import PERIOD, Loop
+from teleop.motion import Axis, Limits
+from teleop.planner.live import Live
+from teleop.ports import Clock, Link, Reporter, Sink, Source
+from teleop.profile import MOVES, CameraSection, FocusSection, GimbalSection, Profile
+from teleop.sim.gimbal import SimulatedGimbal
+from teleop.sim.link import SimLink
+from teleop.sinks.camera import CameraSink
+from teleop.sinks.connection import Connection
+from teleop.sinks.focus import FocusReporter, FocusSink
+from teleop.sinks.gimbal import Angles, PositionSink
+from teleop.sinks.gimbal_speed import SpeedSink
+from teleop.sinks.gimbal_stick import StickSink
+from teleop.sinks.wiring import Wiring
+
+
+@dataclass(frozen=True)
+class Device:
+    """What serves one entry of a profile's sinks, and the axes it can move."""
+
+    moves: Sequence[Axis]
+    sink: Sink
+    reporter: Reporter | None
+
+
+class Rig:
+    """An open rig. `simulated` has the devices behind the links that are `sim:`, by link name."""
+
+    def __init__(
+        self, profile: Profile, clock: Clock, devices: Sequence[Device], simulated: Mapping[str, SimulatedGimbal]
+    ) -> None:
+        self.profile, self.clock, self.simulated = profile, clock, simulated
+        self._devices = devices
+
+    def loop(self, axes: Sequence[Axis], sources: Sequence[Source], watchers: Sequence[Sink] = ()) -> Loop:
+        """A run of `sources` over the axes in use; devices that move none of them are left alone.
+
+        `watchers` are sinks that only look on, and see each tick after the devices.
+        """
+        limits = {axis: self.profile.limits[axis] for axis in axes}
+        used = [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
+        sinks = [device.sink for device in used]
+        reporters = [device.reporter for device in used if device.reporter is not None]
+        planner = Live(limits, PERIOD)
+        return Loop(self.clock, planner, limits, sources, [*sinks, *watchers], reporters)
+
+
+@contextmanager
+def open_rig(profile: Profile, clock: Clock) -> Iterator[Rig]:
+    """The rig with its links open; raises LinkError when one cannot be opened, and closes those that were."""
+    with ExitStack() as stack:
+        simulated: dict[str, SimulatedGimbal] = {}
+        connections: dict[str, Connection] = {}
+        for name, url in profile.links.items():
+            if parse(url).kind == "sim":
+                simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile))
+                link: Link = SimLink(simulated[name], clock.now)
+            else:
+                opened = open_link(url, now=clock.now)
+                stack.callback(opened.close)
+                link = opened
+            connections[name] = Connection(name, url, link, clock.now())
+        limits = profile.limits
+        devices = [BUILDERS[section.type](section, connections[section.link], limits) for section in profile.sinks]
+        yield Rig(profile, clock, devices, simulated)
+
+
+def _turns_for_ever(profile: Profile) -> bool:
+    """Whether the simulated gimbal must, because the profile says that the real one does."""
+    return Axis.PAN in profile.limits and profile.limits[Axis.PAN].continuous
+
+
+def _gimbal(section: GimbalSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:
+    wiring = Wiring(section.axes, {Axis(axis): sign for axis, sign in section.signs.items()})
+    own = {axis: limits[axis] for axis in section.axes if axis is not None and axis in limits}
+    sink: Sink
+    if section.mode == "stick":
+        full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
+        sink = StickSink(connection, section.rate, section.delay, wiring, own, full)
+    else:
+        sink = MODES[section.mode](connection, section.rate, section.delay, wiring, own)
+    return Device(list(own), sink, Angles(connection, wiring))
+
+
+def _focus(section: FocusSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
+    return Device(MOVES[section.type], FocusSink(connection, section.rate), FocusReporter(connection))
+
+
+def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
+    return Device(MOVES[section.type], CameraSink(connection), None)
+
+
+MODES = {"position": PositionSink, "speed": SpeedSink}
+BUILDERS: Mapping[str, Callable[..., Device]] = {"gimbal": _gimbal, "focus": _focus, "camera": _camera}

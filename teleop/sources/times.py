@@ -1,0 +1,42 @@
+"""Times as people write them in a sequence: seconds, `1m30s`, frames, timecode. All become seconds, once, here."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+_PARTS = re.compile(r"(?:(\d+(?:\.\d+)?)h)?(?:(\d+(?:\.\d+)?)m)?(?:(\d+(?:\.\d+)?)s)?")
+_FRAMES = re.compile(r"(\d+)f")
+_TIMECODE = re.compile(r"(\d+):([0-5]\d):([0-5]\d):(\d+)")
+_WRITTEN = "4, 4s, 1m30s, 96f or 00:00:04:00"
+
+
+def seconds(value: Any, fps: float | None) -> float:
+    """`4`, `4s`, `1m30s`, `2h`, `96f` or `00:00:04:00` in seconds; the last two need `fps`, in frames per second.
+
+    Timecode is non-drop. Raises ValueError with what would be right.
+    """
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        if not math.isfinite(value) or value < 0:
+            raise ValueError(f"must be 0 s or later, not {value:g}")
+        return float(value)
+    text = value.strip() if isinstance(value, str) else ""
+    if text and (match := _PARTS.fullmatch(text)):
+        hours, minutes, rest = (float(part or 0) for part in match.groups())
+        return hours * 3600 + minutes * 60 + rest
+    if match := _FRAMES.fullmatch(text):
+        return int(match[1]) / _needed(fps, text)
+    if match := _TIMECODE.fullmatch(text):
+        rate = _needed(fps, text)
+        hours, minutes, whole, frames = (int(part) for part in match.groups())
+        if frames >= math.ceil(rate):
+            raise ValueError(f"has frame {frames}, and there are {rate:g} in a second")
+        return (hours * 3600 + minutes * 60 + whole) * math.ceil(rate) / rate + frames / rate
+    raise ValueError(f"must be a time ({_WRITTEN}), not {value!r}")
+
+
+def _needed(fps: float | None, text: str) -> float:
+    if fps is None:
+        raise ValueError(f"is {text}, in frames, which needs fps at the top of the file")
+    return fps

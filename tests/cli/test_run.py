@@ -1,0 +1,161 @@
+"""`teleop` as typed: exit codes, errors of one line, reports, and two real processes on a real bus."""
+
+from __future__ import annotations
+
+import json
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from command import running, teleop
+from network import own_network
+
+BUS = "gimbal=udp_multicast:239.74.163.2"
+STICKS = "time,pan\n0,0.3\n1,0\n2,0\n"
+
+
+def test_the_demo_plays_and_reports_every_axis() -> None:
+    done = teleop("play", "reveal", "--fast")
+    assert done.returncode == 0, done.stderr
+    for word in ("pan", "tilt", "focus", "RMS error", "Peak error"):
+        assert word in done.stdout
+    assert " / 15.0 s" in done.stderr
+
+
+def test_json_is_one_object_for_programs() -> None:
+    done = teleop("play", "reveal", "--fast", "--json")
+    report = json.loads(done.stdout)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (report["result"], report["reasons"]) == ("done", [])
+    assert report["seconds"] > 15
+    assert set(report["axes"]) == {"pan", "tilt", "focus"}
+    assert report["axes"]["pan"]["rms"] < 0.1
+
+
+def test_sticks_are_replayed(tmp_path: Path) -> None:
+    (tmp_path / "sticks.csv").write_text(STICKS)
+    done = teleop("live", "--sticks", str(tmp_path / "sticks.csv"), "--fast", "--json")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["axes"]["pan"]["readings"] > 20
+
+
+def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
+    done = teleop("check", "reveal", "--rig", "rs2", "--link", "gimbal=slcan:/dev/nothing-here")
+    assert done.returncode == 0, done.stderr
+    assert "15.00 s on DJI RS 2" in done.stdout
+    report = json.loads(teleop("check", "reveal", "--json").stdout)
+    assert report["duration"] == 15
+    assert 0 < report["axes"]["pan"]["velocity"] < 1
+    assert report["axes"]["pan"]["room"] == pytest.approx(140, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (["plai"], 2, 'Did you mean "play"?'),
+        (["play"], 2, "requires an argument"),
+        (["play", "reveal", "--rgi", "sim"], 2, "--rgi"),
+        (["play", "revel"], 2, "did you mean reveal?"),
+        (["play", "./nothing.yaml"], 2, "no such file"),
+        (["play", "reveal", "--rig", "smi"], 2, "did you mean sim?"),
+        (["play", "reveal", "--link", "gimbal"], 2, "write it as NAME=URL"),
+        (["play", "reveal", "--link", "gimbal=scan:can0"], 2, "no interface 'scan'"),
+        (["play", "reveal", "--fast", "--rig", "rs2"], 2, "only sim: links can be played fast"),
+        (["play", "reveal", "--rig", "rs2", "--link", "gimbal=slcan:/dev/nothing-here"], 1, "/dev/nothing-here"),
+        (["live", "--sticks", "nothing.csv"], 2, "nothing.csv: cannot be read"),
+        (["sim"], 2, "--link gimbal="),
+    ],
+)
+def test_what_cannot_be_done_is_said_in_one_line(arguments: list[str], code: int, said: str) -> None:
+    done = teleop(*arguments)
+    assert done.returncode == code, done.stderr
+    assert said in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert done.stdout == ""
+
+
+def test_a_bad_file_says_everything_at_once_and_a_hard_move_is_another_failure(tmp_path: Path) -> None:
+    (tmp_path / "bad.yaml").write_text("keyframes:\n  - {at: 0, pna: 1}\n  - {at: x, pan: 1}\n")
+    bad = teleop("check", "bad.yaml", cwd=tmp_path)
+    assert bad.returncode == 2
+    assert [line.split(": ")[0] for line in bad.stderr.splitlines()] == [
+        "bad.yaml:2:5",
+        "bad.yaml:2:13",
+        "bad.yaml:3:10",
+    ]
+    (tmp_path / "hard.yaml").write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 0.2, pan: 90}\n")
+    for command in ("check", "play"):
+        hard = teleop(command, "hard.yaml", cwd=tmp_path)
+        assert hard.returncode == 1
+        assert hard.stderr.startswith("hard.yaml:3:5: pan, keyframes[0]..[1]: ")
+    assert json.loads(teleop("check", "hard.yaml", "--json", cwd=tmp_path).stdout)["ok"] is False
+
+
+def test_debug_shows_where_an_error_came_from() -> None:
+    assert "Traceback" not in teleop("play", "revel").stderr
+    assert "Traceback" in teleop("play", "revel", "--debug").stderr
+
+
+def wait_for(process, text: str) -> None:
+    """Read stderr up to a line with `text`."""
+    for line in process.stderr:
+        if text in line:
+            return
+    pytest.fail(f"{text!r} never came")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_stops_a_move_smoothly_and_soon(number: signal.Signals) -> None:
+    with running("play", "reveal") as process:
+        wait_for(process, " / 15.0 s")
+        sent = time.monotonic()
+        process.send_signal(number)
+        process.send_signal(number)
+        _, said = process.communicate(timeout=10)
+        assert time.monotonic() - sent < 2
+    assert process.returncode == 130
+    assert f"stopped: {number.name} received" in said
+
+
+@pytest.fixture(scope="module")
+def bus() -> Iterator[str]:
+    """A bus between processes, in a network namespace of its own."""
+    with own_network("link set lo up", "route add 239.0.0.0/8 dev lo"):
+        yield BUS
+
+
+def test_two_processes_talk_over_a_real_bus(bus: str) -> None:
+    with running("sim", "--link", bus) as far:
+        assert far.stdout is not None
+        assert "simulated gimbal" in far.stdout.readline()
+        done = teleop("play", "reveal", "--link", bus, "--json")
+        assert done.returncode == 0, done.stderr
+        assert json.loads(done.stdout)["axes"]["pan"]["rms"] < 0.5
+        far.send_signal(signal.SIGINT)
+        far.communicate(timeout=10)
+        assert far.returncode == 130
+
+
+@pytest.mark.parametrize("mode", ["position", "speed"])
+def test_a_gimbal_that_vanishes_ends_the_run_soon(bus: str, tmp_path: Path, mode: str) -> None:
+    profile = (Path(__file__).parents[2] / "profiles" / "sim.yaml").read_text()
+    (tmp_path / "rig.yaml").write_text(profile.replace("mode: position", f"mode: {mode}"))
+    with running("sim", "--link", bus) as far:
+        assert far.stdout is not None
+        far.stdout.readline()
+        with running("play", "reveal", "--rig", str(tmp_path / "rig.yaml"), "--link", bus) as process:
+            wait_for(process, " / 15.0 s")
+            far.kill()
+            gone = time.monotonic()
+            _, said = process.communicate(timeout=10)
+            assert time.monotonic() - gone < 2
+    assert process.returncode == 1
+    assert "gimbal on udp_multicast:239.74.163.2 does not answer" in said
+
+
+def test_nobody_on_the_bus_is_said_before_anything_moves(bus: str) -> None:
+    done = teleop("play", "reveal", "--link", bus)
+    assert done.returncode == 1
+    assert "does not answer: is it on, is the cable in?" in done.stderr

@@ -1,0 +1,114 @@
+"""Sequence files: every error at its line, and what a right one compiles to."""
+
+from pathlib import Path
+
+import pytest
+
+from teleop.document import DocumentError, UnplayableError
+from teleop.motion import Action, Axis, Limits
+from teleop.profile import load_profile
+from teleop.shipped import folder
+from teleop.sources.sequence_file import Cue, Performance, load_performance
+
+LIMITS = {
+    Axis.PAN: Limits(-180, 180, 120, 240, 1200),
+    Axis.TILT: Limits(-56, 146, 90, 180, 900),
+    Axis.FOCUS: Limits(0, 1, 0.5, 2, 10),
+}
+
+
+def load(tmp_path: Path, text: str) -> Performance:
+    file = tmp_path / "shoot.yaml"
+    file.write_text(text)
+    return load_performance(str(file), LIMITS, "the rig")
+
+
+def problems_of(tmp_path: Path, text: str, kind: type[DocumentError] = DocumentError) -> list[str]:
+    with pytest.raises(DocumentError) as caught:
+        load(tmp_path, text)
+    assert type(caught.value) is kind
+    return [problem.removeprefix(f"{tmp_path}/") for problem in caught.value.problems]
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("title: x\n", "shoot.yaml:1:1: keyframes is missing"),
+        ("keyframes: []\n", "shoot.yaml:1:12: keyframes must have at least 1"),
+        ("keyframes:\n  - {pan: 1}\n", "shoot.yaml:2:5: keyframes[0].at is missing"),
+        ("keyframes:\n  - {at: 0}\n", "shoot.yaml:2:5: keyframes[0] names no axis (pan, tilt, roll, focus)"),
+        (
+            "keyframes:\n  - {at: 0, pan: 0}\n  - {at: 6.5, pan: 1}\n  - {at: 6, tilt: 1}\n",
+            "shoot.yaml:4:10: keyframes[2].at must be after keyframes[1].at (6.5 s)",
+        ),
+        (
+            "keyframes:\n  - {at: 0, pan: 0, hold: 3s}\n  - {at: 1, tilt: 1}\n  - {at: 2, pan: 1}\n",
+            "shoot.yaml:4:10: keyframes[2].at must be after keyframes[0] has held pan (until 3 s)",
+        ),
+        ("keyframes:\n  - {at: soon, pan: 0}\n", "shoot.yaml:2:10: keyframes[0].at must be a time (4, 4s, 1m30s,"),
+        ("keyframes:\n  - {at: 96f, pan: 0}\n", "shoot.yaml:2:10: keyframes[0].at is 96f, in frames, which needs fps"),
+        ("keyframes:\n  - {at: 0, pna: 0}\n", "shoot.yaml:2:13: keyframes[0].pna is not known here; did you mean pan?"),
+        ("keyframes:\n  - {at: 0, pan: left}\n", "shoot.yaml:2:18: keyframes[0].pan must be a number, not 'left'"),
+        (
+            "keyframes:\n  - {at: 0, pan: 0, pass: by}\n",
+            "shoot.yaml:2:27: keyframes[0].pass must be one of through, stop, not 'by'",
+        ),
+        (
+            "keyframes:\n  - {at: 0, pan: 0}\ncues:\n  - {at: 0, camera: rcord}\n",
+            "shoot.yaml:4:21: cues[0].camera must be one of record, stop, shutter, not 'rcord'; did you mean record?",
+        ),
+        ("keyframes: 3\n", "shoot.yaml:1:12: keyframes must be a list, not 3"),
+        ("- 3\n", "shoot.yaml:1:1: must be a mapping, not [3]"),
+    ],
+)
+def test_what_is_wrong_is_said_where_it_stands(tmp_path: Path, text: str, problem: str) -> None:
+    assert any(line.startswith(problem) for line in problems_of(tmp_path, text))
+
+
+def test_all_errors_come_at_once_whatever_their_kind(tmp_path: Path) -> None:
+    text = "keyframes:\n  - {at: 0, pan: 200}\n  - {at: -1, tilt: x}\n  - {at: 3, roll: 1}\nrepeet: 3\n"
+    assert [problem.split(":")[1] for problem in problems_of(tmp_path, text)] == ["2", "3", "3", "4", "5"]
+
+
+def test_what_the_rig_cannot_do_is_another_kind_of_error(tmp_path: Path) -> None:
+    text = "keyframes:\n  - {at: 0, pan: 200}\n  - {at: 3, roll: 1}\n"
+    assert problems_of(tmp_path, text, UnplayableError) == [
+        "shoot.yaml:2:18: keyframes[0].pan must be within -180..180 (the rig), not 200",
+        "shoot.yaml:3:19: keyframes[1].roll cannot be: the rig has no roll; it has pan, tilt, focus",
+    ]
+
+
+def test_an_infeasible_move_names_keyframe_axis_limit_and_a_time_that_does(tmp_path: Path) -> None:
+    text = "keyframes:\n  - {at: 0, pan: -60}\n  - {at: %s, pan: 60}\n"
+    [problem] = problems_of(tmp_path, text % 1, UnplayableError)
+    assert problem.startswith("shoot.yaml:3:5: pan, keyframes[0]..[1]: ")
+    shortest = float(problem.split("; ")[1].split(" s ")[0])
+    assert shortest > 1
+    assert load(tmp_path, text % (shortest + 0.001)).duration == pytest.approx(shortest + 0.001)
+    problems_of(tmp_path, text % (shortest * 0.95), UnplayableError)
+
+
+def test_a_sequence_compiles_to_a_move_and_cues(tmp_path: Path) -> None:
+    performance = load(
+        tmp_path,
+        "title: Test\nfps: 25\nkeyframes:\n  - {at: 0, pan: -10, focus: 0.2}\n  - {at: 50f, pan: 10, pass: stop}\n"
+        "  - {at: 4s, tilt: 5}\n  - {at: 5s, pan: 20, hold: 1s}\ncues:\n  - {at: 8, camera: stop}\n"
+        "  - {at: 0, camera: record}\n",
+    )
+    assert performance.title == "Test"
+    assert performance.cues == [Cue(0, Action.RECORD), Cue(8, Action.STOP)]
+    assert performance.duration == 8
+    move = performance.move
+    assert move.duration == 6
+    assert move.at(2.0)[Axis.PAN].position == pytest.approx(10, abs=1e-3)
+    assert move.at(2.0)[Axis.PAN].velocity == pytest.approx(0, abs=1e-6)
+    assert move.at(5.5)[Axis.PAN] == (20, 0, 0)
+    assert move.at(0.0)[Axis.TILT].position == 5
+    assert set(move.tracks) == {Axis.PAN, Axis.TILT, Axis.FOCUS}
+
+
+@pytest.mark.parametrize("file", sorted(folder("sequences").glob("*.yaml")), ids=lambda file: file.stem)
+def test_every_shipped_sequence_plays_on_the_simulated_rig(file: Path) -> None:
+    sim = load_profile("sim")
+    performance = load_performance(file.stem, sim.limits, sim.name)
+    assert performance.warnings == []
