@@ -24,6 +24,11 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "live": ("teleop.cli.live:live", "Move a rig by its sticks."),
     "check": ("teleop.cli.check:check", "Check a sequence against a rig."),
     "sim": ("teleop.cli.sim:sim", "Simulate a rig's devices on a real bus."),
+    "send": ("teleop.cli.send:send", "Send one command to a rig's gimbal, camera or focus motor."),
+    "monitor": ("teleop.cli.monitor:monitor", "Show what host and gimbal say to each other on a CAN bus."),
+    "devices": ("teleop.cli.devices:devices", "List CAN interfaces, serial ports and HID devices."),
+    "decode": ("teleop.cli.decode:app", "Bytes of a protocol as JSON lines."),
+    "encode": ("teleop.cli.encode:app", "JSON lines as bytes of a protocol."),
 }
 """Where each command is, imported when it is used, and its line of help."""
 

@@ -1,0 +1,105 @@
+"""`teleop decode`: from bytes to a JSON line for each frame; damage is a line too, nothing ever stops it.
+
+The protocols are rows, `teleop decode r-sdk` the first of them. Hexadecimal input is one stream of bytes however it is
+cut into lines, so that whole frames, CAN pieces and a capture with a truncated frame in it can all be pasted. A
+candump log has a stream for each direction of each bus, whose pieces must not mix.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import App, Parameter
+
+from teleop.dji.frame import FrameReader
+from teleop.dji.record import Transcriber
+from teleop.dji.registry import Registry
+from teleop.ports import UsageError
+
+R_SDK_IDS = ("222", "223")  # from the gimbal, to the gimbal (V2.5 section 3.1); three digits: standard frames
+
+_NOISE = re.compile(r"\b0x|[\s,:;]", re.IGNORECASE)
+_CANDUMP = re.compile(r"\((?P<time>\d+\.\d+)\)\s+(?P<bus>\S+)\s+(?P<id>[0-9A-Fa-f]+)#(?P<data>\S*)(\s+[RT])?\s*")
+
+app = App(name="decode", help="Print what bytes mean, a JSON line for each frame.")
+
+
+class InputError(UsageError):
+    """A file that cannot be read."""
+
+
+@app.command(name="r-sdk")
+def r_sdk(
+    *text: Annotated[str, Parameter(help="Hexadecimal, or with --candump files; without any, standard input.")],
+    candump: Annotated[bool, Parameter(help="Read logs of candump -L or -l.", negative=())] = False,
+) -> None:
+    """Decode frames of the handheld gimbal."""
+    from teleop.dji.r_sdk import R_SDK
+
+    if candump:
+        lines = decode_candump(_files(text) if text else sys.stdin, R_SDK, R_SDK_IDS)
+    else:
+        lines = decode_hex(text or sys.stdin, R_SDK)
+    for line in lines:
+        print(line, flush=True)
+
+
+def decode_hex(lines: Iterable[str], registry: Registry) -> Iterator[str]:
+    """A JSON line for each frame and each run of damage in the bytes that `lines` hold, as soon as it is known."""
+    reader, transcriber = FrameReader(), Transcriber(registry)
+    for line in lines:
+        try:
+            data = bytes.fromhex(_NOISE.sub("", line))
+        except ValueError:
+            yield _not_understood("not hexadecimal", line)
+            continue
+        for found in reader.feed(data, 0.0):
+            yield json.dumps(transcriber.record(found))
+    for found in reader.flush(math.inf):
+        yield json.dumps(transcriber.record(found))
+
+
+def decode_candump(lines: Iterable[str], registry: Registry, ids: Iterable[str]) -> Iterator[str]:
+    """The same of a candump log, for the CAN frames with these `ids` (as the log writes them)."""
+    readers: dict[tuple[str, str], FrameReader] = {}
+    transcribers: dict[str, Transcriber] = {}
+    wanted = set(ids)
+    for line in filter(str.strip, lines):
+        parsed = _CANDUMP.fullmatch(line.rstrip("\n"))
+        if parsed is None:
+            yield _not_understood("not a line of candump -L", line)
+            continue
+        bus, can_id = parsed["bus"], parsed["id"]
+        if can_id not in wanted:
+            continue
+        try:
+            data = bytes.fromhex(parsed["data"])
+        except ValueError:  # a remote or CAN FD frame, which the protocol does not have
+            yield _not_understood("not a data frame", line)
+            continue
+        reader = readers.setdefault((bus, can_id), FrameReader())
+        transcriber = transcribers.setdefault(bus, Transcriber(registry))
+        for found in reader.feed(data, float(parsed["time"])):
+            yield json.dumps(transcriber.record(found))
+    for (bus, _), reader in readers.items():
+        for found in reader.flush(math.inf):
+            yield json.dumps(transcribers[bus].record(found))
+
+
+def _not_understood(reason: str, line: str) -> str:
+    return json.dumps({"damage": f"{reason}: {line.strip()!r}", "bytes": ""})
+
+
+def _files(names: Iterable[str]) -> Iterator[str]:
+    for name in names:
+        try:
+            with Path(name).open(encoding="utf-8", errors="replace") as file:
+                yield from file
+        except OSError as error:
+            raise InputError(f"{name}: {error.strerror}") from None

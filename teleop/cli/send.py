@@ -1,0 +1,245 @@
+"""`teleop send`: one command to a rig's gimbal, camera or focus motor, and what it answers.
+
+Everything here comes from the catalogue: the words, the help, the checks. A message is checked before any port opens,
+so that a typing error never costs a half-done exchange. A lost reply does not mean a lost command, so whether to ask
+again depends on what is asked: a question or a setting may be repeated, a photo, a toggle or a relative turn may not.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+import textwrap
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+from cyclopts.validators import Number
+
+from teleop.cli.monitor import in_units
+from teleop.cli.options import DEFAULTS, Options
+from teleop.clock import SystemClock
+from teleop.dji import camera, focus, gimbal
+from teleop.dji.catalogue import COMMANDS, DEVICES, PLAIN, find, help_of
+from teleop.dji.frame import FrameReader
+from teleop.dji.message import STREAM, FieldError, Message
+from teleop.dji.r_sdk import R_SDK
+from teleop.dji.record import Record, Transcriber, describe
+from teleop.dji.session import REPLY_TIMEOUT, Received, Session
+from teleop.document import DocumentError
+from teleop.links import open_link, parse
+from teleop.ports import Clock, DeviceError, Link
+from teleop.profile import Profile
+
+PERIOD = 0.001  # s between looks for the reply; a gimbal answers within 5 ms
+RETRIES = 2  # where asking again does no harm
+ONCE: Mapping[type[Message], Callable[[Any], bool]] = {
+    gimbal.Position: lambda position: not position.absolute,
+    gimbal.Orient: lambda orient: orient.orientation == gimbal.Orientation.TOGGLE,
+    gimbal.Calibrate: lambda calibrate: calibrate.start,
+    gimbal.ActiveTrack: lambda _track: True,
+    camera.Command: lambda command: command.command == camera.CameraCommand.SHUTTER,
+    camera.ShortCommand: lambda command: command.command == camera.CameraCommand.SHUTTER,
+    focus.Calibrate: lambda calibrate: calibrate.action != focus.CalibrationAction.STOP,
+}
+"""What must not be done twice because its reply was lost."""
+
+NOT_DONE: Mapping[tuple[str, str], str] = {
+    ("execution", "failed"): "it failed",
+    ("kind", "none"): "the angles are not ready",
+}
+"""Fields of a reply that say no although the return code is ok."""
+
+TAKEN_OVER = (
+    "speed control stays taken over; to give it back: teleop send gimbal speed yaw=0 roll=0 pitch=0 take_over=false"
+)
+_WIDTH = 100  # columns at most: longer lines are hard to read
+_NO_BREAK = "\N{NO-BREAK SPACE}"
+
+
+def send(
+    *words: Annotated[
+        str, Parameter(help="gimbal, camera or focus, a command and field=value ...; or plain words, as recenter.")
+    ],
+    retries: Annotated[
+        int | None,
+        Parameter(
+            help="How often to ask again without a reply: 2, and 0 for what must not be done twice.",
+            validator=Number(gte=0),
+            show_default=False,
+        ),
+    ] = None,
+    show_help: Annotated[
+        bool,
+        Parameter(
+            name=("--help", "-h"),
+            help="List every command, or those that the words begin.",
+            negative=(),
+            show_default=False,
+        ),
+    ] = False,
+    options: Options = DEFAULTS,
+) -> int:
+    """Send one command to the gimbal, the camera or the focus motor, and print the reply."""
+    if show_help:
+        _print_help(words)
+        return 0
+    profile = options.profile()
+    message = asked_for(words)
+    url = url_of(profile, message.name.partition(".")[0])
+    tries = 1 + (default_retries(message) if retries is None else retries)
+    clock = SystemClock()
+    with _open(url, clock) as link:
+        record = stream(link, message) if message.cmd_type == STREAM else ask(link, url, message, clock, tries)
+    reason = refusal(record)
+    if options.json:
+        print(json.dumps(record))
+    elif not reason:
+        print(*readable(message.name, record), sep="\n")
+    if reason:
+        raise DeviceError(f"{message.name} was refused: {reason}")
+    if isinstance(message, gimbal.Speed) and message.take_over:
+        print(TAKEN_OVER, file=sys.stderr)
+    return 0
+
+
+def asked_for(words: Sequence[str]) -> Message:
+    """The message that the words ask for, fit to be sent. Raises DocumentError."""
+    if not words:
+        raise DocumentError(["say what to send; teleop send --help lists everything"])
+    try:
+        message = find(words)
+        message.check()
+    except FieldError as error:
+        raise DocumentError([str(error)]) from None
+    return message
+
+
+def url_of(profile: Profile, device: str) -> str:
+    """Where the rig has its gimbal, camera or focus motor. Raises DocumentError when it has none."""
+    for sink in profile.sinks:
+        if sink.type == device:
+            return profile.links[sink.link]
+    raise DocumentError([f"{profile.name} has no {device}: its sinks are {', '.join(s.type for s in profile.sinks)}"])
+
+
+def default_retries(message: Message) -> int:
+    """How often `message` is sent again when no reply comes, unless the operator says otherwise."""
+    return 0 if ONCE.get(type(message), lambda _message: False)(message) else RETRIES
+
+
+def stream(link: Link, message: Message) -> Record:
+    """Send a message that has no reply, once; its own record. Raises LinkError."""
+    frame = Session().command(message)
+    link.send(frame)
+    [sent] = FrameReader().feed(frame, 0.0)
+    return Transcriber(R_SDK).record(sent)
+
+
+def ask(link: Link, url: str, message: Message, clock: Clock, tries: int) -> Record:
+    """The record of the reply to `message`, sent up to `tries` times. Raises LinkError, or DeviceError without one."""
+    session = Session()
+    for _ in range(tries):
+        frame, _ = session.request(message, clock.now())
+        link.send(frame)
+        if received := _reply(session, link, clock):
+            return describe(R_SDK, received.frame, R_SDK.decode(received.frame, message.set_and_id))
+    often = "" if tries == 1 else f", asked {tries} times"
+    raise DeviceError(
+        f"{url}: no reply to {message.name} within {REPLY_TIMEOUT * 1000:.0f} ms{often}: is it on, is the cable in?"
+    )
+
+
+def _reply(session: Session, link: Link, clock: Clock) -> Received | None:
+    """The reply to the open request, None when it is overdue; pushes and others' replies are passed over."""
+    while True:
+        now = clock.now()
+        for received in session.receive(link.receive(), now):
+            if received.request is not None:
+                return received
+        if session.overdue(now):
+            return None
+        clock.sleep_until(now + PERIOD)
+
+
+def refusal(record: Record) -> str:
+    """Why the device did not do what it was told; nothing when it did."""
+    if not record["reply"]:
+        return ""
+    fields = record["fields"]
+    code = fields.get("return_code", "missing")
+    if code != "ok":
+        return f"return code {code}"
+    said = ((name, value) for name, value in fields.items() if isinstance(value, str))
+    return next((NOT_DONE[each] for each in said if each in NOT_DONE), "")
+
+
+@contextmanager
+def _open(url: str, clock: Clock) -> Iterator[Link]:
+    if parse(url).kind == "sim":
+        from teleop.sim.gimbal import SimulatedGimbal
+        from teleop.sim.link import SimLink
+
+        yield SimLink(SimulatedGimbal(), clock.now)
+        return
+    link = open_link(url, now=clock.now)
+    try:
+        yield link
+    finally:
+        link.close()
+
+
+def readable(name: str, record: Record) -> Iterator[str]:
+    """Lines for people on how the command `name` went: a field a line."""
+    if not record["reply"]:
+        yield f"{name}: sent once, it has no reply"
+        return
+    yield f"{name}: ok"
+    fields = {field: text for field, text in in_units(record).items() if field != "return_code"}
+    width = max(map(len, fields), default=0)
+    yield from (f"  {field:{width}}  {text}" for field, text in fields.items())
+
+
+def _print_help(words: Sequence[str]) -> None:
+    """Usage and options as every command has them, then the catalogue, or the part of it that the words begin."""
+    from teleop.cli import app
+
+    width = min(shutil.get_terminal_size().columns, _WIDTH)
+    lines = list(catalogue_help(" ".join(word for word in words if "=" not in word), width))
+    if not lines:
+        raise DocumentError([f"no command begins with {' '.join(words)!r}; teleop send --help lists everything"])
+    app.help_print(["send"])
+    print(*lines, sep="\n")
+
+
+def catalogue_help(beginning: str, width: int) -> Iterator[str]:
+    """Lines of at most `width` columns on the commands that begin so, with or without their device."""
+    for device in DEVICES:
+        plain = [_shortest(name).replace(" ", _NO_BREAK) for name in PLAIN if _begins(name, device, beginning)]
+        if plain:
+            yield from ("", f"{device}: plain words", *_wrapped("  ", "  ", ", ".join(plain), width))
+        for name, command in COMMANDS.items():
+            if _begins(name, device, beginning):
+                yield from ("", f"{name}, sent once without a reply" if command.cmd_type == STREAM else name)
+                yield from _wrapped("  ", "  ", " ".join((command.__doc__ or "").split()), width)
+                for field, requirement, default in help_of(command):
+                    text = requirement if default is None else f"{requirement} [default: {default}]"
+                    yield from _wrapped(f"    {field:20}", " " * 24, text, width)
+
+
+def _begins(name: str, device: str, beginning: str) -> bool:
+    shapes = (name, name.removeprefix(f"{device} ")) if name.startswith(f"{device} ") else ()
+    return any(f"{shape} ".startswith(f"{beginning} ".lstrip()) for shape in shapes)
+
+
+def _shortest(name: str) -> str:
+    """The words without their device, where they mean the same."""
+    short = name.partition(" ")[2]
+    return short if find(short.split()) == PLAIN[name] else name
+
+
+def _wrapped(first: str, later: str, text: str, width: int) -> list[str]:
+    lines = textwrap.wrap(text, width, initial_indent=first, subsequent_indent=later)
+    return [line.replace(_NO_BREAK, " ") for line in lines]
