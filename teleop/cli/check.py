@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import json
-import sys
+import math
 from collections.abc import Mapping
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from teleop.cli.options import DEFAULTS, Options
-from teleop.document import DocumentError
 from teleop.motion import Limits
 from teleop.planner.move import Peaks
+from teleop.planner.warp import at_most
 from teleop.profile import Profile
-from teleop.sources.sequence_file import Performance, load_performance
+from teleop.sources.sequence_file import Performance
 
 
 def check(
@@ -24,21 +24,17 @@ def check(
     options: Options = DEFAULTS,
 ) -> int:
     """Check a sequence against a rig: every error with its line, or what the move asks of each axis."""
-    try:
-        profile = options.profile()
-        performance = load_performance(file, profile.limits, profile.name)
-    except DocumentError as error:
-        if options.json:
-            print(json.dumps({"ok": False, "problems": error.problems}))
-        raise
-    for warning in performance.warnings:
-        print(warning, file=sys.stderr)
+    profile, performance = options.performance(file)
+    most = at_most(performance.move, profile.limits)
     asked = {axis.value: _share(peaks, profile.limits[axis]) for axis, peaks in performance.move.peaks().items()}
     if options.json:
         found = {"ok": True, "title": performance.title, "duration": performance.duration, "axes": asked}
-        print(json.dumps({**found, "warnings": list(performance.warnings)}))
+        speed = None if math.isinf(most) else most
+        print(json.dumps({**found, "speed_at_most": speed, "warnings": list(performance.warnings)}))
     else:
         _print(performance, profile, asked)
+        if math.isfinite(most):
+            print(f"It can be played at {most:.0%} of its speed at most.")
     return 0
 
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import sys
 from dataclasses import dataclass
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from teleop.document import DocumentError
 from teleop.profile import Profile, load_profile
+
+if TYPE_CHECKING:
+    from teleop.sources.sequence_file import Performance
 
 
 @Parameter(name="*")
@@ -33,6 +38,21 @@ class Options:
                 raise DocumentError([f"--link {text}: write it as NAME=URL, as in gimbal=socketcan:can0"])
             links[name] = url
         return load_profile(self.rig, links)
+
+    def performance(self, file: str) -> tuple[Profile, Performance]:
+        """The sequence called `file`, compiled for the rig, its warnings said; raises DocumentError, as JSON too."""
+        from teleop.sources.sequence_file import load_performance  # the planner's solver takes 0.3 s to load
+
+        try:
+            profile = self.profile()
+            performance = load_performance(file, profile.limits, profile.name)
+        except DocumentError as error:
+            if self.json:
+                print(json.dumps({"ok": False, "problems": error.problems}))
+            raise
+        for warning in performance.warnings:
+            print(warning, file=sys.stderr)
+        return profile, performance
 
 
 DEFAULTS = Options()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -17,7 +16,6 @@ from teleop.profile import Profile
 from teleop.rig import open_rig
 from teleop.sinks.tally import Tally
 from teleop.sources.sequence import SequenceSource
-from teleop.sources.sequence_file import load_performance
 
 Fast = Annotated[
     bool,
@@ -33,10 +31,7 @@ def play(
     options: Options = DEFAULTS,
 ) -> int:
     """Play a sequence: ease to its first keyframe, then the move, then say how well the rig followed."""
-    profile = options.profile()
-    performance = load_performance(file, profile.limits, profile.name)
-    for warning in performance.warnings:
-        print(warning, file=sys.stderr)
+    profile, performance = options.performance(file)
     clock = the_clock(fast, profile)
     source = SequenceSource(performance, profile.limits)
     tally = Tally(lambda: source.begin)

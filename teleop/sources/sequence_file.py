@@ -7,22 +7,23 @@ keyframe where it goes wrong. The rules read the plain data, so that all errors 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from teleop.document import Document, DocumentError, UnplayableError, Wrong, mapping, number, read_document, sequence
+from teleop.document import Document, DocumentError, UnplayableError, read_document
 from teleop.motion import Action, Axis, Limits
-from teleop.planner.findings import Infeasible
-from teleop.planner.keyframes import Key, plan
+from teleop.planner.findings import Infeasible, PlanError
+from teleop.planner.keyframes import Key, plan, stretch
 from teleop.planner.move import Move
+from teleop.planner.repeat import Repeat, repeated
 from teleop.section import Finite, Section
 from teleop.shipped import find
+from teleop.sources.sequence_rules import file_rules, rig_rules
 from teleop.sources.times import seconds
-
-AXES = tuple(axis.value for axis in Axis)
 
 
 class Keyframe(Section):
@@ -46,9 +47,21 @@ class CueSection(Section):
     camera: Literal["record", "stop", "shutter"]
 
 
+class RepeatSection(Section):
+    """`times` passes; a bounce counts the way there and the way back as two."""
+
+    times: Annotated[int, Field(ge=1, le=10_000)]
+    mode: Annotated[Repeat, Field(strict=False)]
+
+
 class SequenceSection(Section):
+    """`tension`: 0 is smoothest, 1 closest to constant speed between keys. `fit`: what is too fast is stretched."""
+
     title: str = ""
     fps: Annotated[float, Field(gt=0, le=1000)] | None = None
+    tension: Annotated[float, Field(ge=0, le=1)] = 0.0
+    fit: Literal["stretch"] | None = None
+    repeat: RepeatSection | None = None
     keyframes: Annotated[list[Keyframe], Field(min_length=1)]
     cues: list[CueSection] = Field(default_factory=list)
 
@@ -83,21 +96,44 @@ def load_performance(name: str, limits: Mapping[Axis, Limits], rig: str) -> Perf
     Raises DocumentError with a line for everything wrong with it; UnplayableError when only the rig is in the way.
     """
     document = read_document(*find(name, "sequences", "sequence"))
-    beyond_rig = list(_rig_rules(document.data, limits, rig))
+    beyond_rig = list(rig_rules(document.data, limits, rig))
     try:
-        sheet = document.check(SequenceSection, [*_rules(document.data), *beyond_rig])
+        sheet = document.check(SequenceSection, [*file_rules(document.data), *beyond_rig])
     except DocumentError as error:
         raise (UnplayableError(error.problems) if len(error.problems) == len(beyond_rig) else error) from None
-    keys = _keys(sheet)
+    own_limits = {axis: limits[axis] for axis in _axes(sheet)}
     try:
-        move = plan(keys, {axis: limits[axis] for axis in keys})
+        keys, move, factor = _planned(sheet, own_limits)
     except Infeasible as error:
         problems = [_at_keyframe(document, finding.last, str(finding)) for finding in error.findings]
         raise UnplayableError(problems) from None
-    cues = [Cue(seconds(cue.at, sheet.fps), Action(cue.camera)) for cue in sheet.cues]
-    cues.sort(key=lambda cue: cue.at)
+    except PlanError as error:
+        raise DocumentError([document.problem(("repeat",), str(error))]) from None
     warnings = [_at_keyframe(document, overshoot.last, str(overshoot)) for overshoot in move.overshoots]
-    return Performance(sheet.title or document.name, move, cues, warnings, keys)
+    if factor > 1:
+        warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
+    cues = [Cue(factor * seconds(cue.at, sheet.fps), Action(cue.camera)) for cue in sheet.cues]
+    cues.sort(key=lambda cue: cue.at)
+    return Performance(sheet.title or Path(document.name).stem, move, cues, warnings, keys)
+
+
+def _planned(sheet: SequenceSection, limits: Mapping[Axis, Limits]) -> tuple[Mapping[Axis, Sequence[Key]], Move, float]:
+    """The keys of every pass at the times they will have, the move through them, and how far it had to be stretched."""
+    keys = _keys(sheet)
+    if sheet.repeat:
+        keys = repeated(keys, sheet.repeat.times, sheet.repeat.mode)
+    if sheet.fit is None:
+        return keys, plan(keys, limits, sheet.tension), 1.0
+    move, factor = stretch(keys, limits, sheet.tension)
+    later = {
+        axis: [replace(key, at=factor * key.at, hold=factor * key.hold) for key in of_axis]
+        for axis, of_axis in keys.items()
+    }
+    return later, move, factor
+
+
+def _axes(sheet: SequenceSection) -> Sequence[Axis]:
+    return [axis for axis in Axis if any(getattr(frame, axis.value) is not None for frame in sheet.keyframes)]
 
 
 def _keys(sheet: SequenceSection) -> Mapping[Axis, Sequence[Key]]:
@@ -109,7 +145,7 @@ def _keys(sheet: SequenceSection) -> Mapping[Axis, Sequence[Key]]:
             if position is not None:
                 stop = frame.pass_ == "stop"
                 keys.setdefault(axis, []).append(Key(at, position, stop, hold, f"keyframes[{index}]"))
-    return {axis: keys[axis] for axis in Axis if axis in keys}
+    return {axis: keys[axis] for axis in _axes(sheet)}
 
 
 def _at_keyframe(document: Document, where: str, text: str) -> str:
@@ -117,63 +153,3 @@ def _at_keyframe(document: Document, where: str, text: str) -> str:
     index = int(where.removeprefix("keyframes[").removesuffix("]"))
     line, column = document.places["keyframes", index]
     return f"{document.name}:{line}:{column}: {text}"
-
-
-def _rules(data: Any) -> Iterator[Wrong]:
-    """Times that are times and in order, keyframes that say something."""
-    fps = number(mapping(data).get("fps"))
-    before: tuple[int, float] | None = None
-    free: dict[str, tuple[int, float]] = {}  # axis -> the keyframe that holds it, and until when
-    for index, frame in enumerate(sequence(data, "keyframes")):
-        frame = mapping(frame)
-        if not any(axis in frame for axis in AXES):
-            yield ("keyframes", index), f"names no axis ({', '.join(AXES[:4])})"
-        at, wrong = _time(frame, "at", fps)
-        hold, wrong_hold = _time(frame, "hold", fps)
-        for key, text in (("at", wrong), ("hold", wrong_hold)):
-            if text:
-                yield ("keyframes", index, key), text
-        if at is None:
-            continue
-        if before and at <= before[1]:
-            yield ("keyframes", index, "at"), f"must be after keyframes[{before[0]}].at ({before[1]:g} s)"
-        else:
-            yield from _hold_rules(index, frame, at, free)
-        before = (index, at)
-        free.update({axis: (index, at + (hold or 0)) for axis in AXES if axis in frame})
-    for index, cue in enumerate(sequence(data, "cues")):
-        if wrong := _time(mapping(cue), "at", fps)[1]:
-            yield ("cues", index, "at"), wrong
-
-
-def _hold_rules(
-    index: int, frame: Mapping[str, Any], at: float, free: Mapping[str, tuple[int, float]]
-) -> Iterator[Wrong]:
-    for axis, (holder, end) in free.items():
-        if axis in frame and at < end:
-            yield ("keyframes", index, "at"), f"must be after keyframes[{holder}] has held {axis} (until {end:g} s)"
-
-
-def _time(section: Mapping[str, Any], key: str, fps: float | None) -> tuple[float | None, str]:
-    """The time at a key in seconds, or what is wrong with it; a missing one is pydantic's to report."""
-    if key not in section:
-        return None, ""
-    try:
-        return seconds(section[key], fps), ""
-    except ValueError as error:
-        return None, str(error)
-
-
-def _rig_rules(data: Any, limits: Mapping[Axis, Limits], rig: str) -> Iterator[Wrong]:
-    """Every key is on an axis of the rig and inside its soft limits."""
-    by_name = {axis.value: axis_limits for axis, axis_limits in limits.items()}
-    for index, frame in enumerate(sequence(data, "keyframes")):
-        for axis in AXES:
-            position = number(mapping(frame).get(axis))
-            if position is None:
-                continue
-            if axis not in by_name:
-                yield ("keyframes", index, axis), f"cannot be: {rig} has no {axis}; it has {', '.join(by_name)}"
-            elif not by_name[axis].minimum <= position <= by_name[axis].maximum:
-                low, high = by_name[axis].minimum, by_name[axis].maximum
-                yield ("keyframes", index, axis), f"must be within {low:g}..{high:g} ({rig}), not {position:g}"

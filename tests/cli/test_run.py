@@ -48,6 +48,7 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
     report = json.loads(teleop("check", "reveal", "--json").stdout)
     assert report["duration"] == 15
     assert 0 < report["axes"]["pan"]["velocity"] < 1
+    assert report["speed_at_most"] == pytest.approx(3.3, abs=0.5)
     assert report["axes"]["pan"]["room"] == pytest.approx(140, abs=0.01)
 
 

@@ -112,3 +112,32 @@ def test_every_shipped_sequence_plays_on_the_simulated_rig(file: Path) -> None:
     sim = load_profile("sim")
     performance = load_performance(file.stem, sim.limits, sim.name)
     assert performance.warnings == []
+
+
+def test_a_move_that_is_too_fast_is_stretched_when_asked_and_says_by_how_much(tmp_path: Path) -> None:
+    text = "fit: stretch\nkeyframes:\n  - {at: 0, pan: -60}\n  - {at: 1, pan: 60}\ncues:\n  - {at: 1, camera: stop}\n"
+    performance = load(tmp_path, text)
+    factor = performance.move.duration
+    assert 1 < factor < 3
+    assert performance.cues[0].at == pytest.approx(factor)
+    assert performance.keys[Axis.PAN][1].at == pytest.approx(factor)
+    [warning] = performance.warnings
+    assert f"shoot.yaml:1:6: fit stretched it {factor:.3f} x" in warning
+    assert load(tmp_path, text.replace("at: 1", "at: 9")).warnings == []
+
+
+def test_tension_evens_the_speed_between_keys(tmp_path: Path) -> None:
+    text = "tension: 0\nkeyframes:\n  - {at: 0, pan: 0}\n  - {at: 5, pan: 20}\n  - {at: 10, pan: 80}\n"
+    smooth = load(tmp_path, text).move.peaks()[Axis.PAN]
+    even = load(tmp_path, text.replace("tension: 0", "tension: 1")).move.peaks()[Axis.PAN]
+    assert even.velocity < smooth.velocity * 0.98
+    assert even.jerk > smooth.jerk
+
+
+def test_a_bounce_goes_there_and_back_and_a_loop_ends_where_it_began(tmp_path: Path) -> None:
+    text = "repeat: {times: 3, mode: bounce}\nkeyframes:\n  - {at: 0, pan: 0}\n  - {at: 4, pan: 20}\n"
+    move = load(tmp_path, text).move
+    assert move.duration == 12
+    assert [round(move.at(time)[Axis.PAN].position, 3) for time in (0, 4, 8, 12)] == [0, 20, 0, 20]
+    [problem] = problems_of(tmp_path, text.replace("bounce", "loop"))
+    assert problem == ("shoot.yaml:1:9: repeat pan, keyframes[1]: a loop must end where it began, at 0, not 20")

@@ -1,0 +1,72 @@
+"""What must hold between the values of a sequence file: rules over its plain data, so that all errors come at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from teleop.document import Wrong, mapping, number, sequence
+from teleop.motion import Axis, Limits
+from teleop.sources.times import seconds
+
+AXES = tuple(axis.value for axis in Axis)
+
+
+def file_rules(data: Any) -> Iterator[Wrong]:
+    """Times that are times and in order, keyframes that say something."""
+    fps = number(mapping(data).get("fps"))
+    before: tuple[int, float] | None = None
+    free: dict[str, tuple[int, float]] = {}  # axis -> the keyframe that holds it, and until when
+    for index, frame in enumerate(sequence(data, "keyframes")):
+        frame = mapping(frame)
+        if not any(axis in frame for axis in AXES):
+            yield ("keyframes", index), f"names no axis ({', '.join(AXES[:4])})"
+        at, wrong = _time(frame, "at", fps)
+        hold, wrong_hold = _time(frame, "hold", fps)
+        for key, text in (("at", wrong), ("hold", wrong_hold)):
+            if text:
+                yield ("keyframes", index, key), text
+        if at is None:
+            continue
+        if before and at <= before[1]:
+            yield ("keyframes", index, "at"), f"must be after keyframes[{before[0]}].at ({before[1]:g} s)"
+        else:
+            yield from _hold_rules(index, frame, at, free)
+        before = (index, at)
+        free.update({axis: (index, at + (hold or 0)) for axis in AXES if axis in frame})
+    for index, cue in enumerate(sequence(data, "cues")):
+        if wrong := _time(mapping(cue), "at", fps)[1]:
+            yield ("cues", index, "at"), wrong
+
+
+def _hold_rules(
+    index: int, frame: Mapping[str, Any], at: float, free: Mapping[str, tuple[int, float]]
+) -> Iterator[Wrong]:
+    for axis, (holder, end) in free.items():
+        if axis in frame and at < end:
+            yield ("keyframes", index, "at"), f"must be after keyframes[{holder}] has held {axis} (until {end:g} s)"
+
+
+def _time(section: Mapping[str, Any], key: str, fps: float | None) -> tuple[float | None, str]:
+    """The time at a key in seconds, or what is wrong with it; a missing one is pydantic's to report."""
+    if key not in section:
+        return None, ""
+    try:
+        return seconds(section[key], fps), ""
+    except ValueError as error:
+        return None, str(error)
+
+
+def rig_rules(data: Any, limits: Mapping[Axis, Limits], rig: str) -> Iterator[Wrong]:
+    """Every key is on an axis of the rig and inside its soft limits."""
+    by_name = {axis.value: axis_limits for axis, axis_limits in limits.items()}
+    for index, frame in enumerate(sequence(data, "keyframes")):
+        for axis in AXES:
+            position = number(mapping(frame).get(axis))
+            if position is None:
+                continue
+            if axis not in by_name:
+                yield ("keyframes", index, axis), f"cannot be: {rig} has no {axis}; it has {', '.join(by_name)}"
+            elif not by_name[axis].minimum <= position <= by_name[axis].maximum:
+                low, high = by_name[axis].minimum, by_name[axis].maximum
+                yield ("keyframes", index, axis), f"must be within {low:g}..{high:g} ({rig}), not {position:g}"
