@@ -23,6 +23,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "play": ("teleop.cli.play:play", "Play a sequence on a rig."),
     "live": ("teleop.cli.live:live", "Move a rig by its sticks."),
     "check": ("teleop.cli.check:check", "Check a sequence against a rig."),
+    "preview": ("teleop.cli.preview:preview", "Draw a sequence as a page, a picture or a table."),
     "sim": ("teleop.cli.sim:sim", "Simulate a rig's devices on a real bus."),
     "send": ("teleop.cli.send:send", "Send one command to a rig's gimbal, camera or focus motor."),
     "monitor": ("teleop.cli.monitor:monitor", "Show what host and gimbal say to each other on a CAN bus."),

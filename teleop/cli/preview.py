@@ -1,0 +1,117 @@
+"""`teleop preview FILE`: what a move will look like, without touching a port.
+
+What can be wrong with the request is found before the sequence is planned, and what is wrong with the sequence before
+anything is written.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator, Mapping
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Annotated, BinaryIO
+
+from cyclopts import Parameter
+
+from teleop.cli.options import DEFAULTS, Options
+from teleop.ports import UsageError
+from teleop.preview.output import replacing
+from teleop.profile import Profile
+from teleop.sources.sequence_file import Performance
+
+Write = Callable[[Performance, Profile, BinaryIO], None]
+
+
+def preview(
+    file: Annotated[str, Parameter(help="A shipped sequence's name, or a file.")],
+    /,
+    *,
+    output: Annotated[
+        Path | None, Parameter(name=("--output", "-o"), help="Write a page (.html) or a drawing (.svg, .png).")
+    ] = None,
+    csv: Annotated[Path | None, Parameter(help="Write a table of every axis over time.")] = None,
+    rate: Annotated[float, Parameter(help="Rows of the table per second.")] = 100.0,
+    options: Options = DEFAULTS,
+) -> int:
+    """Draw a sequence as a rig would play it: an interactive page, a drawing or a table."""
+    writes = _writes(output, csv, rate)
+    profile, performance = options.performance(file)
+    written = []
+    for path, write in writes.items():
+        with replacing(path) as stream:
+            write(performance, profile, stream)
+            written.append({"path": str(path), "bytes": stream.tell()})
+        if not options.json:
+            print(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}")
+    if options.json:
+        found = {"ok": True, "title": performance.title, "duration": performance.duration, "written": written}
+        print(json.dumps({**found, "warnings": list(performance.warnings)}))
+    return 0
+
+
+def _writes(output: Path | None, csv: Path | None, rate: float) -> Mapping[Path, Write]:
+    """What to write where; raises UsageError when that cannot be done on any sequence."""
+    writes: dict[Path, Write] = {}
+    if output is not None:
+        ending = output.suffix.lower()
+        if ending not in _KINDS:
+            raise UsageError(f"-o {output}: its ending must be one of {', '.join(_KINDS)}")
+        if _KINDS[ending] is _drawing and find_spec("matplotlib") is None:
+            raise UsageError(f"-o {output}: a drawing needs matplotlib: pip install 'rs-teleop[plot]'")
+        writes[output] = _KINDS[ending](ending)
+    if csv is not None:
+        if not (math.isfinite(rate) and rate > 0):
+            raise UsageError(f"--rate {rate:g}: must be more than 0 rows per second")
+        if output is not None and csv.resolve() == output.resolve():
+            raise UsageError(f"--csv {csv}: is where -o writes too")
+        writes[csv] = _table(rate)
+    if not writes:
+        raise UsageError("nothing to write: give -o FILE.html, .svg or .png, or --csv FILE")
+    return writes
+
+
+def _page(_ending: str) -> Write:
+    def write(performance: Performance, profile: Profile, stream: BinaryIO) -> None:
+        from teleop.preview.page import page
+
+        stream.write(page(performance, profile).encode())
+
+    return write
+
+
+def _drawing(ending: str) -> Write:
+    def write(performance: Performance, profile: Profile, stream: BinaryIO) -> None:
+        from teleop.preview.drawing import draw
+
+        draw(performance, profile, stream, ending.removeprefix("."))
+
+    return write
+
+
+_KINDS: Mapping[str, Callable[[str], Write]] = {".html": _page, ".svg": _drawing, ".png": _drawing}
+
+
+def _table(rate: float) -> Write:
+    def write(performance: Performance, _profile: Profile, stream: BinaryIO) -> None:
+        for text in _progress(performance, rate):
+            stream.write(text.encode())
+
+    return write
+
+
+def _progress(performance: Performance, rate: float) -> Iterator[str]:
+    """The table's text, with a bar on a terminal: a day takes a minute."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from teleop.preview.table import header, lines
+
+    move, console = performance.move, Console(stderr=True)
+    yield header(list(move.tracks))
+    with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task("Writing", total=move.duration or None)
+        for times, samples in move.chunks(rate):
+            yield from lines([(times, samples)])
+            bar.update(task, completed=float(times[-1]))

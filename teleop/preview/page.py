@@ -1,0 +1,91 @@
+"""A performance as one HTML file that works where there is no network: on set, from a memory stick.
+
+Everything is inlined, and a content security policy forbids the page to fetch anything, so that this is not left to
+care. The move goes in as JSON with `<` escaped, the one character by which data could end its script; titles reach the
+document as text only.
+"""
+
+from __future__ import annotations
+
+import html
+import json
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+from teleop.motion import Axis, Limits
+from teleop.preview.curves import QUANTITIES, curve
+from teleop.preview.look import COLOURS, PER, UNITS
+from teleop.profile import Profile
+from teleop.sources.sequence_file import Performance
+
+_WEB = Path(__file__).parent / "web"
+_UPLOT = Path(__file__).parent / "vendor" / "uplot"
+_SCRIPTS = ("values", "marks", "plots")  # one module: in this order
+
+
+def page(performance: Performance, profile: Profile) -> str:
+    """The HTML text of an interactive page about `performance` on the rig of `profile`."""
+    data = json.dumps(_data(performance, profile), separators=(",", ":"), allow_nan=False)
+    parts = {
+        "title": html.escape(performance.title),
+        "data": data.replace("<", "\\u003c"),
+        "style": _text(_WEB / "page.css"),
+        "script": "\n".join(_text(_WEB / f"{name}.js") for name in _SCRIPTS),
+        "uplot_style": _text(_UPLOT / "uPlot.min.css"),
+        "uplot": _text(_UPLOT / "uPlot.iife.min.js"),
+        "uplot_licence": _text(_UPLOT / "LICENSE"),
+    }
+    return re.sub(r"{{(\w+)}}", lambda found: parts[found[1]], _text(_WEB / "page.html"))
+
+
+def _text(file: Path) -> str:
+    return file.read_text(encoding="utf-8").strip()
+
+
+def _data(performance: Performance, profile: Profile) -> dict[str, Any]:
+    """What page.js draws."""
+    return {
+        "title": performance.title,
+        "rig": profile.name,
+        "duration": performance.duration,
+        "cues": [{"at": cue.at, "name": cue.action.value} for cue in performance.cues],
+        "quantities": [{"name": name, "per": PER[name]} for name in QUANTITIES],
+        "axes": [_axis(axis, performance, profile.limits[axis]) for axis in performance.move.tracks],
+        "warnings": list(performance.warnings),
+    }
+
+
+def _axis(axis: Axis, performance: Performance, limits: Limits) -> dict[str, Any]:
+    track = performance.move.tracks[axis]
+    times, rows = curve(track, performance.duration)
+    peaks = track.peaks()
+    reach = {name: [-getattr(limits, name), getattr(limits, name)] for name in QUANTITIES[1:]}
+    return {
+        "name": axis.value.replace("_", " "),
+        "colour": COLOURS[axis],
+        "unit": UNITS[axis],
+        "limits": {"position": [_finite(limits.minimum), _finite(limits.maximum)], **reach},
+        "peaks": {
+            "position": [_short(peaks.minimum), _short(peaks.maximum)],
+            **{name: [_short(getattr(peaks, name))] for name in QUANTITIES[1:]},
+        },
+        "keys": [
+            {"at": key.at, "hold": key.hold, "position": key.position, "name": key.where}
+            for key in performance.keys[axis]
+        ],
+        "times": [round(time, 6) for time in times.tolist()],
+        "samples": {
+            name: [_short(value) for value in row] for name, row in zip(QUANTITIES, rows.tolist(), strict=True)
+        },
+    }
+
+
+def _finite(limit: float) -> float | None:
+    return limit if math.isfinite(limit) else None
+
+
+def _short(value: float) -> float:
+    """Six digits: finer than a screen, a third of the bytes."""
+    return float(f"{value:.6g}")
