@@ -14,7 +14,7 @@ from teleop.links import open_link, parse
 from teleop.loop import PERIOD, Loop
 from teleop.motion import Axis, Limits
 from teleop.planner.live import Live
-from teleop.ports import Clock, Link, Reporter, Sink, Source
+from teleop.ports import Clock, Reporter, Sink, Source
 from teleop.profile import MOVES, CameraSection, FocusSection, GimbalSection, Profile
 from teleop.sim.gimbal import SimulatedGimbal
 from teleop.sim.link import SimLink
@@ -37,12 +37,17 @@ class Device:
 
 
 class Rig:
-    """An open rig. `simulated` has the devices behind the links that are `sim:`, by link name."""
+    """An open rig. By link name, `connections` and `simulated`, the devices behind the links that are `sim:`."""
 
     def __init__(
-        self, profile: Profile, clock: Clock, devices: Sequence[Device], simulated: Mapping[str, SimulatedGimbal]
+        self,
+        profile: Profile,
+        clock: Clock,
+        devices: Sequence[Device],
+        connections: Mapping[str, Connection],
+        simulated: Mapping[str, SimulatedGimbal],
     ) -> None:
-        self.profile, self.clock, self.simulated = profile, clock, simulated
+        self.profile, self.clock, self.connections, self.simulated = profile, clock, connections, simulated
         self._devices = devices
 
     def loop(self, axes: Sequence[Axis], sources: Sequence[Source], watchers: Sequence[Sink] = ()) -> Loop:
@@ -67,15 +72,15 @@ def open_rig(profile: Profile, clock: Clock) -> Iterator[Rig]:
         for name, url in profile.links.items():
             if parse(url).kind == "sim":
                 simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile))
-                link: Link = SimLink(simulated[name], clock.now)
+                sim = SimLink(simulated[name], clock.now)
+                connections[name] = Connection(name, url, sim, clock.now())
             else:
-                opened = open_link(url, now=clock.now)
-                stack.callback(opened.close)
-                link = opened
-            connections[name] = Connection(name, url, link, clock.now())
+                link = open_link(url, now=clock.now)
+                stack.callback(link.close)
+                connections[name] = Connection(name, url, link, clock.now(), link.counts)
         limits = profile.limits
         devices = [BUILDERS[section.type](section, connections[section.link], limits) for section in profile.sinks]
-        yield Rig(profile, clock, devices, simulated)
+        yield Rig(profile, clock, devices, connections, simulated)
 
 
 def _turns_for_ever(profile: Profile) -> bool:

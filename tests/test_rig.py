@@ -143,6 +143,17 @@ def test_axes_that_no_keyframe_names_are_left_alone(tmp_path: Path) -> None:
         assert tap.of(focus.Set) == tap.of(focus.Get) == []
 
 
+def test_the_gimbal_is_told_our_version_once_a_second(tmp_path: Path) -> None:
+    stage = Stage(tmp_path, "position")
+    with stage.rig() as (rig, tap):
+        loop, _ = stage.playing(rig)
+        begun = stage.clock.now()
+        loop.run()
+        pushes = tap.of(gimbal.VersionPush)
+        assert len(pushes) == pytest.approx(stage.clock.now() - begun, abs=2)
+        assert tap.gimbal.settings.host_version == pushes[0][1].version == "00.01.00.00"
+
+
 @pytest.mark.parametrize("mode", MODES)
 def test_commands_keep_their_rate_while_moving(tmp_path: Path, mode: str) -> None:
     stage = Stage(tmp_path, mode)

@@ -18,6 +18,7 @@ from teleop.supervisor import Result, Supervisor
 
 EXIT_CODES: Mapping[Result, int] = {Result.DONE: 0, Result.FAILED: 1, Result.INTERRUPTED: 130}
 SWITCH_INTERVAL = 0.0005  # s: how long the display's thread may hold up the control thread
+TRAFFIC = ("frames_out", "frames_in", "replies")  # of a connection's counts, those that are no trouble
 STOPPING = ("SIGINT", "SIGTERM")
 LEAVING = ("SIGHUP", "SIGQUIT")  # these stop it too, unless whoever started it had them ignored: nohup
 
@@ -31,11 +32,14 @@ def perform(
     with signals_to(loop.interrupt), display:
         ended = loop.run()
     if as_json:
-        print(json.dumps(_report(ended, tally)))
+        print(json.dumps(_report(ended, tally, rig)))
     else:
         for reason in ended.reasons:
             print(f"teleop: stopped: {reason}", file=sys.stderr)
         error_table(tally)
+        for name, connection in rig.connections.items():
+            if troubles := _troubles(connection.counts):
+                print(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")
     return EXIT_CODES[ended.result]
 
 
@@ -60,7 +64,12 @@ def _known(names: Sequence[str]) -> Sequence[signal.Signals]:
     return [signal.Signals[name] for name in names if name in signal.Signals.__members__]
 
 
-def _report(ended: Supervisor, tally: Tally) -> Mapping[str, object]:
+def _troubles(counts: Mapping[str, int]) -> Mapping[str, int]:
+    """Those of a connection's counts that should be 0."""
+    return {word.replace("_", " "): count for word, count in counts.items() if count and word not in TRAFFIC}
+
+
+def _report(ended: Supervisor, tally: Tally, rig: Rig) -> Mapping[str, object]:
     return {
         "result": ended.result.name.lower(),
         "reasons": ended.reasons,
@@ -69,4 +78,5 @@ def _report(ended: Supervisor, tally: Tally) -> Mapping[str, object]:
             axis.value: {"readings": score.readings, "rms": round(score.rms, 6), "peak": round(score.peak, 6)}
             for axis, score in tally.scores.items()
         },
+        "links": {name: connection.counts for name, connection in rig.connections.items()},
     }

@@ -6,6 +6,7 @@ simulated run need not pay. `sim:` is not here, because the simulator stands abo
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
@@ -15,16 +16,22 @@ from teleop.ports import Link
 if TYPE_CHECKING:
     from teleop.links.can import CanListener
 
-__all__ = ["ClosableLink", "LinkAddress", "LinkUrlError", "open_link", "open_listener", "parse"]
+__all__ = ["ClosableLink", "LinkAddress", "LinkUrlError", "OpenLink", "open_link", "open_listener", "parse"]
 
 
 class ClosableLink(Link, Protocol):
-    """A link to a port that was opened and has to be closed; closing twice is fine."""
+    """A link that has to be closed; closing twice is fine."""
 
     def close(self) -> None: ...
 
 
-def open_link(address: str | LinkAddress, *, host: bool = True, now: Callable[[], float]) -> ClosableLink:
+class OpenLink(ClosableLink, Protocol):
+    """A link to a port; `counts` has what went wrong without the link being lost, by name."""
+
+    counts: Counter[str]
+
+
+def open_link(address: str | LinkAddress, *, host: bool = True, now: Callable[[], float]) -> OpenLink:
     """Opens a link URL or a parsed one; `host=False` is the device's end of a CAN bus. `now` is a clock in seconds.
 
     Raises LinkUrlError for a URL that names nothing to open, LinkError when it cannot be opened.
@@ -51,20 +58,20 @@ def open_listener(address: str | LinkAddress, *, now: Callable[[], float]) -> Ca
     return CanListener(address, now=now)
 
 
-def _open_can(address: LinkAddress, host: bool, now: Callable[[], float]) -> ClosableLink:
+def _open_can(address: LinkAddress, host: bool, now: Callable[[], float]) -> OpenLink:
     from teleop.links.can import GIMBAL_ID, HOST_ID, CanLink
 
     transmit, receive = (HOST_ID, GIMBAL_ID) if host else (GIMBAL_ID, HOST_ID)
     return CanLink(address, transmit, receive, now=now)
 
 
-def _open_serial(address: LinkAddress, host: bool, now: Callable[[], float]) -> ClosableLink:  # noqa: ARG001
+def _open_serial(address: LinkAddress, host: bool, now: Callable[[], float]) -> OpenLink:  # noqa: ARG001
     from teleop.links.serial import SerialLink
 
     return SerialLink(address, now=now)
 
 
-_OPENERS: dict[str, Callable[[LinkAddress, bool, Callable[[], float]], ClosableLink]] = {
+_OPENERS: dict[str, Callable[[LinkAddress, bool, Callable[[], float]], OpenLink]] = {
     "can": _open_can,
     "serial": _open_serial,
 }

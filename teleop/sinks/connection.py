@@ -7,8 +7,8 @@ every byte: not by time alone, since a resting loop asks seldom, but by time and
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
 
 from teleop.dji.message import Message
 from teleop.dji.session import Session
@@ -28,15 +28,26 @@ class Answer:
 
 
 class Connection:
-    """`name` is what errors call the far end, `url` where it is; it is first expected to be heard after `now`."""
+    """`name` is what errors call the far end, `url` where it is; it is first expected to be heard after `now`.
 
-    def __init__(self, name: str, url: str, link: Link, now: float) -> None:
+    `link_counts` are what the link counts of its own: how often it was full, what it dropped.
+    """
+
+    def __init__(
+        self, name: str, url: str, link: Link, now: float, link_counts: Mapping[str, int] | None = None
+    ) -> None:
         self.session = Session()
+        self._link_counts = {} if link_counts is None else link_counts
         self._name, self._url, self._link = name, url, link
         self._handlers: dict[type[Message], list[Callable[[Answer], None]]] = {}
         self._sent: dict[int, float] = {}
         self._heard = self._polled = now
         self._unanswered = 0
+
+    @property
+    def counts(self) -> Mapping[str, int]:
+        """How much has passed, and everything that went wrong without being a fault, by name."""
+        return {**asdict(self.session.counts), **self._link_counts}
 
     def on_answer(self, request: type[Message], handler: Callable[[Answer], None]) -> None:
         """Have `handler` called with the answer to each request of a kind, and when one has none."""

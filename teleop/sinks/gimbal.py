@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import cache
+from importlib.metadata import version
 
 from teleop.dji import gimbal
 from teleop.dji.message import Message, Result
@@ -22,19 +24,22 @@ from teleop.sinks.wiring import Wiring
 
 TIME_FOR_ACTION = 0.1  # s, the shortest there is
 POLL_RATE = 25  # Hz, questions for the angles: pushes may come once a second only (r-sdk-facts.md)
+GREETING_RATE = 1  # Hz, of the push of our own version: R SDK V2.5, section 2.3.4.10, figure 17
 REPEAT = 1.0  # s after which the position of a resting axis is sent again
 REFUSALS = 5  # refused commands in a row before it is a fault: one may be damage that a checksum missed
 
 
 class Angles:
-    """Asks the gimbal where it is. Readings carry the time of the question: a gimbal samples within 5 ms of it.
+    """Asks the gimbal where it is, and tells it once a second who asks, as the document wants of its devices.
+
+    Readings carry the time of the question: a gimbal samples within 5 ms of it.
 
     Angles come in -180..180; a reading continues the one before it, so that an axis may turn on and on.
     """
 
     def __init__(self, connection: Connection, wiring: Wiring) -> None:
         self._connection, self._wiring = connection, wiring
-        self._pace = Pace(POLL_RATE)
+        self._pace, self._greeting = Pace(POLL_RATE), Pace(GREETING_RATE)
         self._readings: dict[Axis, Reading] = {}
         connection.on_answer(gimbal.Angles, self._answered)
 
@@ -42,6 +47,8 @@ class Angles:
         self._connection.poll(now)
         if self._pace.due(now):
             self._connection.request(gimbal.Angles(AngleKind.ATTITUDE), now)
+        if self._greeting.due(now):
+            self._connection.stream(gimbal.VersionPush(version=_own_version()))
         return self._readings
 
     def _answered(self, answer: Answer) -> None:
@@ -128,6 +135,13 @@ def position_command(angles: Mapping[Axis, float], wiring: Wiring, seconds: floa
         pitch_ignored=no_pitch,
         time_for_action=seconds,
     )
+
+
+@cache
+def _own_version() -> str:
+    """This program's version as AA.BB.CC.DD."""
+    numbers = [int(part) for part in version("rs-teleop").split(".")[:4] if part.isdecimal()]
+    return ".".join(f"{number:02}" for number in (numbers + [0] * 4)[:4])
 
 
 def _wrapped(angle: float) -> float:

@@ -32,6 +32,8 @@ def test_json_is_one_object_for_programs() -> None:
     assert report["seconds"] > 15
     assert set(report["axes"]) == {"pan", "tilt", "focus"}
     assert report["axes"]["pan"]["rms"] < 0.1
+    assert report["links"]["gimbal"]["replies"] > 100
+    assert report["links"]["gimbal"]["lost_replies"] == 0
 
 
 def test_sticks_are_replayed(tmp_path: Path) -> None:
