@@ -65,6 +65,7 @@ class Loop:
         self._motion: Motion = {}
         self._reported: dict[Axis, Reading] = {}
         self._interrupt = ""
+        self._planner_failed = False  # while stopping
         self._release_due = dict.fromkeys(range(len(sinks)), -math.inf)  # sink -> when its next step is
         self._release_end = math.inf
         self._turns: Mapping[Run, Callable[[float, int], None]] = {
@@ -140,10 +141,11 @@ class Loop:
             self.supervisor.happened(Event.FINISHED)
 
     def _stop(self, now: float, steps: int) -> None:
-        """Ramp to rest; where even the planner fails, by the closed form alone."""
+        """Ramp to rest; once even the planner has failed, by the closed form alone, from what was last sent."""
         demand: Demand = {axis: Halt() for axis in self._limits}
-        motion = self._guarded(self._planner.step, demand, steps)
+        motion = None if self._planner_failed else self._guarded(self._planner.step, demand, steps)
         if motion is None:
+            self._planner_failed = True
             motion = {axis: self._braked(axis, steps * PERIOD) for axis in self._motion}
         self._motion = motion
         self._emit(now, demand, ())

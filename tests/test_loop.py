@@ -9,7 +9,7 @@ from fakes import PlacedReporter, RecordingSink, ScriptedSource, StallingClock, 
 
 from teleop.clock import VirtualClock
 from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, RELEASE_PATIENCE, STALL, Loop
-from teleop.motion import Action, Axis, Cruise, Limits, State
+from teleop.motion import Action, Axis, Cruise, Halt, Limits, State
 from teleop.planner.live import Live
 from teleop.ports import Clock, LinkError
 from teleop.supervisor import Result, Run
@@ -115,6 +115,24 @@ def test_an_exception_anywhere_ramps_to_rest_and_releases_everything(culprit: st
     assert len(sink.released) == 3
     assert len(bad_sink.released) == 1
     assert max(tick.motion[Axis.PAN].velocity for tick in sink.ticks) == pytest.approx(50)
+    assert_smooth_to_rest(sink)
+
+
+def test_a_planner_that_fails_while_stopping_and_recovers_does_not_jump() -> None:
+    class Flaky(Live):
+        halts = 0
+
+        def step(self, demand, dt_steps: int = 1):
+            self.halts += isinstance(demand.get(Axis.PAN), Halt)
+            if 3 <= self.halts < 12:
+                raise ZeroDivisionError("a defect")
+            return super().step(demand, dt_steps)
+
+    sink, clock = RecordingSink(), VirtualClock()
+    source = cruising(Axis.PAN, 50, end=60.0)
+    source.read = failing(1.0, clock, source.read)
+    ended = loop_of([source], [sink], clock=clock, planner=Flaky(LIMITS, PERIOD)).run()
+    assert ended.result is Result.FAILED
     assert_smooth_to_rest(sink)
 
 
