@@ -40,6 +40,7 @@ class Connection:
         self._link_counts = {} if link_counts is None else link_counts
         self._name, self._url, self._link = name, url, link
         self._handlers: dict[type[Message], list[Callable[[Answer], None]]] = {}
+        self._push_handlers: dict[type[Message], list[Callable[[Message, float], None]]] = {}
         self._sent: dict[int, float] = {}
         self._heard = self._polled = now
         self._unanswered = 0
@@ -52,6 +53,10 @@ class Connection:
     def on_answer(self, request: type[Message], handler: Callable[[Answer], None]) -> None:
         """Have `handler` called with the answer to each request of a kind, and when one has none."""
         self._handlers.setdefault(request, []).append(handler)
+
+    def on_push(self, kind: type[Message], handler: Callable[[Message, float], None]) -> None:
+        """Have `handler` called with each message of a kind that comes unasked, and the time of the poll it came in."""
+        self._push_handlers.setdefault(kind, []).append(handler)
 
     def stream(self, message: Message) -> None:
         """Send a message that has no reply. Raises LinkError, or FieldError when a field is out of its range."""
@@ -73,6 +78,8 @@ class Connection:
             self._heard, self._unanswered = now, 0
             if received.request is not None:
                 self._answer(received.request, received.frame.sequence, received.message)
+            for handler in self._push_handlers.get(type(received.message), ()):
+                handler(received.message, now)
         for lost in self.session.overdue(now):
             self._unanswered += 1
             self._answer(lost.request, lost.sequence, None)

@@ -25,6 +25,7 @@ from teleop.sinks.wiring import Wiring
 TIME_FOR_ACTION = 0.1  # s, the shortest there is
 POLL_RATE = 25  # Hz, questions for the angles: pushes may come once a second only (r-sdk-facts.md)
 GREETING_RATE = 1  # Hz, of the push of our own version: R SDK V2.5, section 2.3.4.10, figure 17
+UNANSWERED = 0.3  # s without an answer after which a push is believed instead
 REPEAT = 1.0  # s after which the position of a resting axis is sent again
 REFUSALS = 5  # refused commands in a row before it is a fault: one may be damage that a checksum missed
 
@@ -32,7 +33,8 @@ REFUSALS = 5  # refused commands in a row before it is a fault: one may be damag
 class Angles:
     """Asks the gimbal where it is, and tells it once a second who asks, as the document wants of its devices.
 
-    Readings carry the time of the question: a gimbal samples within 5 ms of it.
+    Readings carry the time of the question: a gimbal samples within 5 ms of it. One that leaves questions unanswered is
+    asked to push, and read from its pushes while it does not answer; they come seldom, and with no time of their own.
 
     Angles come in -180..180; a reading continues the one before it, so that an axis may turn on and on.
     """
@@ -41,24 +43,37 @@ class Angles:
         self._connection, self._wiring = connection, wiring
         self._pace, self._greeting = Pace(POLL_RATE), Pace(GREETING_RATE)
         self._readings: dict[Axis, Reading] = {}
+        self._push_request = Pace(GREETING_RATE)
+        self._answered_at, self._unanswered = -math.inf, False
         connection.on_answer(gimbal.Angles, self._answered)
+        connection.on_push(gimbal.Push, self._pushed)
 
     def report(self, now: float) -> Mapping[Axis, Reading]:
         self._connection.poll(now)
         if self._pace.due(now):
             self._connection.request(gimbal.Angles(AngleKind.ATTITUDE), now)
+        if self._unanswered and self._push_request.due(now):
+            self._connection.request(gimbal.PushSettings(gimbal.Switch.ON), now)
         if self._greeting.due(now):
             self._connection.stream(gimbal.VersionPush(version=_own_version()))
         return self._readings
 
     def _answered(self, answer: Answer) -> None:
         reply = answer.reply
-        if not isinstance(reply, gimbal.AnglesReply) or reply.return_code or reply.kind != AngleKind.ATTITUDE:
-            return
-        for axis, angle in self._wiring.from_gimbal(reply.yaw, reply.roll, reply.pitch).items():
+        self._unanswered = reply is None
+        if isinstance(reply, gimbal.AnglesReply) and not reply.return_code and reply.kind == AngleKind.ATTITUDE:
+            self._answered_at = answer.sent
+            self._read(reply, answer.sent)
+
+    def _pushed(self, push: Message, now: float) -> None:
+        if isinstance(push, gimbal.Push) and push.angles_valid and now - self._answered_at > UNANSWERED:
+            self._read(push, now)
+
+    def _read(self, angles: gimbal.AnglesReply | gimbal.Push, time: float) -> None:
+        for axis, angle in self._wiring.from_gimbal(angles.yaw, angles.roll, angles.pitch).items():
             if before := self._readings.get(axis):
                 angle += 360 * round((before.position - angle) / 360)
-            self._readings[axis] = Reading(angle, answer.sent)
+            self._readings[axis] = Reading(angle, time)
 
 
 class Refusals:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from teleop.dji import gimbal
 from teleop.dji.message import Result
-from teleop.motion import Axis, Limits, Motion, State, Tick
+from teleop.motion import Axis, Limits, Motion, Reading, State, Tick
 from teleop.ports import DeviceError
 from teleop.sinks.gimbal import POLL_RATE, REFUSALS, REPEAT, TIME_FOR_ACTION, Angles, PositionSink
 from teleop.sinks.wiring import Wiring
@@ -131,6 +131,35 @@ def test_angles_come_back_in_the_operators_words_and_signs() -> None:
 def test_an_angle_that_wraps_goes_on() -> None:
     pans = [each[Axis.PAN] for each in angles_over([(yaw, 0.0, 0.0) for yaw in (170.0, 179.9, -179.9, -90.0, 0.0)], {})]
     assert pans == pytest.approx([170, 179.9, 180.1, 270, 360])
+
+
+def push(yaw: float, roll: float, pitch: float, valid: bool = True) -> gimbal.Push:
+    return gimbal.Push(valid, False, False, yaw, roll, pitch, 0.0, 0.0, 0.0, 145, 55, 179, 179, 30, 30, 50, 50, 50)
+
+
+def test_a_gimbal_that_does_not_answer_is_asked_to_push_and_read_from_that() -> None:
+    far = FarEnd()
+    reporter = Angles(far.connection, Wiring(signs={Axis.TILT: -1}))
+    for number in range(30):
+        reporter.report(number / 100)
+        far.serve(number / 100)
+    assert gimbal.PushSettings(gimbal.Switch.ON) in far.heard
+    far.push(push(99.0, 99.0, 99.0, valid=False))
+    far.push(push(10.0, 2.0, -5.0))
+    readings = reporter.report(0.31)
+    assert readings == {axis: Reading(p, 0.31) for axis, p in ((Axis.PAN, 10.0), (Axis.ROLL, 2.0), (Axis.TILT, 5.0))}
+
+
+def test_a_gimbal_that_answers_is_not_asked_to_push_nor_believed_when_it_does() -> None:
+    far = FarEnd()
+    far.replies[gimbal.Angles] = lambda _request: gimbal.AnglesReply(0, gimbal.AngleKind.ATTITUDE, 1.0, 0.0, 0.0)
+    reporter = Angles(far.connection, Wiring())
+    for number in range(30):
+        far.push(push(10.0, 0.0, 0.0))
+        readings = reporter.report(1 + number / 100)
+        far.serve(1 + number / 100)
+        assert number < 2 or readings[Axis.PAN].position == 1.0
+    assert not any(isinstance(message, gimbal.PushSettings) for message in far.heard)
 
 
 def test_angles_that_are_not_ready_are_no_reading() -> None:

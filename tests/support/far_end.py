@@ -21,6 +21,9 @@ class FarEnd:
         self.heard: list[Message] = []
         self._session = Session()
 
+    def push(self, message: Message) -> None:
+        self.link.send(self._session.command(message))
+
     def serve(self, now: float) -> list[Message]:
         """Take in what was sent, answer it, and return it."""
         received = self._session.receive(self.link.receive(), now)
