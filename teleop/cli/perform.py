@@ -36,7 +36,8 @@ def perform(
     else:
         for reason in ended.reasons:
             print(f"teleop: stopped: {reason}", file=sys.stderr)
-        error_table(tally)
+        if tally.scores:
+            error_table(tally)
         for name, connection in rig.connections.items():
             if troubles := _troubles(connection.counts):
                 print(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")

@@ -21,6 +21,7 @@ _GONE = "the adapter is gone: plug it in, then start again"
 _UP = "sudo ip link set {channel} up type can bitrate {bitrate}"
 _VIRTUAL_UP = "sudo ip link add dev {channel} type vcan; sudo ip link set {channel} up"
 
+_DRIVERS = {"gs_usb": "pip install 'rs-teleop[gs-usb]'"}
 _OPENING: Mapping[tuple[str, int], str] = {
     ("socketcan", errno.ENODEV): f"no interface {{channel}}: {_UP}",
     ("vcan", errno.ENODEV): f"no interface {{channel}}: {_VIRTUAL_UP}",
@@ -56,6 +57,12 @@ def system_error(error: BaseException | None) -> OSError | None:
 def opening_failed(address: LinkAddress, error: BaseException) -> LinkError:
     """The line for a link that could not be opened."""
     return _explain(address, error, _OPENING)
+
+
+def driver_missing(address: LinkAddress) -> LinkError:
+    """The line for an interface whose package or vendor's library is not on this machine."""
+    source = _DRIVERS.get(address.interface, f"python-can's documentation of {address.interface} says what to install")
+    return LinkError(f"{address}: its driver is not installed: {source}")
 
 
 def link_failed(address: LinkAddress, error: BaseException) -> LinkError:

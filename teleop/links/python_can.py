@@ -19,7 +19,7 @@ from typing import Any
 import can
 
 from teleop.links.can import Arrival
-from teleop.links.faults import opening_failed, system_error
+from teleop.links.faults import driver_missing, opening_failed, system_error
 from teleop.links.outbox import Stall
 from teleop.links.url import LinkAddress
 
@@ -114,6 +114,8 @@ def _open(address: LinkAddress) -> can.BusABC:
     options = _OPTIONS.get(address.interface, {})
     try:
         return can.Bus(channel, interface=address.interface, bitrate=address.bitrate, ignore_config=True, **options)
+    except (ImportError, NameError, can.CanInterfaceNotImplementedError) as error:  # NameError: kvaser's own way
+        raise driver_missing(address) from error
     except (can.CanError, OSError, ValueError) as error:
         raise opening_failed(address, error) from error
 

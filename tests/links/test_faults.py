@@ -1,4 +1,5 @@
 import errno
+import re
 
 import can
 import pytest
@@ -240,6 +241,20 @@ def test_opening_what_is_not_there_is_one_line_and_nothing_else(
     assert "\n" not in str(refused.value)
     assert capfd.readouterr() == ("", "")
     assert caplog.records == []
+
+
+@pytest.mark.parametrize(
+    ("url", "says"), [("gs_usb:0", "pip install 'rs-teleop[gs-usb]'"), ("kvaser:0", "documentation of kvaser says")]
+)
+def test_an_interface_without_its_driver_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch, url: str, says: str
+) -> None:
+    def missing(*_arguments: object, **_options: object) -> None:
+        raise NameError("name 'canGetNumberOfChannels' is not defined")
+
+    monkeypatch.setattr("can.Bus", missing)
+    with pytest.raises(LinkError, match=f"^{re.escape(url)}: its driver is not installed: .*{re.escape(says)}"):
+        open_link(url, now=lambda: 0.0)
 
 
 def test_a_simulated_device_is_not_a_port() -> None:
