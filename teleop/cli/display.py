@@ -95,5 +95,5 @@ def error_table(tally: Tally) -> None:
     for axis, score in tally.scores.items():
         commanded, measured = tally.ends(axis)
         numbers = (commanded, measured, score.rms, score.peak)
-        table.add_row(axis.value, *(f"{value:.3f}" for value in numbers), UNITS.get(axis, "0..1"))
+        table.add_row(axis.value, *(f"{round(value, 3) + 0.0:.3f}" for value in numbers), UNITS.get(axis, "0..1"))
     Console().print(table)
