@@ -11,11 +11,12 @@ from __future__ import annotations
 
 import math
 
-from teleop.motion import Axis, Cruise, Limits, State, Wish
+from teleop.motion import Axis, Limits, State
 from teleop.planner.stop import brake_reach, brake_state, inevitable_velocity, stop_reach, stop_state
 
 SLACK = 1e-8  # units; Ruckig's own tolerance on positions
-ROUNDING = 1e-9  # relative, on limits
+INSET = 1e-7  # units inside the soft limit that a stick comes to rest, so that Ruckig's tolerance stays inside too
+ROUNDED = 1 + 1e-9  # relative, what rounding may add to a limit
 RESIDUE = 1e-9  # unit/s outward that is rounding, not motion
 GENTLEST = 1e-3  # an operator's limit below this share of the axis's own would divide by zero
 
@@ -25,22 +26,15 @@ def _stopping_distance(velocity: float, acceleration: float, jerk: float) -> flo
     return velocity * ((velocity / acceleration + acceleration / jerk) / 2 + acceleration / jerk)
 
 
-def _reach_bound(state: State, acceleration: float, jerk: float) -> float:
-    """More than any stop from `state` reaches either way; costs a third of the exact reach."""
-    _, velocity, rate = state
-    speed = abs(velocity) + rate * rate / (2 * jerk)
-    return speed * ((speed / acceleration + acceleration / jerk) / 2 + abs(rate) / jerk)
-
-
 class Drive:
     """One axis' state, its limits as they are in force, and the gentler ones an operator asked for."""
 
     def __init__(self, axis: Axis, limits: Limits, state: State) -> None:
         self.axis = axis
         self.limits = limits
+        self.fastest = limits.velocity
         self.state = State(*state)
-        self.gentle = self.guard = (limits.acceleration, limits.jerk)
-        self.now = self.guard  # acceleration and jerk for this tick's ordinary plan
+        self.now = self.gentle = self.guard = (limits.acceleration, limits.jerk)  # `now`: for this tick's ordinary plan
         self.narrow()
 
     def narrow(self) -> None:
@@ -56,7 +50,9 @@ class Drive:
         self._inner_high = self.high if high > 0.0 else limits.maximum
         self.velocity = max(limits.velocity, abs(velocity), abs(inevitable))
         self.guard = guard
-        self.gentle = guard
+        self.gentle = self.now = guard
+        # What a step that a reference asks for may have: velocity, acceleration, jerk.
+        self.bounds = self.velocity * ROUNDED, guard[0] * ROUNDED, guard[1] * ROUNDED
         self.margin = self.gentle_margin = _stopping_distance(self.velocity, *guard)
         self.outside = (
             self.low < limits.minimum
@@ -75,21 +71,20 @@ class Drive:
     def rests(self) -> bool:
         return self.state[1] == 0.0 and self.state[2] == 0.0
 
-    def aim(self, wish: Wish) -> float:
-        """The velocity a stick asks for, clipped, else 0; sets `now` to the limits under which to get there.
+    def holds(self, velocity: float) -> bool:
+        """Whether it is at rest and stays: asked for no velocity, or for one into the soft limit that it lies on."""
+        position, speed, rate = self.state
+        if speed != 0.0 or rate != 0.0:
+            return False
+        if velocity > 0.0:
+            return position >= self.high - 2 * INSET
+        return velocity == 0.0 or (velocity < 0.0 and position <= self.low + 2 * INSET)
 
-        The operator's limits apply only while the axis is inside them: outside, Ruckig would first brake into them.
+    def soften(self, acceleration: float | None, jerk: float | None) -> None:
+        """Set `now` to an operator's limits, None being the axis's own, as long as the axis is inside them.
+
+        Outside, Ruckig would first brake into them.
         """
-        self.now = self.guard
-        if not isinstance(wish, Cruise):
-            return 0.0
-        velocity, acceleration, jerk = wish
-        if acceleration is not None or jerk is not None:
-            self._soften(acceleration, jerk)
-        limit = self.limits.velocity
-        return limit if velocity > limit else -limit if velocity < -limit else velocity
-
-    def _soften(self, acceleration: float | None, jerk: float | None) -> None:
         a, j = self.guard
         gentle = (
             a if acceleration is None else min(a, max(acceleration, GENTLEST * a)),
@@ -100,7 +95,7 @@ class Drive:
             self.gentle_margin = _stopping_distance(self.velocity, *gentle)
             self._clear()
         _, speed, rate = self.state
-        fastest = self.velocity * (1 + ROUNDING)
+        fastest = self.velocity * ROUNDED
         inside = abs(rate) <= gentle[0] and abs(inevitable_velocity(speed, rate, gentle[1])) <= fastest
         self.now = gentle if inside else self.guard
 
@@ -109,9 +104,9 @@ class Drive:
 
         `gently` asks it of the operator's limits too, so that those are met before only the axis's own would do.
         """
-        position = state[0]
+        position, velocity, rate = state
         if self.outside:
-            outward = inevitable_velocity(state[1], state[2], self.guard[1])
+            outward = inevitable_velocity(velocity, rate, self.guard[1])
             if position > self.limits.maximum and outward > RESIDUE:
                 return 1
             if position < self.limits.minimum and outward < -RESIDUE:
@@ -122,10 +117,13 @@ class Drive:
             highest = max(self._inner_high, min(position, highest))
         tries = (self.now, self.guard) if gently and self.now is not self.guard else (self.guard,)
         for acceleration, jerk in tries:
-            bound = _reach_bound(state, acceleration, jerk)
-            if lowest + bound < position < highest - bound:
-                continue
-            low, high = stop_reach(state[1], state[2], acceleration, jerk)
+            change = rate * rate / (2 * jerk)  # of velocity, while the acceleration goes to 0
+            speed = abs(velocity) + change
+            bound = speed * ((speed / acceleration + acceleration / jerk) / 2 + abs(rate) / jerk)  # on either reach
+            down, up = velocity < -change, velocity > change  # and then it cannot turn on the way
+            if (lowest if up else lowest + bound) < position < (highest if down else highest - bound):
+                continue  # at a third of the cost of the exact reach
+            low, high = stop_reach(velocity, rate, acceleration, jerk)
             if position + high > highest + SLACK:
                 return 1
             if position + low < lowest - SLACK:

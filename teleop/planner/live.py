@@ -7,24 +7,24 @@ which end in the same guard stop. Since every committed state can be stopped, th
 since a plan is only ever a proposal for one tick, demands may change kind at any tick without a bump.
 
 All velocities go through one solver call because that costs half of four; whatever needs more is an axis's own affair.
+What every axis does every tick is written out in `step` and `_cruise`, where a call or a `zip` would be seen in the
+figures of tests/benchmarks/test_planner.py: there a step may cost four bare updates of Ruckig, half of it in Ruckig.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from teleop.motion import Axis, Cruise, Demand, Follow, Goto, Halt, Limits, Motion, State
-from teleop.planner.drive import Drive
+from teleop.motion import Axis, Cruise, Demand, Follow, Goto, Limits, Motion, State
+from teleop.planner.drive import INSET, Drive
 from teleop.planner.recall import Recall, plan_recalls
-from teleop.planner.solver import PositionSolver, VelocitySolver
+from teleop.planner.solver import PositionSolver, VelocitySolver, new_state
 from teleop.planner.stop import inevitable_velocity
 from teleop.planner.tracking import Tracker
 
-INSET = 1e-7  # units inside the soft limit that a stick comes to rest, so that Ruckig's tolerance stays inside too
 SLOWEST = 1e-3  # share of V with which a soft limit is approached at least: Ruckig needs more than 0
 RESIDUE = 1e-10  # unit/s and unit/s2 left by rounding when Ruckig's plan has come to rest
-HALT = Halt()
-STICK = (Cruise, Halt)  # what goes by velocity
+STILL = Cruise(0.0)  # what a halt is, and an axis of which nothing is asked
 
 
 class Live:
@@ -41,6 +41,7 @@ class Live:
         self._velocity = [VelocitySolver(max(1, count)) for count in range(len(limits) + 1)]  # by number of axes
         self._recalls: dict[Axis, Recall] = {}
         self._tracker = Tracker()
+        self._carried: list[Drive] = []  # whose states the velocity solver of so many axes knows
         self._before: Motion = {}
         self._after: Motion = {}
 
@@ -73,23 +74,35 @@ class Live:
 
     def step(self, demand: Demand, dt_steps: int = 1) -> dict[Axis, State]:
         """The motion `dt_steps` ticks on. An axis absent from `demand` comes to rest and stays."""
-        seconds = self._dt * dt_steps
+        seconds, asked = self._dt * dt_steps, demand.get
         sticks: list[Drive] = []
         velocities: list[float] = []
+        limits: list[tuple[float, float]] = []
         presets: list[tuple[Drive, Goto]] = []
         for drive in self._drives:
-            wish = demand.get(drive.axis, HALT)
-            if isinstance(wish, STICK):
-                velocity = drive.aim(wish)
-                if velocity != 0.0 or not drive.rests:
-                    sticks.append(drive)
-                    velocities.append(velocity)
-            elif isinstance(wish, Follow):
-                self._commit(drive, self._tracker.step(drive, wish, seconds), seconds)
-            else:
-                presets.append((drive, wish))
-        if sticks:
-            self._cruise(sticks, velocities, seconds)
+            wish = asked(drive.axis)
+            if not isinstance(wish, Cruise):
+                if isinstance(wish, Follow):
+                    state = self._tracker.step(drive, wish, seconds)
+                    if state is None or drive.outside:
+                        self._commit(drive, state, seconds)
+                    else:
+                        drive.state = state
+                    continue
+                if isinstance(wish, Goto):
+                    presets.append((drive, wish))
+                    continue
+                wish = STILL
+            velocity, acceleration, jerk = wish
+            drive.now = drive.guard
+            if acceleration is not None or jerk is not None:
+                drive.soften(acceleration, jerk)
+            if drive.state[1] != 0.0 or not drive.holds(velocity):
+                limit = drive.fastest
+                sticks.append(drive)
+                velocities.append(limit if velocity > limit else -limit if velocity < -limit else velocity)
+                limits.append(drive.now)
+        self._carried = self._cruise(sticks, velocities, limits, seconds) if sticks else []
         if presets or self._recalls:
             self._recall(presets, seconds)
         motion = {drive.axis: drive.state for drive in self._drives}
@@ -104,30 +117,42 @@ class Live:
         if drive.outside:
             drive.narrow()
 
-    def _cruise(self, drives: list[Drive], velocities: list[float], seconds: float) -> None:
-        """Each of `drives` a step towards its velocity, as far as its soft limits let it."""
-        answer = self._velocity[len(drives)].step(
-            [drive.state for drive in drives], velocities, [drive.now for drive in drives], seconds
-        )
+    def _cruise(
+        self, drives: list[Drive], velocities: list[float], limits: list[tuple[float, float]], seconds: float
+    ) -> list[Drive]:
+        """Each of `drives` a step towards its velocity, as far as its soft limits let it.
+
+        Returns them if all went where the solver took them, so that it need not be told next time; else none.
+        """
+        solver = self._velocity[len(drives)]
+        if drives != self._carried:
+            solver.place([drive.state for drive in drives])
+        answer = solver.step(velocities, limits, seconds)
         if answer is None:
             for drive in drives:
                 self._commit(drive, None, seconds)
-            return
-        for drive, target, state in zip(drives, velocities, answer, strict=True):
-            if target == 0.0 and -RESIDUE < state[1] < RESIDUE and -RESIDUE < state[2] < RESIDUE:
-                state = State(state[0])
-            if drive.clear_low < state[0] < drive.clear_high:
+            return []
+        carried = drives
+        positions, rates, accelerations = answer
+        for i, drive in enumerate(drives):
+            position, rate, acceleration = positions[i], rates[i], accelerations[i]
+            if velocities[i] == 0.0 and -RESIDUE < rate < RESIDUE and -RESIDUE < acceleration < RESIDUE:
+                rate = acceleration = 0.0
+                carried = []
+            state = new_state(State, (position, rate, acceleration))
+            if drive.clear_low < position < drive.clear_high:
                 drive.state = state
-            else:
-                side = drive.trips(state, gently=True)
-                self._commit(drive, self._approach_limit(drive, side, target, seconds) if side else state, seconds)
+                continue
+            side = drive.trips(state, gently=True)
+            self._commit(drive, self._approach_limit(drive, side, velocities[i], seconds) if side else state, seconds)
+            if drive.state is not state:
+                carried = []
+        return carried
 
     def _approach_limit(self, drive: Drive, side: int, wanted: float, seconds: float) -> State | None:
         """Onto the soft limit on `side` (1 upper, -1 lower: planned in a mirror), to rest there; None if not legal."""
         position, velocity, acceleration = (side * x for x in drive.state)
         target = (drive.high if side > 0 else -drive.low) - INSET
-        if drive.rests and abs(position - target) <= INSET:
-            return drive.state
         max_acceleration, max_jerk = drive.now
         fastest = max(
             inevitable_velocity(velocity, acceleration, max_jerk), side * wanted, SLOWEST * drive.limits.velocity

@@ -7,13 +7,14 @@ Inputs are kept between calls because handing Ruckig a list costs a tenth of a w
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from ruckig import ControlInterface, InputParameter, OutputParameter, Ruckig, RuckigError, Synchronization, Trajectory
 
 from teleop.motion import State
 
-_new = tuple.__new__  # State(*row) at a third of the cost
+REFUSALS = (RuckigError, ValueError)
+new_state = tuple.__new__  # new_state(State, row) is State(*row) at two thirds of the cost
 
 
 class VelocitySolver:
@@ -30,38 +31,33 @@ class VelocitySolver:
         self._question.synchronization = Synchronization.No
         self._answer = OutputParameter(count)
         self._limits: list[tuple[float, float]] = []
-        self._states: list[State] = []
         self._seconds = 0.0
 
+    def place(self, states: Sequence[State]) -> None:
+        """The axes are here, not where the last step left them."""
+        columns = [list(column) for column in zip(*states, strict=True)]
+        self._question.current_position, self._question.current_velocity, self._question.current_acceleration = columns
+
     def step(
-        self, states: list[State], velocities: list[float], limits: list[tuple[float, float]], seconds: float
-    ) -> list[State] | None:
-        """The states after `seconds`, or None. `limits` are accelerations and jerks."""
+        self, velocities: list[float], limits: list[tuple[float, float]], seconds: float
+    ) -> tuple[list[float], list[float], list[float]] | None:
+        """Positions, velocities and accelerations after `seconds`, or None and the axes stay where they were.
+
+        `limits` are accelerations and jerks.
+        """
         question, answer = self._question, self._answer
-        if states != self._states:
-            columns = [list(column) for column in zip(*states, strict=True)]
-            question.current_position, question.current_velocity, question.current_acceleration = columns
         if limits != self._limits:
             question.max_acceleration, question.max_jerk = (list(column) for column in zip(*limits, strict=True))
             self._limits = limits
         if seconds != self._seconds:
             self._ruckig.delta_time = self._seconds = seconds
         question.target_velocity = velocities
-        if not _solved(self._ruckig.update, question, answer):
-            self._states = []
+        try:
+            self._ruckig.update(question, answer)
+        except REFUSALS:
             return None
         answer.pass_to_input(question)
-        rows = zip(answer.new_position, answer.new_velocity, answer.new_acceleration, strict=True)
-        self._states = [_new(State, row) for row in rows]
-        return self._states
-
-
-def _solved(solve: Callable[..., object], question: InputParameter, answer: OutputParameter | Trajectory) -> bool:
-    try:
-        solve(question, answer)
-    except (RuckigError, ValueError):
-        return False
-    return True
+        return answer.new_position, answer.new_velocity, answer.new_acceleration
 
 
 class PositionSolver:
@@ -97,4 +93,8 @@ class PositionSolver:
         question.min_velocity, question.min_acceleration = lowest_velocity, lowest_acceleration
         question.minimum_duration = minimum_duration
         answer = Trajectory(self._count)
-        return answer if _solved(self._ruckig.calculate, question, answer) else None
+        try:
+            self._ruckig.calculate(question, answer)
+        except REFUSALS:
+            return None
+        return answer

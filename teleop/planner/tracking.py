@@ -15,8 +15,8 @@ from __future__ import annotations
 from ruckig import Trajectory
 
 from teleop.motion import Follow, State
-from teleop.planner.drive import ROUNDING, Drive
-from teleop.planner.solver import PositionSolver
+from teleop.planner.drive import ROUNDED, Drive
+from teleop.planner.solver import PositionSolver, new_state
 from teleop.planner.stop import inevitable_velocity
 
 NEAR = 20  # ticks within which a reference is expected to keep its acceleration
@@ -24,27 +24,28 @@ CATCHABLE = 0.999  # share of V: a faster reference is chased at V
 
 
 def step_is_legal(start: State, end: State, seconds: float, velocity: float, acceleration: float, jerk: float) -> bool:
-    """Whether three equal spans of constant jerk lead from `start` to `end` within the magnitudes given."""
+    """Whether three equal spans of constant jerk lead from `start` to `end` within the magnitudes given, exactly."""
     p_0, v_0, a_0 = start
     p_1, v_1, a_1 = end
     span = seconds / 3
     x = (a_1 - a_0) / span
-    y = 2 * (v_1 - v_0 - a_0 * seconds) / (span * span) - x
-    z = 6 * (p_1 - p_0 - seconds * (v_0 + a_0 * seconds / 2)) / (span * span * span) - x
-    jerk_1 = z / 6 - y / 2
-    jerk_2 = y / 2 - 2 * jerk_1
-    jerk_3 = x - jerk_1 - jerk_2
-    limit = jerk * (1 + ROUNDING)
-    if not (-limit <= jerk_1 <= limit and -limit <= jerk_2 <= limit and -limit <= jerk_3 <= limit):
+    y = v_1 - v_0 - a_0 * seconds
+    z = (p_1 - p_0 - seconds * (v_0 + a_0 * seconds / 2)) / span
+    square = span * span
+    jerk_1 = (z - y) / square + x / 3
+    jerk_3 = (z - 2 * y) / square + x * (11 / 6)
+    jerk_2 = x - jerk_1 - jerk_3
+    if not (-jerk <= jerk_1 <= jerk and -jerk <= jerk_2 <= jerk and -jerk <= jerk_3 <= jerk):
         return False
     a_13, a_23 = a_0 + jerk_1 * span, a_1 - jerk_3 * span  # after a third and two thirds
-    limit = acceleration * (1 + ROUNDING)
-    if not (-limit <= a_13 <= limit and -limit <= a_23 <= limit and -limit <= a_1 <= limit):
+    lowest = -acceleration
+    if not (lowest <= a_13 <= acceleration and lowest <= a_23 <= acceleration and lowest <= a_1 <= acceleration):
         return False
-    limit = velocity * (1 + ROUNDING)
-    if not ((a_0 >= 0 <= a_13 and a_23 >= 0 <= a_1) or (a_0 <= 0 >= a_13 and a_23 <= 0 >= a_1)):
-        limit -= acceleration * seconds  # the velocity may peak in between
-    return -limit <= v_0 <= limit and -limit <= v_1 <= limit
+    clear = velocity - acceleration * seconds  # from where it cannot pass its limit in between
+    if -clear <= v_0 <= clear and -clear <= v_1 <= clear:
+        return True
+    steady = (a_0 >= 0 <= a_13 and a_23 >= 0 <= a_1) or (a_0 <= 0 >= a_13 and a_23 <= 0 >= a_1)
+    return steady and -velocity <= v_0 <= velocity and -velocity <= v_1 <= velocity
 
 
 class Tracker:
@@ -58,27 +59,27 @@ class Tracker:
 
         None when no way is found.
         """
-        goal = State._make(wish)
-        if self._reaches(drive, goal, seconds):
-            return goal
+        goal = new_state(State, wish)
+        if self._may_be_at(drive, goal):
+            velocity, acceleration, jerk = drive.bounds
+            if step_is_legal(drive.state, goal, seconds, velocity, acceleration, jerk):
+                return goal
+            answer = self._solve(drive, goal, seconds)
+            if answer is not None and answer.duration <= seconds * ROUNDED:
+                return goal
         state = self._rendezvous(drive, goal, seconds)
         return None if state is None or drive.trips(state) else state
 
-    def _reaches(self, drive: Drive, goal: State, seconds: float) -> bool:
-        acceleration, jerk = drive.guard
-        limit = drive.limits.velocity * (1 + ROUNDING)
-        position, velocity, rate = goal
-        if abs(velocity) + rate * rate / (2 * jerk) > limit or abs(rate) > acceleration:
-            return False  # the velocity before or after, when acceleration is 0, would be too high
-        if not drive.clear_low < position < drive.clear_high and drive.trips(goal) and not self._turns(drive, goal):
-            return False
-        if step_is_legal(drive.state, goal, seconds, drive.velocity, acceleration, jerk):
-            return True
-        answer = self._solve(drive, goal, seconds)
-        return answer is not None and answer.duration <= seconds * (1 + ROUNDING)
-
     @staticmethod
-    def _turns(drive: Drive, goal: State) -> bool:
+    def _may_be_at(drive: Drive, goal: State) -> bool:
+        """Whether the limits allow being in `goal`, and what led there or must follow."""
+        acceleration, jerk = drive.guard
+        position, velocity, rate = goal
+        change = rate * rate / (2 * jerk)
+        if abs(velocity) + change > drive.fastest * ROUNDED or abs(rate) > acceleration:
+            return False  # the velocity before or after, when acceleration is 0, would be too high
+        if drive.clear_low < position < drive.clear_high or not drive.trips(goal):
+            return True
         return not drive.outside and drive.turns_inside(goal)
 
     def _rendezvous(self, drive: Drive, goal: State, seconds: float) -> State | None:

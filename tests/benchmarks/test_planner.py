@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import cycle
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,8 +30,10 @@ LIMITS = {
 }
 DT = 0.01
 
+Scene = tuple[Callable[[Any], object], Iterator[Any]]  # what is called, and with what each time
 
-def bare_update() -> Callable[[], object]:
+
+def bare_update() -> Scene:
     """The unit: set a target, update, pass on."""
     ruckig, question, answer = Ruckig(4, DT), InputParameter(4), OutputParameter(4)
     question.control_interface, question.synchronization = ControlInterface.Velocity, Synchronization.No
@@ -38,27 +41,22 @@ def bare_update() -> Callable[[], object]:
     rng = random.Random(1)
     targets = cycle([[rng.uniform(-60, 60) for _ in range(4)] for _ in range(1009)])
 
-    def update() -> None:
-        question.target_velocity = next(targets)
+    def update(target: list[float]) -> None:
+        question.target_velocity = target
         ruckig.update(question, answer)
         answer.pass_to_input(question)
 
-    return update
+    return update, targets
 
 
-def stepping(live: Live, demands: list[Demand]) -> Callable[[], object]:
-    endless = cycle(demands)
-    return lambda: live.step(next(endless))
-
-
-def live_away() -> Callable[[], object]:
+def live_away() -> Scene:
     """Noisy sticks about 0 in the middle of continuous axes: no soft limit is ever near."""
     live = Live({a: Limits(-math.inf, math.inf, *_magnitudes(a)) for a in AXES}, DT)
     live.reset({axis: State(0.5) for axis in AXES})
-    return stepping(live, _noisy_sticks(lambda rng, v: rng.uniform(-v, v)))
+    return live.step, cycle(_noisy_sticks(lambda rng, v: rng.uniform(-v, v)))
 
 
-def live_near() -> Callable[[], object]:
+def live_near() -> Scene:
     """Noisy sticks that swing every axis from one soft limit onto the other and hold it there for a while."""
     live = Live({a: Limits(0, LIMITS[a].velocity / 2, *_magnitudes(a)) for a in AXES}, DT)
     live.reset({axis: State(LIMITS[axis].velocity / 4) for axis in AXES})
@@ -66,10 +64,10 @@ def live_near() -> Callable[[], object]:
     demands: list[Demand] = []
     for sign in (1, -1) * 6:
         demands += [{a: Cruise(sign * rng.uniform(0.4, 0.5) * LIMITS[a].velocity) for a in AXES} for _ in range(150)]
-    return stepping(live, demands)
+    return live.step, cycle(demands)
 
 
-def tracking() -> Callable[[], object]:
+def tracking() -> Scene:
     """A compiled move of all axes, up and down again."""
     keys = {a: [Key(0, 0.0), Key(4, _reach(a)), Key(6, _reach(a) / 2), Key(10, 0.0)] for a in AXES}
     move = plan(keys, LIMITS)
@@ -78,7 +76,7 @@ def tracking() -> Callable[[], object]:
     demands: list[Demand] = [
         {axis: Follow(*state) for axis, state in move.at(tick * DT).items()} for tick in range(1, 1001)
     ]
-    return stepping(live, demands)
+    return live.step, cycle(demands)
 
 
 def _magnitudes(axis: Axis) -> tuple[float, float, float]:
@@ -108,15 +106,18 @@ def keys(count: int) -> dict[Axis, list[Key]]:
     return result
 
 
-def ratio(call: Callable[[], object], unit: Callable[[], object], batches: int = 200, size: int = 50) -> float:
-    """The median over batches of `call` / `unit`, taken in turns so that a busy machine slows both."""
+def ratio(scene: Scene, unit: Scene, batches: int = 200, size: int = 50) -> float:
+    """The median over batches of `scene` / `unit`, taken in turns so that a busy machine slows both.
+
+    Both are called here, in the same way: a lambda about the step alone would be a call that the unit does not pay.
+    """
     ratios = []
     for _ in range(batches):
         spent = []
-        for function in (unit, call):
+        for function, inputs in (unit, scene):
             times = [perf_counter()]
             for _ in range(size):
-                function()
+                function(next(inputs))
                 times.append(perf_counter())
             spent.append(np.median(np.diff(times)))
         ratios.append(spent[1] / spent[0])
@@ -134,7 +135,8 @@ def median_seconds(call: Callable[[], object], count: int) -> float:
 
 @pytest.fixture(scope="module")
 def unit() -> float:
-    return median_seconds(bare_update(), 20_000)
+    update, targets = bare_update()
+    return median_seconds(lambda: update(next(targets)), 20_000)
 
 
 @pytest.fixture

@@ -114,6 +114,14 @@ def test_a_stick_is_followed_and_stops_on_the_soft_limit():
     assert live.at_rest
 
 
+@pytest.mark.parametrize("start", [40.0, 40.0 - 1e-7, 40.0 - 2e-7])
+def test_a_stick_into_the_soft_limit_it_lies_on_moves_nothing(start):
+    live = placed(tilt=start)
+    assert run(live, {TILT: Cruise(20.0)}, 0.1)[TILT] == State(start)
+    assert live.at_rest
+    assert live.step({TILT: Cruise(-20.0)})[TILT].position < start
+
+
 def test_jogging_back_from_a_soft_limit_works():
     live = placed(tilt=40.0)
     run(live, {TILT: Cruise(20.0)}, 0.5)
