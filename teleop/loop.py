@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
-from teleop.motion import Action, Axis, Demand, Halt, Limits, Motion, Reading, State, Tick, Wish
+from teleop.motion import Act, Axis, Demand, Halt, Limits, Motion, Reading, State, Tick, Wish
 from teleop.planner.stop import stop_state
 from teleop.ports import Clock, DeviceError, Reporter, Sink, Source, TeleopError
 from teleop.supervisor import Event, Run, Supervisor
@@ -128,7 +128,7 @@ class Loop:
 
     def _drive(self, now: float, steps: int) -> None:
         demand: dict[Axis, Wish] = {}
-        actions: list[Action] = []
+        actions: list[Act] = []
         for source in reversed(self._sources):
             wishes, due = source.read(now)
             demand.update(wishes)
@@ -177,7 +177,7 @@ class Loop:
         for reporter in self._reporters:
             self._reported.update(self._guarded(reporter.report, now, default={}))
 
-    def _emit(self, now: float, demand: Demand, actions: Sequence[Action]) -> None:
+    def _emit(self, now: float, demand: Demand, actions: Sequence[Act]) -> None:
         self._report(now)
         tick = Tick(now, self._motion, demand, actions, dict(self._reported))
         for sink in self._sinks:

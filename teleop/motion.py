@@ -109,6 +109,21 @@ class Action(StrEnum):
     SHUTTER = "shutter"
 
 
+class Told(NamedTuple):
+    """A device's own command in plain words, for whichever sink speaks its language: `gimbal follow lock`."""
+
+    words: str
+
+
+class Dialled(NamedTuple):
+    """How fast a dial is turned, -1..1, for a device that has its own use for it; 0 once when it comes to rest."""
+
+    speed: float
+
+
+Act = Action | Told | Dialled
+
+
 @dataclass(frozen=True, slots=True)
 class Tick:
     """One turn of the control loop, as every sink and the recorder see it.
@@ -120,5 +135,5 @@ class Tick:
     time: float
     motion: Motion
     demand: Demand
-    actions: Sequence[Action]
+    actions: Sequence[Act]
     reported: Mapping[Axis, Reading]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
-from teleop.motion import Action, Axis, Demand, Motion, Reading, Tick
+from teleop.motion import Act, Axis, Demand, Motion, Reading, Tick
 
 
 class TeleopError(Exception):
@@ -34,7 +34,7 @@ class Source(Protocol):
         """The run begins at `now`, with the axes where `motion` says."""
         ...
 
-    def read(self, now: float) -> tuple[Demand, Sequence[Action]]:
+    def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         """The demand for the tick that ends at `now`, and the actions due since the last read."""
         ...
 

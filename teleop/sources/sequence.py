@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from teleop.motion import Action, Axis, Demand, Follow, Limits, Motion
+from teleop.motion import Act, Axis, Demand, Follow, Limits, Motion
 from teleop.planner.ease import ease
 from teleop.planner.move import Move
 from teleop.sources.sequence_file import Performance
@@ -41,7 +41,7 @@ class SequenceSource:
         self._approach_end = now + math.ceil(self._approach.duration * 100) / 100
         self.begin = self._approach_end + self._preroll
 
-    def read(self, now: float) -> tuple[Demand, Sequence[Action]]:
+    def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         elapsed = now - self.begin
         if self._approach is not None and elapsed < -_INSTANT:
             motion = self._approach.at(now - self._approach_begin)

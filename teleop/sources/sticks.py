@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teleop.document import DocumentError
-from teleop.motion import Action, Axis, Cruise, Demand, Motion
+from teleop.motion import Act, Axis, Cruise, Demand, Motion
 from teleop.phrases import nearest
 
 MAX_PROBLEMS = 20  # a file with its columns swapped is wrong in every row
@@ -108,7 +108,7 @@ class SticksSource:
     def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - sticks do not mind where the axes are
         self.begin = now
 
-    def read(self, now: float) -> tuple[Demand, Sequence[Action]]:
+    def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         """The deflections of the last row whose time has come, as velocities."""
         row = bisect.bisect_right(self._sticks.times, now - self.begin + 1e-9) - 1
         if row < 0 or row == len(self._sticks.times) - 1:
