@@ -1,1 +1,26 @@
-"""A DJI handheld gimbal, any joystick and a YAML file as a motion-control head."""
+"""A DJI handheld gimbal, a joystick and a YAML file as a motion-control head.
+
+For programs: `plan` is what `teleop check` and `teleop play` begin with. Everything else is the command line's.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from teleop.planner.move import Move
+
+
+def plan(sequence: str | Path, rig: str | Path = "sim") -> Move:
+    """The move that a sequence makes on a rig; each a shipped name, or a file.
+
+    `Move.at(t)` is the state of every axis t seconds after the first keyframe's zero, `Move.duration` its length in s.
+    Raises `teleop.document.DocumentError` with a line for everything wrong, UnplayableError where the rig cannot do it.
+    """
+    from teleop.profile import load_profile  # numpy and the solver take 0.3 s to load, which no other command needs
+    from teleop.sources.sequence_file import load_performance
+
+    profile = load_profile(str(rig))
+    return load_performance(str(sequence), profile.limits, profile.name).move

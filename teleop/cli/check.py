@@ -34,7 +34,7 @@ def check(
     else:
         _print(performance, profile, asked)
         if math.isfinite(most):
-            print(f"It can be played at {most:.0%} of its speed at most.")
+            print(f"It can be played at most at {math.floor(100 * most)} % of its speed.")
     return 0
 
 

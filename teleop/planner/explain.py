@@ -14,7 +14,8 @@ import numpy as np
 
 from teleop.motion import Axis, Limits
 from teleop.planner.findings import Finding
-from teleop.planner.quadratic import HEADROOM, Leg, Rule, least_factors, solve
+from teleop.planner.leg import Leg
+from teleop.planner.quadratic import HEADROOM, Rule, least_factors, solve
 
 FINEST = Rule(pieces=8, directed=False)
 BLAMED = 1 + 1e-3  # a factor above this is a limit that gives, not the solver's tolerance

@@ -1,6 +1,6 @@
-"""What can be wrong with keyframes, as values: a reader turns `first` and `last` into file:line:column.
+"""What can be said against keyframes, as values: a reader turns `first` and `last` into file:line:column.
 
-Apart from `explain`, which finds them, so that whoever only reports them loads no solver.
+Apart from `explain` and `remarks`, which find them, so that whoever only reports them loads no solver.
 """
 
 from __future__ import annotations
@@ -45,9 +45,53 @@ class Finding:
         )
 
 
+@dataclass(frozen=True, slots=True)
+class RampsTooLong:
+    """Getting up to speed and coming to rest, both in seconds, would take longer than there is between two rests."""
+
+    axis: Axis
+    first: str
+    last: str
+    leave: float
+    arrive: float
+    seconds: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.axis}, {self.first}..{self.last}: ramps of {self.leave:.3g} s and {self.arrive:.3g} s"
+            f" do not fit into {self.seconds:.3f} s"
+        )
+
+
 class Infeasible(PlanError):  # noqa: N818  the field's word for it
     """The keys ask for more than the limits allow; `findings` holds everything that does, of all axes."""
 
-    def __init__(self, findings: Sequence[Finding]) -> None:
+    def __init__(self, findings: Sequence[Finding | RampsTooLong]) -> None:
         super().__init__("; ".join(map(str, findings)))
         self.findings = tuple(findings)
+
+
+@dataclass(frozen=True, slots=True)
+class Overshoot:
+    """A warning: between two keys the axis has to pass them by `size` units to keep its limits."""
+
+    axis: Axis
+    first: str
+    last: str
+    size: float
+
+    def __str__(self) -> str:
+        return f"{self.axis}, {self.first}..{self.last}: overshoots by {self.size:.3g} to keep its limits"
+
+
+@dataclass(frozen=True, slots=True)
+class LongRamp:
+    """A warning: at a key the limits do not allow a ramp as short as was asked for, both in seconds."""
+
+    axis: Axis
+    last: str
+    asked: float
+    taken: float
+
+    def __str__(self) -> str:
+        return f"{self.axis}, {self.last}: a ramp of {self.taken:.2f} s, not {self.asked:.2f} s, to keep its limits"

@@ -10,7 +10,6 @@ so these too are rests as long as that rule holds.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -18,41 +17,28 @@ import numpy as np
 
 from teleop.motion import Axis, Limits
 from teleop.planner.explain import explain
-from teleop.planner.findings import Finding, Infeasible, PlanError
-from teleop.planner.move import Move, Overshoot, Track
-from teleop.planner.polynomial import Array, extremes
-from teleop.planner.quadratic import HEADROOM, Leg, Rule, solve
+from teleop.planner.findings import Finding, Infeasible, LongRamp, Overshoot, RampsTooLong
+from teleop.planner.leg import Leg
+from teleop.planner.move import Move, Track
+from teleop.planner.polynomial import Array
+from teleop.planner.quadratic import HEADROOM, Rule, solve
+from teleop.planner.remarks import long_ramps, overshoots
+from teleop.planner.waypoints import Key, leg_between, ramps_asked, waypoints
 
 PIECES = (2, 4, 8)
 STRETCH = 0.002  # relative, of the least factor
 MOST = 2.0**20  # times longer: what is impossible then is so at any speed
-VISIBLE = 1e-3  # units: what passes a key by less is met
-
-
-@dataclass(frozen=True, slots=True)
-class Key:
-    """Be at `position` (units) at `at` (s); `stop` there, for `hold` s. `where` names it in its file."""
-
-    at: float
-    position: float
-    stop: bool = False
-    hold: float = 0.0
-    where: str = ""
-
-
-class _Waypoint(NamedTuple):
-    time: float
-    position: float
-    rest: bool
-    where: str
+ROUNDING = 1e-9  # relative, of ramps that are to take all of a leg
 
 
 class _Outcome(NamedTuple):
-    """One axis planned: its track unless there are unsolved legs, each with the names of its keys."""
+    """One axis planned: its track, unless there are unsolved legs, with the names of their keys, or ramps too long."""
 
     track: Track | None
     overshoots: list[Overshoot]
+    long_ramps: list[LongRamp]
     unsolved: list[tuple[Leg, list[str]]]
+    too_long: list[RampsTooLong]
 
 
 class _Pieces(NamedTuple):
@@ -70,8 +56,9 @@ def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tens
     outcomes = {
         axis: _plan_axis(axis, of_axis, limits[axis], tension) for axis, of_axis in keys.items() if not beyond[axis]
     }
-    findings = [finding for of_axis in beyond.values() for finding in of_axis]
+    findings: list[Finding | RampsTooLong] = [finding for of_axis in beyond.values() for finding in of_axis]
     for axis, outcome in outcomes.items():
+        findings += outcome.too_long
         for leg, wheres in outcome.unsolved:
             findings += explain(axis, leg, wheres, limits[axis])
     if findings:
@@ -100,6 +87,14 @@ def stretch(
     return move, high
 
 
+def attempt(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tension: float = 0.0) -> Move | None:
+    """What `plan` gives, or None where it would raise: for who tries keys by the hundred and needs no reasons."""
+    try:
+        return _attempt(keys, limits, tension, 1.0)
+    except Infeasible:
+        return None
+
+
 def _attempt(
     keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tension: float, factor: float
 ) -> Move | None:
@@ -109,8 +104,9 @@ def _attempt(
         beyond = _beyond(axis, of_axis, limits[axis])
         if beyond:
             raise Infeasible(beyond)
-        longer = [replace(key, at=key.at * factor, hold=key.hold * factor) for key in of_axis]
-        outcomes[axis] = _plan_axis(axis, longer, limits[axis], tension)
+        outcomes[axis] = _plan_axis(axis, [key.later(factor) for key in of_axis], limits[axis], tension)
+        if outcomes[axis].too_long:
+            raise Infeasible(outcomes[axis].too_long)  # however long the move, its ramps take the same share
         if outcomes[axis].unsolved:
             return None
     return _assemble(outcomes)
@@ -120,6 +116,7 @@ def _assemble(outcomes: Mapping[Axis, _Outcome]) -> Move:
     return Move(
         {axis: outcome.track for axis, outcome in outcomes.items() if outcome.track is not None},
         tuple(overshoot for outcome in outcomes.values() for overshoot in outcome.overshoots),
+        tuple(ramp for outcome in outcomes.values() for ramp in outcome.long_ramps),
     )
 
 
@@ -132,50 +129,39 @@ def _beyond(axis: Axis, keys: Sequence[Key], limits: Limits) -> list[Finding]:
     return outside
 
 
-def _waypoints(axis: Axis, keys: Sequence[Key]) -> list[_Waypoint]:
-    """Keys in time, a dwell as two rests. Raises PlanError where one is not after the other."""
-    points: list[_Waypoint] = []
-    for number, key in enumerate(keys):
-        rest = key.stop or key.hold > 0 or number in (0, len(keys) - 1)
-        if points and key.at <= points[-1].time:
-            last = points[-1]
-            if key.at < last.time or key.position != last.position:
-                raise PlanError(
-                    f"{axis}, {key.where}: at {key.at:.6g} s is not after {last.where}, which ends at {last.time:.6g} s"
-                )
-            points[-1] = last._replace(rest=True)
-        else:
-            points.append(_Waypoint(key.at, key.position, rest, key.where))
-        if key.hold > 0:
-            points.append(_Waypoint(key.at + key.hold, key.position, True, key.where))
-    return points
-
-
 def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: float) -> _Outcome:
-    points = _waypoints(axis, keys)
+    points = waypoints(axis, keys)
     rests = [i for i, point in enumerate(points) if point.rest]
-    overshoots: list[Overshoot] = []
-    unsolved: list[tuple[Leg, list[str]]] = []
+    outcome = _Outcome(None, [], [], [], [])
     breaks: list[Array] = []
     coefficients: list[Array] = [np.empty((0, 6))]
     for first, last in pairwise(rests):
         stretch = points[first : last + 1]
-        leg = Leg(np.array([p.time for p in stretch], float), np.array([p.position for p in stretch], float))
-        wheres = [p.where for p in stretch]
+        wheres, asked, duration = (
+            [p.where for p in stretch],
+            ramps_asked(stretch),
+            points[last].time - points[first].time,
+        )
+        if asked and sum(asked) > duration * (1 + ROUNDING):
+            outcome.too_long.append(RampsTooLong(axis, wheres[0], wheres[-1], *asked, duration))
+            continue
+        leg = leg_between(stretch, asked, limits)
         pieces = _directed(leg, limits, tension)
         if pieces is None:
             pieces = _undirected(leg, limits, tension)
             if pieces is None:
-                unsolved.append((leg, wheres))
+                outcome.unsolved.append((leg, wheres))
                 continue
-            overshoots += _overshoots(axis, leg, wheres, pieces)
+            outcome.overshoots.extend(overshoots(axis, leg, wheres, *pieces))
+        if asked:
+            outcome.long_ramps.extend(long_ramps(axis, leg, wheres, asked))
         breaks.append(leg.times[0] + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])]))
         coefficients.append(pieces.coefficients)
-    if unsolved:
-        return _Outcome(None, overshoots, unsolved)
+    if outcome.unsolved or outcome.too_long:
+        return outcome
     end = points[-1]
     track = Track(np.concatenate([*breaks, [end.time]]), np.concatenate(coefficients), end.position)
-    return _Outcome(track, overshoots, unsolved)
+    return outcome._replace(track=track)
 
 
 def _directed(leg: Leg, limits: Limits, tension: float) -> _Pieces | None:
@@ -189,7 +175,7 @@ def _directed(leg: Leg, limits: Limits, tension: float) -> _Pieces | None:
         if flat[first]:
             parts.append(_standing(leg, first))
             continue
-        part = Leg(leg.times[first : last + 1], leg.positions[first : last + 1])
+        part = leg.part(first, last)
         rules = (Rule(n, True, tension) for n in PIECES if tension == 0 or n > 2)
         solved = next((pieces for pieces in (solve(part, limits, rule) for rule in rules) if pieces is not None), None)
         if solved is None:
@@ -205,18 +191,3 @@ def _standing(leg: Leg, segment: int) -> _Pieces:
 def _undirected(leg: Leg, limits: Limits, tension: float) -> _Pieces | None:
     solved = solve(leg, limits, Rule(PIECES[-1], False, tension))
     return None if solved is None else _Pieces(*solved)
-
-
-def _overshoots(axis: Axis, leg: Leg, wheres: Sequence[str], pieces: _Pieces) -> list[Overshoot]:
-    """By how much each segment leaves the range of its two keys, where that can be seen."""
-    least, greatest = extremes(pieces.coefficients, pieces.widths)
-    middles = leg.times[0] + np.cumsum(pieces.widths) - pieces.widths / 2
-    segment = np.searchsorted(leg.times, middles) - 1
-    low = np.minimum(leg.positions[:-1], leg.positions[1:])[segment]
-    high = np.maximum(leg.positions[:-1], leg.positions[1:])[segment]
-    excess = np.maximum(low - least[0], greatest[0] - high)
-    sizes = np.zeros(len(leg.steps))
-    np.maximum.at(sizes, segment, excess)
-    return [
-        Overshoot(axis, wheres[i], wheres[i + 1], float(sizes[i])) for i in np.flatnonzero(sizes > VISIBLE).tolist()
-    ]

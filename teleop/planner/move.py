@@ -16,6 +16,7 @@ from math import inf
 import numpy as np
 
 from teleop.motion import Axis, State
+from teleop.planner.findings import LongRamp, Overshoot
 from teleop.planner.polynomial import Array, extremes
 
 CHUNK = 1 << 15  # samples at a time: a megabyte an axis
@@ -30,19 +31,6 @@ class Peaks:
     jerk: float
     minimum: float
     maximum: float
-
-
-@dataclass(frozen=True, slots=True)
-class Overshoot:
-    """A warning: between two keys the axis has to pass them by `size` units to keep its limits."""
-
-    axis: Axis
-    first: str
-    last: str
-    size: float
-
-    def __str__(self) -> str:
-        return f"{self.axis}, {self.first}..{self.last}: overshoots by {self.size:.3g} to keep its limits"
 
 
 def _evaluate(coefficients: Array, t: Array, rows: Array) -> None:
@@ -134,6 +122,7 @@ class Move:
 
     tracks: Mapping[Axis, Track]
     overshoots: tuple[Overshoot, ...] = ()
+    long_ramps: tuple[LongRamp, ...] = ()
 
     @cached_property
     def duration(self) -> float:

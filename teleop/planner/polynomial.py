@@ -59,6 +59,7 @@ def _gram(order: int) -> Array:
 
 
 GRAM_VELOCITY: Array = _gram(1)
+GRAM_ACCELERATION: Array = _gram(2)
 GRAM_JERK: Array = _gram(3)
 
 

@@ -3,7 +3,8 @@
 Unknown are position, velocity and acceleration at the knots, quintics lie between, and the Bernstein coefficients of
 their derivatives are bounded, so that whatever the solver returns keeps its limits in continuous time. Values known in
 advance (keys, rest at the ends, the turn at a key where the direction changes) are taken out of the unknowns rather
-than constrained.
+than constrained. Ramps are a matter of cost: a leg that has them is cut where they end, and between them acceleration
+costs so much that there is none but what keys and limits force.
 
 Durations may differ by a factor of a million (a twitch, then a day's drift) and the programme must stay within what a
 double can tell apart: knots beside a short segment are graded (`mesh`), each knot has the time scale of its shorter
@@ -19,38 +20,18 @@ from scipy import sparse
 
 from teleop.motion import Limits
 from teleop.planner.cone import Sparse, minimise
+from teleop.planner.leg import Leg
 from teleop.planner.mesh import Indices, mesh
-from teleop.planner.polynomial import BERNSTEIN, GRAM_JERK, GRAM_VELOCITY, HERMITE, Array
+from teleop.planner.polynomial import BERNSTEIN, GRAM_ACCELERATION, GRAM_JERK, GRAM_VELOCITY, HERMITE, Array
 
 HEADROOM = 0.95  # of V, A and J, so that every sample is within a single step of the last (planning.md, section B)
 CLIP = 1e6  # largest ratio of a piece's weight to the median
 SMOOTHING = 1e-6  # least weight of jerk beside tension, or a day's drift would have none
+STEADY = 5.0  # acceleration between ramps weighs T / STEADY, jerk its ramp cubed: the speed is even within 2 %
 TAU = 0.25  # s: tension 1 weighs velocity as 1/TAU^4 (planning.md, section B)
 TOLERANCE = 1.01  # on the headroom: the solver's, small beside the 5 % that are left
 SMALLEST = 1e-9  # units; a leg that moves less is not scaled up further
 UNBOUND = 1e6  # a limit this many times beyond the leg's whole range is left out
-
-
-@dataclass(frozen=True, eq=False)
-class Leg:
-    """Times (n + 1,) in seconds and positions (n + 1,) in units of one axis; at rest at both ends only."""
-
-    times: Array
-    positions: Array
-
-    @property
-    def durations(self) -> Array:
-        return np.diff(self.times)
-
-    @property
-    def steps(self) -> Array:
-        return np.diff(self.positions)
-
-    def stretched(self, segment: int, duration: float) -> Leg:
-        """With one segment lasting `duration` and the later ones as they were."""
-        later = self.times.copy()
-        later[segment + 1 :] += duration - self.durations[segment]
-        return Leg(later, self.positions)
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +48,10 @@ class Programme:
 
     def __init__(self, leg: Leg, limits: Limits, rule: Rule) -> None:
         self.leg, self.limits, self.rule = leg, limits, rule
-        self.segment, self.widths, keys = mesh(leg.durations, rule.pieces)
+        durations, segments, ramps = leg.cuts()
+        cut, self.widths, knots = mesh(durations, rule.pieces)
+        self.segment, self.ramps = segments[cut], ramps[cut]
+        keys = knots[np.searchsorted(segments, np.arange(len(leg.steps) + 1))]
         count = len(self.widths) + 1
         self.scale = max(float(np.ptp(leg.positions)), SMALLEST)
         self.origin = float(leg.positions[0])
@@ -91,13 +75,15 @@ class Programme:
         )
 
     def cost(self) -> tuple[Sparse, Array]:
-        """The weighted squares of jerk and velocity, as the solver's P (upper triangle) and q."""
-        jerk = self.widths**-5.0
+        """The weighted squares of jerk, acceleration and velocity, as the solver's P (upper triangle) and q."""
+        jerk, acceleration = self._smoothness()
         velocity = (self.rule.tension / TAU) ** 4 / self.widths
         middle = np.median(jerk + velocity)
         velocity = np.clip(velocity / middle, 0.0, CLIP)
-        jerk = np.clip(jerk / middle, np.maximum(1 / CLIP, SMOOTHING * velocity), CLIP)
+        acceleration = np.clip(acceleration / middle, 0.0, CLIP)
+        jerk = np.clip(jerk / middle, np.maximum(1 / CLIP, SMOOTHING * np.maximum(velocity, acceleration)), CLIP)
         blocks = jerk[:, None, None] * GRAM_JERK / 720 + velocity[:, None, None] * GRAM_VELOCITY
+        blocks += acceleration[:, None, None] * GRAM_ACCELERATION
         blocks *= self.local[:, :, None] * self.local[:, None, :]
         rows = np.broadcast_to(self.index[:, :, None], blocks.shape).ravel()
         columns = np.broadcast_to(self.index[:, None, :], blocks.shape).ravel()
@@ -106,6 +92,19 @@ class Programme:
         free = self.column >= 0
         kept = whole[free][:, free]
         return sparse.triu(kept, format="csc"), whole[free] @ self.given
+
+    def _smoothness(self) -> tuple[Array, Array]:
+        """The weights of jerk and acceleration by piece.
+
+        A ramp's jerk counts by the cube of its duration: a change of speed then costs the same in a short ramp as in a
+        long one, or the whole way would be made in the longer of the two.
+        """
+        if self.leg.ramps is None:
+            return self.widths**-5.0, np.zeros_like(self.widths)
+        whole = float(self.leg.times[-1] - self.leg.times[0])
+        least = max(min(self.leg.ramps), whole / CLIP)
+        jerk = np.maximum(self.ramps, least) ** 3 / self.widths**5
+        return jerk, np.where(self.ramps == 0, whole / STEADY / self.widths**3, 0.0)
 
     def rows(self, order: int, skip: int) -> tuple[Sparse, Array, Indices]:
         """Bernstein coefficients of the `order`-th derivative by u, less the first `skip` of each piece.

@@ -4,6 +4,8 @@ Planned once, when it is asked for, and then only evaluated: Ruckig asked again 
 remains would now and then find that time in a gap between its feasible durations and come back longer. The whole
 trajectory is checked against the soft limits before it is taken: a slow one may back away before it comes, so when
 the common trajectory leaves the limits the axes go separately, and if even that fails the axis first comes to rest.
+
+Ruckig knows no trajectory of more than two hours. So slow a way needs no solver: once at rest, it is a quintic.
 """
 
 from __future__ import annotations
@@ -17,7 +19,27 @@ from teleop.motion import Axis, Goto, State
 from teleop.planner.drive import SLACK, Drive
 from teleop.planner.solver import PositionSolver
 
+LONGEST = 5000.0  # s that Ruckig is asked for; it fails from 7600 on (planning.md, "Ruckig traps")
 LATE = 1e-9  # s, of ticks added up
+
+
+class Drift:
+    """From rest to rest in `duration` s, in the shape of Ruckig's trajectories."""
+
+    def __init__(self, starts: Sequence[float], targets: Sequence[float], duration: float) -> None:
+        self._starts, self._distances = starts, [t - s for s, t in zip(starts, targets, strict=True)]
+        self.duration = duration
+
+    def at_time(self, time: float) -> tuple[list[float], list[float], list[float]]:
+        u = time / self.duration
+        along = u * u * u * (10 - u * (15 - 6 * u))
+        rate = 30 * u * u * (1 - u) ** 2 / self.duration
+        change = 60 * u * (1 - u) * (1 - 2 * u) / self.duration**2
+        return (
+            [start + along * distance for start, distance in zip(self._starts, self._distances, strict=True)],
+            [rate * distance for distance in self._distances],
+            [change * distance for distance in self._distances],
+        )
 
 
 @dataclass(slots=True)
@@ -25,7 +47,7 @@ class Recall:
     """One axis' share of a trajectory in progress."""
 
     wish: Goto
-    trajectory: Trajectory
+    trajectory: Trajectory | Drift
     index: int
     target: float
     elapsed: float = 0.0
@@ -57,6 +79,8 @@ def _plan(asked: Sequence[tuple[Drive, Goto]], arrive: float | None) -> dict[Axi
     """A trajectory for all of `asked`, or nothing when there is none within the soft limits."""
     drives = [drive for drive, _ in asked]
     targets = [min(max(wish.position, drive.limits.minimum), drive.limits.maximum) for drive, wish in asked]
+    if arrive is not None and arrive > LONGEST:
+        return _drift(asked, targets, arrive)
     trajectory = PositionSolver(len(drives)).solve(
         [drive.state for drive in drives],
         [State(target) for target in targets],
@@ -67,6 +91,14 @@ def _plan(asked: Sequence[tuple[Drive, Goto]], arrive: float | None) -> dict[Axi
     )
     if trajectory is None or not _within(trajectory, drives):
         return {}
+    return {drive.axis: Recall(wish, trajectory, i, targets[i]) for i, (drive, wish) in enumerate(asked)}
+
+
+def _drift(asked: Sequence[tuple[Drive, Goto]], targets: Sequence[float], arrive: float) -> dict[Axis, Recall]:
+    """All of them from rest, or nothing: those that move are first to stop, and those outside to come in."""
+    if not all(drive.rests and not drive.outside for drive, _ in asked):
+        return {}
+    trajectory = Drift([drive.state.position for drive, _ in asked], targets, arrive)
     return {drive.axis: Recall(wish, trajectory, i, targets[i]) for i, (drive, wish) in enumerate(asked)}
 
 
@@ -84,7 +116,7 @@ def plan_recalls(asked: Sequence[tuple[Drive, Goto]]) -> Mapping[Axis, Recall]:
         found = _plan(members, max(arrive, 0.0))
         recalls |= found
         if not found:
-            alone += members
+            alone += [(drive, wish) for drive, wish in members if arrive <= LONGEST or drive.outside]
     for single in alone:
         recalls |= _plan([single], None)
     return recalls

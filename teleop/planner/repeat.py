@@ -48,7 +48,9 @@ def repeated(keys: Mapping[Axis, Sequence[Key]], times: int, mode: Repeat) -> di
 
 
 def _reversed(keys: Sequence[Key], start: float, end: float) -> list[Key]:
-    return [replace(key, at=start + end - key.at - key.hold) for key in reversed(keys)]
+    return [
+        replace(key, at=start + end - key.at - key.hold, arrive=key.leave, leave=key.arrive) for key in reversed(keys)
+    ]
 
 
 def _joined(passes: Sequence[Sequence[Key]], period: float) -> list[Key]:
@@ -58,6 +60,6 @@ def _joined(passes: Sequence[Sequence[Key]], period: float) -> list[Key]:
         shifted = [replace(key, at=key.at + number * period) for key in keys]
         if joined and shifted[0].at <= joined[-1].at + joined[-1].hold + SAME_TIME:
             turn, again = joined.pop(), shifted.pop(0)
-            joined.append(replace(turn, stop=turn.stop or again.stop, hold=turn.hold + again.hold))
+            joined.append(replace(turn, stop=turn.stop or again.stop, hold=turn.hold + again.hold, leave=again.leave))
         joined += shifted
     return joined

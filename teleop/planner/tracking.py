@@ -60,27 +60,22 @@ class Tracker:
         None when no way is found.
         """
         goal = new_state(State, wish)
-        if self._may_be_at(drive, goal):
-            velocity, acceleration, jerk = drive.bounds
-            if step_is_legal(drive.state, goal, seconds, velocity, acceleration, jerk):
+        position, velocity, rate = wish
+        highest, jerk = drive.guard
+        # The velocity before or after, when the acceleration is 0, is higher still.
+        fastest = drive.fastest * ROUNDED - rate * rate / (2 * jerk)
+        if -fastest <= velocity <= fastest and (
+            drive.clear_low < position < drive.clear_high
+            or not drive.trips(goal)
+            or (not drive.outside and drive.turns_inside(goal))
+        ):
+            if step_is_legal(drive.state, goal, seconds, *drive.bounds):
                 return goal
             answer = self._solve(drive, goal, seconds)
-            if answer is not None and answer.duration <= seconds * ROUNDED:
+            if answer is not None and answer.duration <= seconds * ROUNDED and -highest <= rate <= highest:
                 return goal
         state = self._rendezvous(drive, goal, seconds)
         return None if state is None or drive.trips(state) else state
-
-    @staticmethod
-    def _may_be_at(drive: Drive, goal: State) -> bool:
-        """Whether the limits allow being in `goal`, and what led there or must follow."""
-        acceleration, jerk = drive.guard
-        position, velocity, rate = goal
-        change = rate * rate / (2 * jerk)
-        if abs(velocity) + change > drive.fastest * ROUNDED or abs(rate) > acceleration:
-            return False  # the velocity before or after, when acceleration is 0, would be too high
-        if drive.clear_low < position < drive.clear_high or not drive.trips(goal):
-            return True
-        return not drive.outside and drive.turns_inside(goal)
 
     def _rendezvous(self, drive: Drive, goal: State, seconds: float) -> State | None:
         """Towards where the reference will be: with its acceleration when near, with its velocity when far."""

@@ -8,7 +8,7 @@ keyframe where it goes wrong. The rules read the plain data, so that all errors 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -22,16 +22,18 @@ from teleop.planner.move import Move
 from teleop.planner.repeat import Repeat, repeated
 from teleop.section import Finite, Section
 from teleop.shipped import find
+from teleop.sources.easing import ramps
 from teleop.sources.sequence_rules import file_rules, rig_rules
 from teleop.sources.times import seconds
 
 
 class Keyframe(Section):
-    """What stands in the file; `at` and `hold` are times as written, the axes' positions are in their units."""
+    """What stands in the file; `at`, `hold` and `ease` are as written, the axes' positions are in their units."""
 
     at: Any
     hold: Any = 0
     pass_: Literal["through", "stop"] = Field("through", alias="pass")
+    ease: Any = None
     pan: Finite | None = None
     tilt: Finite | None = None
     roll: Finite | None = None
@@ -55,11 +57,15 @@ class RepeatSection(Section):
 
 
 class SequenceSection(Section):
-    """`tension`: 0 is smoothest, 1 closest to constant speed between keys. `fit`: what is too fast is stretched."""
+    """`tension`: 0 is smoothest, 1 closest to constant speed between keys. `fit`: what is too fast is stretched.
+
+    `ease`: the ramps at every stop that has none of its own.
+    """
 
     title: str = ""
     fps: Annotated[float, Field(gt=0, le=1000)] | None = None
     tension: Annotated[float, Field(ge=0, le=1)] = 0.0
+    ease: Any = None
     fit: Literal["stretch"] | None = None
     repeat: RepeatSection | None = None
     keyframes: Annotated[list[Keyframe], Field(min_length=1)]
@@ -109,7 +115,8 @@ def load_performance(name: str, limits: Mapping[Axis, Limits], rig: str) -> Perf
         raise UnplayableError(problems) from None
     except PlanError as error:
         raise DocumentError([document.problem(("repeat",), str(error))]) from None
-    warnings = [_at_keyframe(document, overshoot.last, str(overshoot)) for overshoot in move.overshoots]
+    remarks = [*move.overshoots, *move.long_ramps]
+    warnings = [_at_keyframe(document, remark.last, str(remark)) for remark in remarks]
     if factor > 1:
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
     cues = [Cue(factor * seconds(cue.at, sheet.fps), Action(cue.camera)) for cue in sheet.cues]
@@ -125,11 +132,7 @@ def _planned(sheet: SequenceSection, limits: Mapping[Axis, Limits]) -> tuple[Map
     if sheet.fit is None:
         return keys, plan(keys, limits, sheet.tension), 1.0
     move, factor = stretch(keys, limits, sheet.tension)
-    later = {
-        axis: [replace(key, at=factor * key.at, hold=factor * key.hold) for key in of_axis]
-        for axis, of_axis in keys.items()
-    }
-    return later, move, factor
+    return {axis: [key.later(factor) for key in of_axis] for axis, of_axis in keys.items()}, move, factor
 
 
 def _axes(sheet: SequenceSection) -> Sequence[Axis]:
@@ -138,13 +141,15 @@ def _axes(sheet: SequenceSection) -> Sequence[Axis]:
 
 def _keys(sheet: SequenceSection) -> Mapping[Axis, Sequence[Key]]:
     keys: dict[Axis, list[Key]] = {}
+    everywhere = ramps(sheet.ease, sheet.fps)
     for index, frame in enumerate(sheet.keyframes):
         at, hold = seconds(frame.at, sheet.fps), seconds(frame.hold, sheet.fps)
+        eases = ramps(frame.ease, sheet.fps, everywhere)
         for axis in Axis:
             position = getattr(frame, axis.value)
             if position is not None:
                 stop = frame.pass_ == "stop"
-                keys.setdefault(axis, []).append(Key(at, position, stop, hold, f"keyframes[{index}]"))
+                keys.setdefault(axis, []).append(Key(at, position, stop, hold, f"keyframes[{index}]", *eases))
     return {axis: keys[axis] for axis in _axes(sheet)}
 
 

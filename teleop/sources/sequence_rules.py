@@ -7,6 +7,7 @@ from typing import Any
 
 from teleop.document import Wrong, mapping, number, sequence
 from teleop.motion import Axis, Limits
+from teleop.sources.easing import ease_rules
 from teleop.sources.times import seconds
 
 AXES = tuple(axis.value for axis in Axis)
@@ -34,6 +35,7 @@ def file_rules(data: Any) -> Iterator[Wrong]:
             yield from _hold_rules(index, frame, at, free)
         before = (index, at)
         free.update({axis: (index, at + (hold or 0)) for axis in AXES if axis in frame})
+    yield from ease_rules(data, fps)
     for index, cue in enumerate(sequence(data, "cues")):
         if wrong := _time(mapping(cue), "at", fps)[1]:
             yield ("cues", index, "at"), wrong

@@ -20,7 +20,7 @@ def refusal(keys) -> Sequence[Finding]:
     try:
         plan(keys, LIMITS)
     except Infeasible as error:
-        return error.findings
+        return [finding for finding in error.findings if isinstance(finding, Finding)]
     return ()
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from teleop.motion import Axis, Cruise, Follow, Goto, Halt, Limits, State
+from teleop.motion import Axis, Cruise, Follow, Goto, Halt, Limits, State, Wish
 from teleop.planner.live import Live
 
 PAN, TILT, ROLL, FOCUS = Axis.PAN, Axis.TILT, Axis.ROLL, Axis.FOCUS
@@ -247,6 +247,22 @@ def test_new_limits_in_flight_are_come_back_to():
         assert abs(state.acceleration - last.acceleration) <= 600 * DT + TOLERANCE
         assert abs(state.acceleration) <= 120 + TOLERANCE
     assert state == pytest.approx(State(120.0), abs=1e-6)
+
+
+def test_a_preset_hours_away_arrives_in_its_time_from_wherever_it_was_moving():
+    live = placed()
+    run(live, {PAN: Cruise(20.0)}, 1.0)
+    hours = 3 * 3600.0
+    wish: dict[Axis, Wish] = {PAN: Goto(30.0, hours), TILT: Goto(-20.0, hours)}
+    motion = run(live, wish, 2.0)
+    assert motion[PAN].velocity < 0.01
+    ticks = 2
+    while not live.at_rest and ticks < 4 * 3600:
+        motion = live.step(wish, 100)
+        ticks += 1
+        assert abs(motion[PAN].velocity) < 0.02
+    assert ticks == pytest.approx(hours, rel=0.001)
+    assert (motion[PAN], motion[TILT]) == (State(30.0), State(-20.0))
 
 
 @pytest.mark.parametrize("wish", [Cruise(math.nan), Goto(math.nan), Follow(math.nan, 0.0, 0.0)])

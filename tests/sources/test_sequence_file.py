@@ -4,8 +4,10 @@ from pathlib import Path
 
 import pytest
 
+import teleop
 from teleop.document import DocumentError, UnplayableError
 from teleop.motion import Action, Axis, Limits
+from teleop.planner.ramp import Ramp
 from teleop.profile import load_profile
 from teleop.shipped import folder
 from teleop.sources.sequence_file import Cue, Performance, load_performance
@@ -141,3 +143,35 @@ def test_a_bounce_goes_there_and_back_and_a_loop_ends_where_it_began(tmp_path: P
     assert [round(move.at(time)[Axis.PAN].position, 3) for time in (0, 4, 8, 12)] == [0, 20, 0, 20]
     [problem] = problems_of(tmp_path, text.replace("bounce", "loop"))
     assert problem == ("shoot.yaml:1:9: repeat pan, keyframes[1]: a loop must end where it began, at 0, not 20")
+
+
+def test_ease_of_the_file_of_a_key_and_of_one_end_of_it(tmp_path: Path) -> None:
+    text = (
+        "ease: 1s\nkeyframes:\n  - {at: 0, pan: 0, ease: smooth}\n"
+        "  - {at: 4, pan: 20, pass: stop, ease: {leave: 25%}}\n"
+        "  - {at: 8, pan: 30}\n  - {at: 12, pan: 60}\n"
+    )
+    first, stop, through, last = load(tmp_path, text).keys[Axis.PAN]
+    assert (first.arrive, first.leave) == (None, None)
+    assert (stop.arrive, stop.leave) == (Ramp(1.0), Ramp(share=0.25))
+    assert (through.arrive, last.arrive) == (Ramp(1.0), Ramp(1.0))
+
+
+def test_ramps_are_refused_or_lengthened_with_the_line_of_their_key(tmp_path: Path) -> None:
+    text = "ease: 3s\nkeyframes:\n  - {at: 0, pan: 0}\n  - {at: 4, pan: 20}\n"
+    [problem] = problems_of(tmp_path, text, UnplayableError)
+    assert problem == "shoot.yaml:4:5: pan, keyframes[0]..keyframes[1]: ramps of 3 s and 3 s do not fit into 4.000 s"
+    warnings = load(tmp_path, text.replace("3s", "0.01s")).warnings
+    assert [warning.removeprefix(f"{tmp_path}/").partition(" a ramp of")[0] for warning in warnings] == [
+        "shoot.yaml:3:5: pan, keyframes[0]:",
+        "shoot.yaml:4:5: pan, keyframes[1]:",
+    ]
+
+
+def test_a_program_plans_a_sequence_for_a_rig_in_one_call(tmp_path: Path) -> None:
+    file = tmp_path / "shoot.yaml"
+    file.write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 4, pan: 20}\n")
+    move = teleop.plan(file, rig="sim")
+    assert move.duration == 4
+    assert move.at(4)[Axis.PAN].position == 20
+    assert teleop.plan("reveal").duration == 15
