@@ -35,3 +35,8 @@ class VirtualClock:
 
     def sleep_until(self, time: float) -> None:
         self._now = max(self._now, time)
+
+
+def date() -> float:
+    """Seconds since 1970 by the wall clock, which may jump: for what is written into files, never for control."""
+    return time.time()

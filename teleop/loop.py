@@ -4,6 +4,10 @@ Ticks lie on a grid of absolute times, so a late one does not delay the next; th
 went by and makes one legal step of that length. While nothing moves and no source will change its mind, the loop
 sleeps over ticks, but never past the keep-alive. Only this module decides what a fault means: whatever is raised
 anywhere in a tick, by whomever, becomes a reason to ramp to rest, release and end with a result that is not DONE.
+Nothing a piece does can keep a run from ending: stopping and releasing have their own longest times.
+
+After a stall the planner no longer knows where the axes are: a gimbal forgets a speed after 0.5 s and a position after
+0.1 s. So the ramp to rest then starts from what two fresh readings say, and nothing is commanded before they are in.
 """
 
 from __future__ import annotations
@@ -14,7 +18,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
 from teleop.motion import Act, Axis, Demand, Halt, Limits, Motion, Reading, State, Tick, Wish
-from teleop.planner.stop import stop_state
+from teleop.planner.stop import stop_phases, stop_state
 from teleop.ports import Clock, DeviceError, Reporter, Sink, Source, TeleopError
 from teleop.supervisor import Event, Run, Supervisor
 
@@ -23,7 +27,10 @@ PERIOD = 1 / RATE  # s
 KEEP_ALIVE = 0.4  # s: the longest a resting loop sleeps; a gimbal forgets a speed after 0.5 s
 STALL = 0.25  # s: a tick later than this was not lateness but a stall; the gimbal has long stopped following
 FIRST_REPORT = 2.0  # s to wait for the first report of every axis in use
+STOP_SHARE, STOP_EXTRA = 2.0, 1.0  # a planner has so many times the fastest stop, and so many s, to come to rest
 RELEASE_PATIENCE = 0.5  # s to keep trying to give a device back over a link that fails
+RELEASE_LONGEST = 10.0  # s for all of giving back, whatever a sink still wants to do
+FINDING = 0.3  # s to wait after a stall for two readings of every axis; one without them goes on as planned
 
 log = logging.getLogger(__name__)
 
@@ -66,8 +73,11 @@ class Loop:
         self._reported: dict[Axis, Reading] = {}
         self._interrupt = ""
         self._planner_failed = False  # while stopping
+        self._stop_end = math.inf
+        self._stalled = math.inf  # when a stall ended, and since then
+        self._found: dict[Axis, list[Reading]] = {}  # the last two readings of each axis; empty once it is over
         self._release_due = dict.fromkeys(range(len(sinks)), -math.inf)  # sink -> when its next step is
-        self._release_end = math.inf
+        self._release_end = self._release_limit = math.inf
         self._turns: Mapping[Run, Callable[[float, int], None]] = {
             Run.WAITING: self._wait,
             Run.RUNNING: self._drive,
@@ -83,14 +93,20 @@ class Loop:
         """Turn until it is over. A fault is not raised: the supervisor returned has the result and the reasons."""
         while self.supervisor.state is not Run.OVER:
             try:
-                time, steps = self._next_tick()
-                if self._interrupt:
-                    reason, self._interrupt = self._interrupt, ""
-                    self.supervisor.happened(Event.INTERRUPT, reason)
-                self._guarded(self._turns[self.supervisor.state], time, steps)
-            except KeyboardInterrupt:
+                self._turn()
+            except KeyboardInterrupt:  # where nobody handles the signal it may come between any two lines
                 self.interrupt("Ctrl-C")
         return self.supervisor
+
+    def _turn(self) -> None:
+        tick = self._guarded(self._next_tick)
+        if tick is None:  # even the clock may fail; the run comes to its end all the same
+            self._ticks += 1
+            tick = self._time(self._ticks), 1
+        if self._interrupt:
+            reason, self._interrupt = self._interrupt, ""
+            self.supervisor.happened(Event.INTERRUPT, reason)
+        self._guarded(self._turns[self.supervisor.state], *tick)
 
     def _next_tick(self) -> tuple[float, int]:
         """Sleep until the next tick that is needed: its time on the grid, and the periods the planner has to cover."""
@@ -103,8 +119,10 @@ class Loop:
         late = self._clock.now() - self._time(due)
         elapsed = due - self._ticks + max(0, math.floor(late * RATE + 1e-6))
         self._ticks += elapsed
-        if late > STALL and running:
+        if late > STALL and self.supervisor.state in (Run.RUNNING, Run.STOPPING):
             self._fault(TeleopError(f"the computer stalled for {late:.2f} s"))
+            self._stalled = self._time(self._ticks)
+            self._found = {axis: [] for axis, state in self._motion.items() if state.velocity or state.acceleration}
             return self._time(self._ticks), 1
         return self._time(self._ticks), 1 if self._resting else elapsed
 
@@ -133,7 +151,7 @@ class Loop:
             wishes, due = source.read(now)
             demand.update(wishes)
             actions.extend(due)
-        self._motion = self._planner.step(demand, steps)
+        self._motion = _finite(self._planner.step(demand, steps))
         self._resting = self._planner.at_rest
         self._wake = min(source.next_change(now) for source in self._sources)
         self._emit(now, demand, actions)
@@ -142,8 +160,13 @@ class Loop:
 
     def _stop(self, now: float, steps: int) -> None:
         """Ramp to rest; once even the planner has failed, by the closed form alone, from what was last sent."""
+        if self._found and not self._find(now):
+            return
+        if math.isinf(self._stop_end):
+            self._stop_end = now + STOP_EXTRA + STOP_SHARE * max(map(self._stop_time, self._motion), default=0.0)
+        self._planner_failed |= now > self._stop_end
         demand: Demand = {axis: Halt() for axis in self._limits}
-        motion = None if self._planner_failed else self._guarded(self._planner.step, demand, steps)
+        motion = None if self._planner_failed else self._guarded(self._halted, demand, steps)
         if motion is None:
             self._planner_failed = True
             motion = {axis: self._braked(axis, steps * PERIOD) for axis in self._motion}
@@ -152,14 +175,50 @@ class Loop:
         if all(state.velocity == 0 and state.acceleration == 0 for state in motion.values()):
             self.supervisor.happened(Event.AT_REST)
 
+    def _halted(self, demand: Demand, steps: int) -> Motion:
+        return _finite(self._planner.step(demand, steps))
+
+    def _find(self, now: float) -> bool:
+        """Whether the axes that moved before the stall are found: the planner then goes on from there.
+
+        None can be faster than it was commanded, nor have turned round, whatever two rounded readings seem to say.
+        """
+        self._report(now)
+        for axis, readings in self._found.items():
+            reading = self._reported[axis]
+            if reading.time >= self._stalled and reading not in readings[-1:]:
+                self._found[axis] = [*readings[-1:], reading]
+        if now < self._stalled + FINDING and any(len(readings) < 2 for readings in self._found.values()):
+            return False
+        for axis, readings in self._found.items():
+            if len(readings) == 2:
+                (before, earlier), (position, later) = readings
+                low, high = sorted((0.0, self._motion[axis].velocity))
+                velocity = min(max((position - before) / (later - earlier), low), high)
+                here = State(position + velocity * (now - later), velocity)
+                self._motion = {**self._motion, axis: here}
+                self._guarded(self._planner.reset, {axis: here})
+        self._found = {}
+        return True
+
+    def _stop_time(self, axis: Axis) -> float:
+        _, velocity, acceleration = self._motion[axis]
+        limits = self._limits[axis]
+        return sum(seconds for seconds, _ in stop_phases(velocity, acceleration, limits.acceleration, limits.jerk))
+
     def _braked(self, axis: Axis, seconds: float) -> State:
         limits = self._limits[axis]
         return stop_state(self._motion[axis], limits.acceleration, limits.jerk, seconds)
 
     def _release(self, now: float, _steps: int) -> None:
-        """Each sink's own steps at its own times; one that fails is tried again until patience ends."""
+        """Each sink's own steps at its own times; one that fails is tried again until patience ends.
+
+        Reports go on meanwhile: what the links still hold back leaves, and the sinks hear what is answered.
+        """
         failed = object()
-        self._release_end = min(self._release_end, now + RELEASE_PATIENCE)
+        if math.isinf(self._release_limit):
+            self._release_end, self._release_limit = now + RELEASE_PATIENCE, now + RELEASE_LONGEST
+        self._report(now)
         for index, due in list(self._release_due.items()):
             if now < due - PERIOD / 2:
                 continue
@@ -170,6 +229,9 @@ class Loop:
                 del self._release_due[index]
             else:
                 self._release_due[index] = again
+        if self._release_due and now > self._release_limit:
+            self._fault(TeleopError(f"not everything could be given back within {RELEASE_LONGEST:g} s"))
+            self._release_due.clear()
         if not self._release_due:
             self.supervisor.happened(Event.RELEASED)
 
@@ -184,14 +246,30 @@ class Loop:
             self._guarded(sink.write, tick)
 
     def _guarded(self, call: Callable[..., Any], *arguments: Any, default: Any = None) -> Any:
-        """Whatever goes wrong in `call` becomes a fault, so that the other sinks are still served and the run stops."""
+        """Whatever goes wrong in `call` becomes a fault, so that the other sinks are still served and the run stops.
+
+        SystemExit and its kin too: a piece that wants to leave may not take the run with it.
+        """
         try:
             return call(*arguments)
-        except Exception as fault:  # noqa: BLE001 - the one place where any exception is turned into a smooth stop
+        except KeyboardInterrupt:
+            self.interrupt("Ctrl-C")
+        except BaseException as fault:  # noqa: BLE001 - the one place where any exception is turned into a smooth stop
             self._fault(fault)
-            return default
+        return default
 
-    def _fault(self, fault: Exception) -> None:
-        reason = str(fault) if isinstance(fault, TeleopError) else f"{type(fault).__name__}: {fault}"
+    def _fault(self, fault: BaseException) -> None:
+        try:
+            reason = str(fault) if isinstance(fault, TeleopError) else f"{type(fault).__name__}: {fault}"
+        except Exception:  # noqa: BLE001 - an error that cannot say what it is still ends the run
+            reason = type(fault).__name__
         log.debug("fault: %s", reason, exc_info=fault)
         self.supervisor.happened(Event.FAULT, reason)
+
+
+def _finite(motion: Mapping[Axis, State]) -> Motion:
+    """The planner's word, if it is one of numbers: what is not would pass every comparison with a limit."""
+    for axis, state in motion.items():
+        if not math.isfinite(sum(state)):
+            raise ArithmeticError(f"the planner has {axis} at {state.position}, {state.velocity}, {state.acceleration}")
+    return motion

@@ -19,6 +19,8 @@ from teleop.links.url import LinkUrlError, parse
 from teleop.motion import Axis, Limits
 from teleop.section import Finite, Section
 from teleop.shipped import find
+from teleop.sources.handling import PresetsSection, SticksSection
+from teleop.sources.inputs_section import InputSection, input_rules
 
 MOVES: Mapping[str, Sequence[Axis]] = {
     "gimbal": (Axis.PAN, Axis.TILT, Axis.ROLL),  # unless its mapping says otherwise
@@ -52,11 +54,19 @@ class AxisSection(Section):
         return Limits(low, high, self.velocity, self.acceleration, self.jerk)
 
 
+class GainsSection(Section):
+    """How hard the measured error is worked against: deg/s per deg, and deg/s2 per deg; 0 does not."""
+
+    proportional: Annotated[float, Field(ge=0, le=20)] = 3.0
+    integral: Annotated[float, Field(ge=0, le=20)] = 2.0
+
+
 class GimbalSection(Section):
     """Pan, tilt and roll over the R SDK.
 
     `delay` is how much later than commanded the gimbal moves, in s. `signs` turns an axis whose firmware counts the
     other way. `mapping` says which axis each of the gimbal's angles is; one that is left out is not driven.
+    `gains` are those of the modes speed and stick. `follow` is how far from commanded an axis may stay, in deg.
     `full_stick` is what full deflection gives with the gimbal's own joystick settings, in deg/s, for mode stick; an
     axis that is not named there reaches its velocity.
     """
@@ -66,6 +76,8 @@ class GimbalSection(Section):
     mode: Literal["position", "speed", "stick"]
     rate: Rate
     delay: Annotated[float, Field(ge=0, le=0.5)] = 0.0
+    gains: GainsSection = GainsSection()
+    follow: Annotated[float, Field(gt=0, le=180)] = 5.0
     signs: dict[Angle, Literal[1, -1]] = Field(default_factory=dict)
     mapping: dict[Literal["yaw", "roll", "pitch"], Angle] = Field(
         default_factory=lambda: {"yaw": "pan", "roll": "roll", "pitch": "tilt"}
@@ -85,11 +97,12 @@ class GimbalSection(Section):
 
 
 class FocusSection(Section):
-    """The focus motor on the gimbal's bus."""
+    """The focus motor on the gimbal's bus. `follow` is how far from commanded it may be found for long."""
 
     type: Literal["focus"]
     link: str
     rate: Rate
+    follow: Share = 0.1
 
 
 class CameraSection(Section):
@@ -97,14 +110,6 @@ class CameraSection(Section):
 
     type: Literal["camera"]
     link: str
-
-
-class SticksSection(Section):
-    """How a deflection becomes a velocity; the defaults leave it as it is. `speed`: full stick's share of an axis's."""
-
-    dead_zone: Annotated[float, Field(ge=0, le=0.3)] = 0.0
-    expo: Annotated[float, Field(ge=0, le=0.75)] = 0.0
-    speed: Share = 1.0
 
 
 class Profile(Section):
@@ -115,6 +120,8 @@ class Profile(Section):
     axes: Annotated[dict[AxisName, AxisSection], Field(min_length=1)]
     sinks: list[Annotated[GimbalSection | FocusSection | CameraSection, Field(discriminator="type")]]
     sticks: SticksSection = SticksSection()
+    presets: PresetsSection = PresetsSection()
+    inputs: list[InputSection] = Field(default_factory=list)
 
     @property
     def limits(self) -> Mapping[Axis, Limits]:
@@ -138,6 +145,7 @@ def _rules(data: Any) -> Iterator[Wrong]:
         if isinstance(url, str) and (wrong := _url_error(url)):
             yield ("links", name), wrong
     yield from _sink_rules(data)
+    yield from input_rules(data)
 
 
 def _axis_rules(name: str, section: Any) -> Iterator[Wrong]:

@@ -20,20 +20,27 @@ from teleop.sim.gimbal import SimulatedGimbal
 from teleop.sim.link import SimLink
 from teleop.sinks.camera import CameraSink
 from teleop.sinks.connection import Connection
+from teleop.sinks.correction import Gains
 from teleop.sinks.focus import FocusReporter, FocusSink
 from teleop.sinks.gimbal import Angles, PositionSink
 from teleop.sinks.gimbal_speed import SpeedSink
 from teleop.sinks.gimbal_stick import StickSink
+from teleop.sinks.stall import StallGuard
 from teleop.sinks.wiring import Wiring
 
 
 @dataclass(frozen=True)
 class Device:
-    """What serves one entry of a profile's sinks, and the axes it can move."""
+    """What serves one entry of a profile's sinks, and the axes it can move.
+
+    `follow` is how far from commanded these may be found, in units, and `delay` how much later than that they move (s).
+    """
 
     moves: Sequence[Axis]
     sink: Sink
     reporter: Reporter | None
+    follow: float = 0.0
+    delay: float = 0.0
 
 
 class Rig:
@@ -59,8 +66,14 @@ class Rig:
         used = [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
         sinks = [device.sink for device in used]
         reporters = [device.reporter for device in used if device.reporter is not None]
+        guarded = {axis: device for device in used for axis in device.moves if axis in limits}
+        guard = StallGuard(
+            limits,
+            {axis: device.follow for axis, device in guarded.items()},
+            {axis: device.delay for axis, device in guarded.items()},
+        )
         planner = Live(limits, PERIOD)
-        return Loop(self.clock, planner, limits, sources, [*sinks, *watchers], reporters)
+        return Loop(self.clock, planner, limits, sources, [*sinks, guard, *watchers], reporters)
 
 
 @contextmanager
@@ -91,22 +104,25 @@ def _turns_for_ever(profile: Profile) -> bool:
 def _gimbal(section: GimbalSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:
     wiring = Wiring(section.axes, {Axis(axis): sign for axis, sign in section.signs.items()})
     own = {axis: limits[axis] for axis in section.axes if axis is not None and axis in limits}
+    gains = Gains(section.gains.proportional, section.gains.integral)
     sink: Sink
-    if section.mode == "stick":
-        full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
-        sink = StickSink(connection, section.rate, section.delay, wiring, own, full)
-    else:
-        sink = MODES[section.mode](connection, section.rate, section.delay, wiring, own)
-    return Device(list(own), sink, Angles(connection, wiring))
+    match section.mode:
+        case "position":
+            sink = PositionSink(connection, section.rate, section.delay, wiring, own)
+        case "speed":
+            sink = SpeedSink(connection, section.rate, section.delay, wiring, own, gains)
+        case "stick":
+            full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
+            sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains)
+    return Device(list(own), sink, Angles(connection, wiring), section.follow, section.delay)
 
 
 def _focus(section: FocusSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
-    return Device(MOVES[section.type], FocusSink(connection, section.rate), FocusReporter(connection))
+    return Device(MOVES[section.type], FocusSink(connection, section.rate), FocusReporter(connection), section.follow)
 
 
 def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
     return Device(MOVES[section.type], CameraSink(connection), None)
 
 
-MODES = {"position": PositionSink, "speed": SpeedSink}
 BUILDERS: Mapping[str, Callable[..., Device]] = {"gimbal": _gimbal, "focus": _focus, "camera": _camera}

@@ -13,3 +13,16 @@ class Section(BaseModel):
     """A mapping in a file, as an immutable object."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class PositionsSection(Section):
+    """Positions of axes by their names, in the axes' units; None for one that is not given."""
+
+    pan: Finite | None = None
+    tilt: Finite | None = None
+    roll: Finite | None = None
+    focus: Finite | None = None
+    stick_roll: Finite | None = None
+    stick_pitch: Finite | None = None
+    stick_throttle: Finite | None = None
+    stick_yaw: Finite | None = None

@@ -8,8 +8,8 @@ import pytest
 from fakes import PlacedReporter, RecordingSink, ScriptedSource, StallingClock, cruising
 
 from teleop.clock import VirtualClock
-from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, RELEASE_PATIENCE, STALL, Loop
-from teleop.motion import Action, Axis, Cruise, Halt, Limits, State
+from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, RELEASE_LONGEST, RELEASE_PATIENCE, STALL, Loop
+from teleop.motion import Action, Axis, Cruise, Halt, Limits, Reading, State
 from teleop.planner.live import Live
 from teleop.ports import Clock, LinkError
 from teleop.supervisor import Result, Run
@@ -84,12 +84,12 @@ def test_a_resting_loop_sleeps_but_not_past_the_keep_alive_nor_a_change() -> Non
     assert_smooth_to_rest(sink)
 
 
-def failing(after: float, clock: VirtualClock, what: Callable) -> Callable:
+def failing(after: float, clock: VirtualClock, what: Callable, error: Exception | None = None) -> Callable:
     """`what`, until `after`; from then on it always raises."""
 
     def call(*arguments):
         if clock.now() >= after - 1e-9:
-            raise ZeroDivisionError("a defect")
+            raise error or ZeroDivisionError("a defect")
         return what(*arguments)
 
     return call
@@ -178,14 +178,132 @@ def test_lateness_is_made_up_in_one_legal_step() -> None:
     assert_smooth_to_rest(sink)
 
 
-def test_a_stall_stops_the_run_and_is_said() -> None:
-    sink = RecordingSink()
-    ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], clock=StallingClock(1.0, STALL + 0.05)).run()
+class Measured:
+    """Says where pan is, by a function of time, and answers 40 ms late and ten times a second, as devices do."""
+
+    def __init__(self, position: Callable[[float], float]) -> None:
+        self._position = position
+
+    def report(self, now: float):
+        asked = math.floor((now - 0.04) * 10) / 10
+        return {Axis.PAN: Reading(self._position(asked), asked), Axis.TILT: Reading(-5.0, asked)}
+
+
+@pytest.mark.parametrize(
+    ("measured", "velocity"),
+    [(lambda t: 50 * t, 50.0), (lambda t: 20 * t, 20.0), (lambda _t: 60.0, 0.0), (lambda t: 90 * t, 50.0)],
+)
+def test_after_a_stall_it_stops_from_where_the_axes_are_found_and_says_why(
+    measured: Callable[[float], float], velocity: float
+) -> None:
+    """Never faster than it was commanded, and nothing is sent before it is known."""
+    sink, clock = RecordingSink(), StallingClock(1.0, STALL + 0.05)
+    ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], [Measured(measured)], clock).run()
     assert ended.result is Result.FAILED
     assert ended.reasons == ["the computer stalled for 0.30 s"]
+    after = next(i for i, tick in enumerate(sink.ticks) if tick.time > 1.2)
+    found, at = sink.ticks[after].motion[Axis.PAN], sink.ticks[after].time
+    assert found.velocity == pytest.approx(velocity, abs=3)
+    assert found.position == pytest.approx(measured(at), abs=8)
+    assert at - sink.ticks[after - 1].time > STALL + 0.1
+    sink.ticks = sink.ticks[after:]
+    assert_smooth_to_rest(sink)
+
+
+def test_an_axis_that_is_not_found_after_a_stall_goes_on_as_planned() -> None:
+    sink, clock = RecordingSink(), StallingClock(1.0, STALL + 0.05)
+    old = Measured(lambda t: 50 * min(t, 1.0))
+    report = old.report
+    old.report = lambda now: report(min(now, 1.0))  # type: ignore[method-assign]  # it falls silent
+    ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], [old], clock).run()
+    assert ended.result is Result.FAILED
     velocities = [tick.motion[Axis.PAN].velocity for tick in sink.ticks]
     assert velocities[-1] == 0
     assert max(abs(after - before) for before, after in pairwise(velocities)) <= 120 * PERIOD + 1e-6
+
+
+def test_a_stall_of_a_resting_loop_needs_no_search() -> None:
+    sink, clock = RecordingSink(), StallingClock(1.0, STALL + 0.05)
+    ended = loop_of([cruising(Axis.PAN, 0, end=60.0)], [sink], clock=clock).run()
+    assert ended.reasons == ["the computer stalled for 0.30 s"]
+    assert clock.now() < 1.0 + STALL + 0.05 + KEEP_ALIVE + 3 * PERIOD
+
+
+@pytest.mark.parametrize("error", [SystemExit(3), GeneratorExit(), MemoryError(), RecursionError("deep")])
+@pytest.mark.parametrize("culprit", ["source", "sink", "clock"])
+def test_nothing_that_is_raised_gets_past_the_loop(error: BaseException, culprit: str) -> None:
+    clock, source, sink, bad = VirtualClock(), cruising(Axis.PAN, 50, end=60.0), RecordingSink(steps=3), RecordingSink()
+    target, name = {"source": (source, "read"), "sink": (bad, "write"), "clock": (clock, "sleep_until")}[culprit]
+    call = getattr(target, name)
+
+    def fails(*arguments):
+        if clock.now() > 1.0:
+            raise error
+        return call(*arguments)
+
+    setattr(target, name, fails)
+    ended = loop_of([source], [bad, sink], clock=clock).run()
+    assert ended.result is Result.FAILED
+    assert ended.reasons[0].startswith(type(error).__name__)
+    assert len(sink.released) == 3
+    assert_smooth_to_rest(sink)
+
+
+def test_an_error_that_cannot_say_what_it_is_ends_the_run_too() -> None:
+    class MuteError(Exception):
+        def __str__(self) -> str:
+            raise ValueError
+
+    source, sink = cruising(Axis.PAN, 50, end=60.0), RecordingSink()
+    source.read = failing(1.0, clock := VirtualClock(), source.read, MuteError())
+    ended = loop_of([source], [sink], clock=clock).run()
+    assert ended.reasons == ["MuteError"]
+    assert_smooth_to_rest(sink)
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf])
+def test_a_planner_without_numbers_is_not_believed(bad: float) -> None:
+    planner, clock, sink = Live(LIMITS, PERIOD), VirtualClock(), RecordingSink()
+    step = planner.step
+
+    def mad(demand, dt_steps: int = 1):
+        motion = step(demand, dt_steps)
+        return motion if clock.now() < 1.0 else {axis: State(bad, *state[1:]) for axis, state in motion.items()}
+
+    planner.step = mad
+    ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], clock=clock, planner=planner).run()
+    assert ended.reasons[0].startswith("ArithmeticError: the planner has pan at ")
+    assert_smooth_to_rest(sink)
+
+
+def test_a_planner_that_never_comes_to_rest_is_relieved() -> None:
+    planner, clock, sink = Live(LIMITS, PERIOD), VirtualClock(), RecordingSink()
+    step = planner.step
+    planner.step = lambda demand, dt_steps=1: step({Axis.PAN: Cruise(30)}, dt_steps)  # type: ignore[method-assign]
+    loop = loop_of([cruising(Axis.PAN, 30, end=60.0)], [sink], clock=clock, planner=planner)
+    sink.write = lambda tick: (sink.ticks.append(tick), tick.time > 1 and loop.interrupt("enough"))[0]  # type: ignore[method-assign]
+    ended = loop.run()
+    assert ended.result is Result.INTERRUPTED
+    assert clock.now() < 5
+    assert_smooth_to_rest(sink)
+
+
+def test_a_sink_that_never_ends_its_release_is_left_behind() -> None:
+    clock, sink, endless = VirtualClock(), RecordingSink(steps=3), RecordingSink(steps=1_000_000)
+    ended = loop_of([cruising(Axis.PAN, 10, 0.5)], [endless, sink], clock=clock).run()
+    assert ended.result is Result.FAILED
+    assert ended.reasons == [f"not everything could be given back within {RELEASE_LONGEST:g} s"]
+    assert len(sink.released) == 3
+    assert clock.now() < RELEASE_LONGEST + 3
+
+
+def test_links_are_heard_while_devices_are_given_back() -> None:
+    """What they hold back must still leave, and a release may wait for an answer."""
+    sink, reporter = RecordingSink(steps=5), PlacedReporter(PLACES)
+    heard, report = [], reporter.report
+    reporter.report = lambda now: (heard.append(now), report(now))[1]  # type: ignore[method-assign]
+    loop_of([cruising(Axis.PAN, 10, 0.5)], [sink], [reporter]).run()
+    assert sum(sink.released[0] <= now <= sink.released[-1] for now in heard) >= 20
 
 
 def test_without_a_report_nothing_moves() -> None:

@@ -1,12 +1,14 @@
 """`teleop decode`: from bytes to a JSON line for each frame; damage is a line too, nothing ever stops it.
 
-The protocols are rows, `teleop decode r-sdk` the first of them. Hexadecimal input is one stream of bytes however it is
-cut into lines, so that whole frames, CAN pieces and a capture with a truncated frame in it can all be pasted. A
-candump log has a stream for each direction of each bus, whose pieces must not mix.
+The protocols are rows, `teleop decode r-sdk` the first of them; `teleop decode hid` is in a module of its own.
+Hexadecimal input is one stream of bytes however it is cut into lines, so that whole frames, CAN pieces and a capture
+with a truncated frame in it can all be pasted. A candump log has a stream for each direction of each bus, whose pieces
+must not mix.
 """
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import re
@@ -24,10 +26,11 @@ from teleop.ports import UsageError
 
 R_SDK_IDS = ("222", "223")  # from the gimbal, to the gimbal (V2.5 section 3.1); three digits: standard frames
 
-_NOISE = re.compile(r"\b0x|[\s,:;]", re.IGNORECASE)
+HEX_NOISE = re.compile(r"\b0x|[\s,:;]", re.IGNORECASE)
 _CANDUMP = re.compile(r"\((?P<time>\d+\.\d+)\)\s+(?P<bus>\S+)\s+(?P<id>[0-9A-Fa-f]+)#(?P<data>\S*)(\s+[RT])?\s*")
 
 app = App(name="decode", help="Print what bytes mean, a JSON line for each frame.")
+app.command("teleop.cli.decode_hid:hid", name="hid", help="Decode input reports of a joystick, a gamepad or a dial.")
 
 
 class InputError(UsageError):
@@ -43,9 +46,9 @@ def r_sdk(
     from teleop.dji.r_sdk import R_SDK
 
     if candump:
-        lines = decode_candump(_files(text) if text else sys.stdin, R_SDK, R_SDK_IDS)
+        lines = decode_candump(_files(text) if text else standard_input(), R_SDK, R_SDK_IDS)
     else:
-        lines = decode_hex(text or sys.stdin, R_SDK)
+        lines = decode_hex(text or standard_input(), R_SDK)
     for line in lines:
         print(line, flush=True)
 
@@ -55,9 +58,9 @@ def decode_hex(lines: Iterable[str], registry: Registry) -> Iterator[str]:
     reader, transcriber = FrameReader(), Transcriber(registry)
     for line in lines:
         try:
-            data = bytes.fromhex(_NOISE.sub("", line))
+            data = bytes.fromhex(HEX_NOISE.sub("", line))
         except ValueError:
-            yield _not_understood("not hexadecimal", line)
+            yield not_understood("not hexadecimal", line)
             continue
         for found in reader.feed(data, 0.0):
             yield json.dumps(transcriber.record(found))
@@ -73,7 +76,7 @@ def decode_candump(lines: Iterable[str], registry: Registry, ids: Iterable[str])
     for line in filter(str.strip, lines):
         parsed = _CANDUMP.fullmatch(line.rstrip("\n"))
         if parsed is None:
-            yield _not_understood("not a line of candump -L", line)
+            yield not_understood("not a line of candump -L", line)
             continue
         bus, can_id = parsed["bus"], parsed["id"]
         if can_id not in wanted:
@@ -81,7 +84,7 @@ def decode_candump(lines: Iterable[str], registry: Registry, ids: Iterable[str])
         try:
             data = bytes.fromhex(parsed["data"])
         except ValueError:  # a remote or CAN FD frame, which the protocol does not have
-            yield _not_understood("not a data frame", line)
+            yield not_understood("not a data frame", line)
             continue
         reader = readers.setdefault((bus, can_id), FrameReader())
         transcriber = transcribers.setdefault(bus, Transcriber(registry))
@@ -92,7 +95,15 @@ def decode_candump(lines: Iterable[str], registry: Registry, ids: Iterable[str])
             yield json.dumps(transcribers[bus].record(found))
 
 
-def _not_understood(reason: str, line: str) -> str:
+def standard_input() -> Iterable[str]:
+    """Its lines; bytes that are no text are damage like any other, and no exception."""
+    if isinstance(sys.stdin, io.TextIOWrapper):
+        sys.stdin.reconfigure(errors="replace")
+    return sys.stdin
+
+
+def not_understood(reason: str, line: str) -> str:
+    """The JSON line of input that is not even bytes."""
     return json.dumps({"damage": f"{reason}: {line.strip()!r}", "bytes": ""})
 
 

@@ -12,10 +12,11 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Self
 
-from rich.console import Console, RenderableType
+from rich.console import Console, Group, RenderableType
 from rich.live import Live
 from rich.progress_bar import ProgressBar
 from rich.table import Table
+from rich.text import Text
 
 from teleop.motion import Axis, Tick
 from teleop.sinks.tally import Tally
@@ -25,10 +26,22 @@ _REDRAWS = 10  # a second
 
 
 class Display:
-    """A sink that only shows. `begin` is when the run's own time is zero, `duration` its length in s, inf for none."""
+    """A sink that only shows. `begin` is when the run's own time is zero, `duration` its length in s, inf for none.
 
-    def __init__(self, title: str, begin: Callable[[], float], duration: float, silent: bool = False) -> None:
-        self._title, self._begin, self._duration, self._silent = title, begin, duration, silent
+    `elapsed` is the run's own time at a time of the loop's, where it may go faster or slower; `note` is a line below.
+    """
+
+    def __init__(
+        self,
+        title: str,
+        begin: Callable[[], float],
+        duration: float,
+        silent: bool = False,
+        elapsed: Callable[[float], float] | None = None,
+        note: Callable[[], str] | None = None,
+    ) -> None:
+        self._title, self._duration, self._silent, self._note = title, duration, silent, note
+        self._elapsed = lambda now: elapsed(now) if elapsed and now >= begin() else now - begin()
         self._latest: Tick | None = None
         self._said = -math.inf
         console = Console(stderr=True)
@@ -61,7 +74,7 @@ class Display:
         return None
 
     def _time(self, tick: Tick) -> str:
-        elapsed = tick.time - self._begin()
+        elapsed = self._elapsed(tick.time)
         if elapsed < 0:
             return f"to the start {-elapsed:4.1f} s"
         if math.isinf(self._duration):
@@ -76,10 +89,10 @@ class Display:
             return grid
         row: list[RenderableType] = [self._title]
         if math.isfinite(self._duration):
-            elapsed = min(max(tick.time - self._begin(), 0.0), self._duration)
+            elapsed = min(max(self._elapsed(tick.time), 0.0), self._duration)
             row.append(ProgressBar(total=max(self._duration, 1e-9), completed=elapsed, width=30))
         grid.add_row(*row, self._time(tick), *(_angle(tick, axis) for axis in tick.motion))
-        return grid
+        return Group(grid, Text(self._note(), style="dim")) if self._note else grid
 
 
 def _angle(tick: Tick, axis: Axis) -> str:

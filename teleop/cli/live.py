@@ -1,41 +1,129 @@
-"""`teleop live`: sticks on a rig."""
+"""`teleop live`: a rig in an operator's hands, or moved by recorded sticks.
+
+Recorded sticks alone need neither a joystick nor a terminal, and then nothing of either is touched. Everything else
+goes through the `Operator`; what is recorded then drives the axes that no hand does.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 from teleop.cli.display import Display
+from teleop.cli.live_view import LiveView
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.perform import perform
-from teleop.cli.play import Fast, the_clock
+from teleop.cli.play import Fast, Take, the_clock
 from teleop.motion import Axis
-from teleop.rig import open_rig
+from teleop.ports import Clock, DeviceError, Sink, UsageError
+from teleop.profile import Profile
+from teleop.rig import Rig, open_rig
+from teleop.sinks.commands import CommandSink
+from teleop.sinks.recorder import recording
 from teleop.sinks.tally import Tally
+from teleop.sources.hid_backend import Hidapi
+from teleop.sources.hid_input import open_inputs
+from teleop.sources.hid_reader import wanted
+from teleop.sources.inputs import Input
+from teleop.sources.inputs_section import DeviceSection
+from teleop.sources.keyboard import Keyboard, terminal
+from teleop.sources.operator import Operator
+from teleop.sources.presets import default_file, read_presets
 from teleop.sources.shaping import shape
-from teleop.sources.sticks import SticksSource, read_sticks
+from teleop.sources.sticks import Sticks, SticksSource, read_sticks
+
+NOBODY = "live: there is no joystick, and no terminal for its keys: plug one in, run it on a terminal, or give --sticks"
 
 
 def live(
     *,
-    sticks: Annotated[Path, Parameter(help="CSV: time in s, and a deflection of -1..1 for each axis.")],
+    sticks: Annotated[Path | None, Parameter(help="CSV: time in s, and a deflection of -1..1 for each axis.")] = None,
+    presets: Annotated[Path | None, Parameter(help="Where presets are kept; else one file for each rig.")] = None,
+    learn: Annotated[bool, Parameter(help="Ask what each control is to do.", negative=(), show_default=False)] = False,
     fast: Fast = False,
+    take: Take = None,
     options: Options = DEFAULTS,
 ) -> int:
-    """Move the rig by its sticks, replayed from a file; ends after the last row, when everything is at rest."""
+    """Move a rig by joystick, dial and keys, or by sticks replayed from a file, which ends after its last row."""
     profile = options.profile()
-    recording = read_sticks(sticks, list(profile.axes))
+    if learn:
+        return _learn(profile)
+    if sticks is None and fast:
+        raise UsageError("--fast: a hand keeps its own time; only --sticks can be replayed fast")
+    recorded = None if sticks is None else read_sticks(sticks, list(profile.axes))
+    replay = None if recorded is None else _replay(profile, recorded)
+    title = profile.name if sticks is None else sticks.name
+    axes = list(profile.axes) if recorded is None else recorded.axes
+    limits = {axis: profile.limits[axis] for axis in axes}
+    clock = the_clock(fast, profile)
+    keyboard = None if fast else _keyboard()
+    if replay and recorded and keyboard is None:
+        tally = Tally(lambda: replay.begin)
+        display = Display(title, lambda: replay.begin, recorded.times[-1], silent=options.json)
+        with recording(take, profile.name, title, limits, patient=fast) as recorder, open_rig(profile, clock) as rig:
+            return perform(rig, axes, [replay], tally, display, options.json, recorder)
+    with ExitStack() as stack:
+        inputs, note = _open_devices(stack, profile, clock, keyboard is not None)
+        shelf = read_presets(presets or default_file(profile.name), limits, profile.name)
+        stack.callback(shelf.close)
+        hands = [*inputs, *([] if keyboard is None else [keyboard])]
+        operator = Operator(limits, hands, shelf, profile.sticks, profile.presets.recall, replay)
+        if note:
+            operator.say(note)
+        recorder = stack.enter_context(recording(take, profile.name, title, limits, lambda: operator.status))
+        rig = stack.enter_context(open_rig(profile, clock))
+        trouble = (lambda: "") if recorder is None else (lambda: recorder.trouble)
+        view = LiveView(title, limits, lambda: operator.status, rig.connections, keyboard, trouble, options.json)
+        watchers: list[Sink] = [operator, *_commands(rig, operator), *([] if keyboard is None else [keyboard])]
+        tally = Tally(lambda: operator.begin)
+        return perform(rig, axes, [operator], tally, view, options.json, recorder, watchers)
+
+
+def _replay(profile: Profile, recorded: Sticks) -> SticksSource:
+    """Recorded sticks, with the dead zone and expo of the profile where it has them."""
     shaping = profile.sticks
 
     def velocity(axis: Axis, deflection: float) -> float:
-        share = shaping.speed * shape(deflection, shaping.dead_zone, shaping.expo)
+        share = shaping.speed * shape(deflection, shaping.dead_zone or 0.0, shaping.expo or 0.0)
         return share * profile.axes[axis].velocity
 
-    clock = the_clock(fast, profile)
-    source = SticksSource(recording, velocity)
-    tally = Tally(lambda: source.begin)
-    display = Display(sticks.name, lambda: source.begin, recording.times[-1], silent=options.json)
-    with open_rig(profile, clock) as rig:
-        return perform(rig, recording.axes, [source], tally, display, options.json)
+    return SticksSource(recorded, velocity)
+
+
+def _keyboard() -> Keyboard | None:
+    """The keys of the terminal that this was started on, if there is one."""
+    descriptor = terminal()
+    return None if descriptor is None else Keyboard(descriptor)
+
+
+def _commands(rig: Rig, operator: Operator) -> list[CommandSink]:
+    links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
+    return [CommandSink(rig.connections[link], operator.say) for link in links[:1]]
+
+
+def _open_devices(stack: ExitStack, profile: Profile, clock: Clock, keys: bool) -> tuple[Sequence[Input], str]:
+    """The joysticks and dials of the profile, open until the stack is left, and what is to be said of them.
+
+    Raises UsageError when nothing is there that could move anything, DeviceError when what the profile names cannot be.
+    """
+    try:
+        backend = Hidapi()
+    except DeviceError as error:
+        if profile.inputs or not keys:
+            raise
+        return [], str(error)
+    if not keys and not profile.inputs and not wanted(DeviceSection(), backend.enumerate(), None):
+        raise UsageError(NOBODY)
+    shaping = profile.sticks
+    opened = open_inputs(profile.inputs, clock.now, backend, dead_zone=shaping.dead_zone, expo=shaping.expo)
+    return stack.enter_context(opened), ""
+
+
+def _learn(profile: Profile) -> int:
+    from teleop.cli.learn import learn
+
+    return learn(list(profile.axes))

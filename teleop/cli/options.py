@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import sys
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from teleop.document import DocumentError
 from teleop.profile import Profile, load_profile
+from teleop.sinks.recorder import ENDING
 
 if TYPE_CHECKING:
     from teleop.sources.sequence_file import Performance
@@ -40,12 +42,20 @@ class Options:
         return load_profile(self.rig, links)
 
     def performance(self, file: str) -> tuple[Profile, Performance]:
-        """The sequence called `file`, compiled for the rig, its warnings said; raises DocumentError, as JSON too."""
+        """The sequence or take called `file`, compiled for the rig, its warnings said.
+
+        Raises DocumentError, and with --json prints it.
+        """
         from teleop.sources.sequence_file import load_performance  # the planner's solver takes 0.3 s to load
 
         try:
             profile = self.profile()
-            performance = load_performance(file, profile.limits, profile.name)
+            if is_take(file):
+                from teleop.takes.repeat import take_performance
+
+                performance = take_performance(Path(file), profile.limits, profile.name)
+            else:
+                performance = load_performance(file, profile.limits, profile.name)
         except DocumentError as error:
             if self.json:
                 print(json.dumps({"ok": False, "problems": error.problems}))
@@ -53,6 +63,11 @@ class Options:
         for warning in performance.warnings:
             print(warning, file=sys.stderr)
         return profile, performance
+
+
+def is_take(file: str) -> bool:
+    """Whether this is a recording, not a sequence: by its ending."""
+    return Path(file).suffix.lower() == ENDING
 
 
 DEFAULTS = Options()

@@ -8,13 +8,18 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from types import FrameType
+from typing import TYPE_CHECKING
 
 from teleop.cli.display import Display, error_table
 from teleop.motion import Axis
-from teleop.ports import Source
+from teleop.ports import Sink, Source
 from teleop.rig import Rig
+from teleop.sinks.recorder import Recorder
 from teleop.sinks.tally import Tally
 from teleop.supervisor import Result, Supervisor
+
+if TYPE_CHECKING:
+    from teleop.cli.live_view import LiveView
 
 EXIT_CODES: Mapping[Result, int] = {Result.DONE: 0, Result.FAILED: 1, Result.INTERRUPTED: 130}
 SWITCH_INTERVAL = 0.0005  # s: how long the display's thread may hold up the control thread
@@ -24,15 +29,25 @@ LEAVING = ("SIGHUP", "SIGQUIT")  # these stop it too, unless whoever started it 
 
 
 def perform(
-    rig: Rig, axes: Sequence[Axis], sources: Sequence[Source], tally: Tally, display: Display, as_json: bool
+    rig: Rig,
+    axes: Sequence[Axis],
+    sources: Sequence[Source],
+    tally: Tally,
+    display: Display | LiveView,
+    as_json: bool,
+    take: Recorder | None = None,
+    watchers: Sequence[Sink] = (),
 ) -> int:
-    """Run the sources on the rig, show it, print the report; the exit code."""
-    loop = rig.loop(axes, sources, [tally, display])
+    """Run the sources on the rig, show it, record it if asked to, print the report; the exit code."""
+    loop = rig.loop(axes, sources, [tally, *watchers, *([] if take is None else [take]), display])
     sys.setswitchinterval(SWITCH_INTERVAL)
     with signals_to(loop.interrupt), display:
         ended = loop.run()
+    if take is not None:
+        take.finish(ended.result, ended.reasons)
     if as_json:
-        print(json.dumps(_report(ended, tally, rig)))
+        report = _report(ended, tally, rig)
+        print(json.dumps(report if take is None else {**report, "take": take.facts}))
     else:
         for reason in ended.reasons:
             print(f"teleop: stopped: {reason}", file=sys.stderr)
@@ -41,6 +56,10 @@ def perform(
         for name, connection in rig.connections.items():
             if troubles := _troubles(connection.counts):
                 print(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")
+        if take is not None:
+            print(take)
+            if take.trouble:
+                print(f"teleop: {take.trouble}", file=sys.stderr)
     return EXIT_CODES[ended.result]
 
 

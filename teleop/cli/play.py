@@ -2,42 +2,87 @@
 
 from __future__ import annotations
 
+import math
+from contextlib import ExitStack
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 from teleop.cli.display import Display
-from teleop.cli.options import DEFAULTS, Options
+from teleop.cli.options import DEFAULTS, Options, is_take
 from teleop.cli.perform import perform
 from teleop.clock import SystemClock, VirtualClock
 from teleop.document import DocumentError
 from teleop.links import parse
+from teleop.planner.findings import PlanError
 from teleop.profile import Profile
 from teleop.rig import open_rig
+from teleop.sinks.recorder import recording
 from teleop.sinks.tally import Tally
+from teleop.sources.conductor import Conductor, PlayKeys
+from teleop.sources.keyboard import Keyboard, terminal
 from teleop.sources.sequence import SequenceSource
 
 Fast = Annotated[
     bool,
     Parameter(help="Do not wait: simulated time, only on sim: links.", negative=(), show_default=False),
 ]
+Take = Annotated[Path | None, Parameter(name="--take", help="Record everything the run does to a new .mcap file.")]
 
 
 def play(
-    file: Annotated[str, Parameter(help="A shipped sequence's name, or a file.")],
+    file: Annotated[str, Parameter(help="A shipped sequence's name, a sequence file, or a take (.mcap).")],
     /,
     *,
+    speed: Annotated[
+        str, Parameter(help="How fast, as a percentage: up to 200, as far as `check` says the move allows.")
+    ] = "100%",
     fast: Fast = False,
+    take: Take = None,
     options: Options = DEFAULTS,
 ) -> int:
     """Play a sequence: ease to its first keyframe, then the move, then say how well the rig followed."""
     profile, performance = options.performance(file)
+    title, limits = performance.title, {axis: profile.limits[axis] for axis in performance.move.tracks}
+    if is_take(file):
+        from teleop.takes.repeat import followable
+
+        profile = followable(profile)
     clock = the_clock(fast, profile)
-    source = SequenceSource(performance, profile.limits)
-    tally = Tally(lambda: source.begin)
-    display = Display(performance.title, lambda: source.begin, performance.duration, silent=options.json)
-    with open_rig(profile, clock) as rig:
-        return perform(rig, list(performance.move.tracks), [source], tally, display, options.json)
+    rate = _rate(speed)
+    try:
+        source = SequenceSource(performance, profile.limits, speed=rate)
+    except PlanError as error:
+        raise DocumentError([f"--speed {speed}: {error}"]) from None
+    descriptor = None if fast else terminal()
+    keys = None if descriptor is None else Keyboard(descriptor, PlayKeys())
+    conductor = None if keys is None else Conductor(source, keys)
+    display = Display(
+        title,
+        lambda: source.begin,
+        performance.duration,
+        options.json,
+        source.playback.time,
+        conductor and (lambda: conductor.note),
+    )
+    with ExitStack() as stack:
+        recorder = stack.enter_context(recording(take, profile.name, title, limits, patient=fast))
+        rig = stack.enter_context(open_rig(profile, clock))
+        watchers = [] if keys is None else [stack.enter_context(keys)]
+        tally = Tally(lambda: source.begin)
+        return perform(rig, list(limits), [conductor or source], tally, display, options.json, recorder, watchers)
+
+
+def _rate(speed: str) -> float:
+    """`150%` or `150` as 1.5; raises DocumentError."""
+    try:
+        percent = float(speed.strip().removesuffix("%"))
+    except ValueError:
+        percent = math.nan
+    if not 0 < percent < math.inf:
+        raise DocumentError([f"--speed {speed}: must be a percentage above 0, as in 50%"])
+    return percent / 100
 
 
 def the_clock(fast: bool, profile: Profile) -> SystemClock | VirtualClock:

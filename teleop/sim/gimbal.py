@@ -6,11 +6,14 @@ the gimbal; what no part knows, what is malformed and what has a value that the 
 Only streams are read generously, as real firmware does: speeds are clipped and reserved bits ignored.
 
 Every part is a function of time between commands, so looking often or seldom makes no difference.
+
+What goes wrong with real ones can be asked for: a reboot, an axis held by hand, angles that are no longer told, and the
+time that it takes to react.
 """
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, deque
 from operator import itemgetter
 from typing import Any
 
@@ -38,7 +41,8 @@ class SimulatedGimbal:
     `boot` is where it stands at first. `signs` are those of its firmware against teleop.motion, 1 or -1 for each axis.
     `lag` is the time constant of its speeds in s, `joystick_speed` the rates at full deflection. A `continuous` gimbal
     has no stops for yaw. `focus_speed` is in counts/s. With `bare_replies` it leaves set and id out of its replies, as
-    firmware before 01.04.00.20 does. `push_rate` is in Hz, once the push is switched on.
+    firmware before 01.04.00.20 does. `push_rate` is in Hz, once the push is switched on. What moves it is carried out
+    `reaction` seconds after it came. While `tells_angles` is False it neither answers for its angles nor pushes them.
     """
 
     def __init__(
@@ -53,6 +57,7 @@ class SimulatedGimbal:
         focus_calibrated: bool = True,
         push_rate: float = PUSH_RATE,
         bare_replies: bool = False,
+        reaction: float = 0.0,
         version: str = "02.02.00.07",
     ) -> None:
         self.counts: Counter[str] = Counter()  # messages by name, as they were understood
@@ -62,7 +67,11 @@ class SimulatedGimbal:
         self._camera = Camera()
         self._focus = FocusMotor(focus_speed, focus_calibrated)
         self._tuning = Tuning()
+        self.tells_angles = True
         self._push_rate = push_rate
+        self._reaction = reaction
+        self._to_come: deque[tuple[float, Message]] = deque()  # what has still to be reacted to, and when
+        self._booted = float("-inf")  # s
         self._bare_replies = bare_replies
         self._push: Beat | None = None
         self._session = Session()
@@ -106,13 +115,16 @@ class SimulatedGimbal:
     def receive(self, data: bytes, now: float) -> None:
         """Obeys the frames that `data`, arriving at `now` (s, never going back), completes."""
         self._pass(now)
+        if self._now < self._booted:
+            return
         for received in self._session.receive(data, self._now):
             frame = received.frame
             if frame.is_reply:
                 continue
             self.counts[received.message.name] += 1
             answer = self._obey(received.message)
-            if frame.cmd_type & _REPLY_TYPE:
+            told = self.tells_angles or not isinstance(received.message, gimbal.Angles)
+            if frame.cmd_type & _REPLY_TYPE and told:
                 self._reply(frame, answer)
 
     def advance(self, now: float) -> bytes:
@@ -122,11 +134,29 @@ class SimulatedGimbal:
         self._outgoing.clear()
         return sent
 
+    def reboot(self, now: float, seconds: float) -> None:
+        """It goes out, hears and says nothing for so long, and is then as at first."""
+        self._pass(now)
+        self._booted = now + seconds
+        self._push = None
+        self._to_come.clear()
+        self._outgoing.clear()
+        self._head.boot()
+
+    def hold(self, now: float, *, yaw: bool = False, roll: bool = False, pitch: bool = False) -> None:
+        """A hand holds these axes from `now` on, and lets go of the others."""
+        self._pass(now)
+        self._head.hold(now, Angles(yaw, roll, pitch))
+
     def _pass(self, now: float) -> None:
         self._now = max(self._now, now)
+        while self._to_come and self._to_come[0][0] <= self._now:
+            time, message = self._to_come.popleft()
+            self._handlers[type(message)](message, time)
         due: list[Due] = self._tuning.due(self._now)
         if self._push:
-            due += [(time, self._parameters(time)) for time in self._push.due(self._now)]
+            beats = self._push.due(self._now)
+            due += [(time, self._parameters(time)) for time in beats if self.tells_angles]
         for _, push in sorted(due, key=itemgetter(0)):
             self._outgoing += self._session.command(push)
 
@@ -141,6 +171,9 @@ class SimulatedGimbal:
                 return ReturnCode.PARSE_ERROR
         if isinstance(message, _MOTION) and (self.settings.asleep or self._tuning.running(self._now)):
             return ReturnCode.FAILED
+        if isinstance(message, _MOTION) and self._reaction:
+            self._to_come.append((self._now + self._reaction, message))
+            return ReturnCode.OK
         answer = handler(message, self._now)
         if self.settings.asleep:
             self._head.halt(self._now)

@@ -39,6 +39,7 @@ class Head:
 
     def __init__(self, boot: Angles, signs: Angles, lag: float, joystick_speed: Angles, continuous: bool) -> None:
         self.controlled = False  # whether a speed command has taken over, and none has given back
+        self._boot = boot
         self._signs = signs
         self._joystick_speed = joystick_speed
         self._motors = [Motor(angle, lag) for angle in boot]
@@ -82,6 +83,18 @@ class Head:
         """The motors lose their power; nothing sags."""
         for motor in self._motors:
             motor.halt(now)
+
+    def hold(self, now: float, held: Angles) -> None:
+        """A hand holds the axes that are true, and lets go of the others; a touch stops an axis."""
+        for motor, hand in zip(self._motors, held, strict=True):
+            if motor.held != bool(hand):
+                motor.hold(now, bool(hand))
+
+    def boot(self) -> None:
+        """Stand where it does at first, under nobody's control."""
+        self.controlled = False
+        for motor, angle in zip(self._motors, self._boot, strict=True):
+            motor.place(angle)
 
     def _position(self, message: gimbal.Position, now: float) -> Answer:
         if message.time_for_action <= 0.0:  # what 25.6 s become when they wrap

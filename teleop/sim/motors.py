@@ -38,11 +38,13 @@ class Motor:
     """One motor between two stops, in any unit; times are seconds of one clock and never go back.
 
     `lag` is the time constant of its velocity in s, `minimum` and `maximum` the stops, infinite for none. A motor that
-    is beyond a stop, because the stop was moved, can only move back.
+    is beyond a stop, because the stop was moved, can only move back. One that is `held` stands still and
+    forgets all it is told.
     """
 
     def __init__(self, position: float, lag: float, minimum: float = -math.inf, maximum: float = math.inf) -> None:
         self.minimum, self.maximum = minimum, maximum
+        self.held = False
         self._lag = lag
         self._plan: list[Segment] = [Segment(-math.inf, position)]
 
@@ -52,6 +54,8 @@ class Motor:
 
     def cruise(self, now: float, velocity: float, until: float) -> None:
         """Follow `velocity` through the lag up to the time `until`, then coast to rest; against a stop, stand still."""
+        if self.held:
+            return
         stages = [(until, velocity), (math.inf, 0.0)] if until > now else [(math.inf, 0.0)]
         position, speed = self.at(now)
         low, high = min(self.minimum, position), max(self.maximum, position)
@@ -65,12 +69,23 @@ class Motor:
         """Stand still at once."""
         self._plan = [Segment(now, self.at(now)[0])]
 
+    def hold(self, now: float, held: bool) -> None:
+        """Somebody's hand stops it at once, or lets go."""
+        self.held = held
+        self.halt(now)
+
+    def place(self, position: float) -> None:
+        """It is there, at rest, and always was."""
+        self._plan = [Segment(-math.inf, position)]
+
     def travel(self, now: float, target: float, duration: float) -> None:
         """Go to `target`, or the stop before it, at constant speed in `duration` > 0 s."""
         self.visit(now, [(target, duration)])
 
     def visit(self, now: float, stations: Iterable[tuple[float, float]]) -> None:
         """Travel to each target in turn, each in its own duration in s."""
+        if self.held:
+            return
         position, plan = self.at(now)[0], []
         for target, duration in stations:
             reached = self.clamp(target)
@@ -80,6 +95,8 @@ class Motor:
 
     def ease(self, now: float, target: float, lag: float) -> None:
         """Go to `target` or the stop before it, fast at first and slower with the time constant `lag` in s."""
+        if self.held:
+            return
         position, reached = self.at(now)[0], self.clamp(target)
         approach = Segment(now, position, 0.0, (reached - position) / lag, lag)
         self._plan = [approach, Segment(now + SETTLED * lag, reached)]
@@ -114,7 +131,8 @@ def _first_hit(segment: Segment, end: float, low: float, high: float) -> tuple[f
     start, _, target, excess, lag = segment
     if target == 0.0:
         end = min(end, start + SETTLED * lag)
-    turn = start - lag * math.log(-target / excess) if target * excess < 0.0 and -target / excess < 1.0 else end
+    left = -target / excess if excess else 0.0  # share of the excess that is left when the motor turns round
+    turn = start - lag * math.log(left) if 0.0 < left < 1.0 else end
     for begin, finish in ((start, min(turn, end)), (min(turn, end), end)):
         for stop, sign in ((low, -1.0), (high, 1.0)):
             if sign * (segment.at(finish)[0] - stop) > 0.0:

@@ -2,7 +2,8 @@
 
 Recording is said again when no reply comes, because saying it twice does no harm. The shutter is not: a lost reply
 does not mean a lost command, and a frame shot twice is a fault nobody sees. A camera that refuses stops the run, since
-a move that is not being filmed is not worth finishing.
+a move that is not being filmed is not worth finishing. What this program has set recording it stops on leaving, however
+it leaves: nobody else knows that the card is filling.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ COMMANDS: Mapping[Action, CameraCommand] = {
     Action.STOP: CameraCommand.STOP,
     Action.SHUTTER: CameraCommand.SHUTTER,
 }
+LISTEN = 0.02  # s between looks for the answer on leaving
 TRIES: Mapping[Action, int] = {Action.RECORD: 3, Action.STOP: 3, Action.SHUTTER: 1}
 
 
@@ -32,20 +34,39 @@ class CameraSink:
         self._pending: dict[int, tuple[Action, int]] = {}  # sequence -> what was asked, for the how manieth time
         self._again: list[tuple[Action, int]] = []
         self._fault = ""
+        self._rolling = False
         connection.on_answer(camera.Command, self._answered)
 
     def write(self, tick: Tick) -> None:
         """Raises DeviceError when the camera refused or did not answer an earlier action."""
         again, self._again = self._again, []
-        for action, attempt in [*again, *((action, 1) for action in tick.actions if action in COMMANDS)]:
-            sequence = self._connection.request(camera.Command(COMMANDS[action]), tick.time)
-            self._pending[sequence] = (action, attempt)
+        for action, attempt in [*again, *((action, 1) for action in tick.actions if isinstance(action, Action))]:
+            self._ask(action, attempt, tick.time)
+        self._say_fault()
+
+    def release(self, now: float) -> float | None:
+        """Stop what still records, and wait for the camera's word; raises as `write` does."""
+        again, self._again = self._again, []
+        asked = [(action, attempt) for action, attempt in again if action is Action.STOP]
+        if self._rolling and not asked:
+            asked = [(Action.STOP, 1)]
+        for action, attempt in asked:
+            self._ask(action, attempt, now)
+        self._connection.poll(now)
+        self._say_fault()
+        waits = self._again or any(action is Action.STOP for action, _ in self._pending.values())
+        return now + LISTEN if waits else None
+
+    def _ask(self, action: Action, attempt: int, now: float) -> None:
+        if action is not Action.SHUTTER:
+            self._rolling = action is Action.RECORD
+        sequence = self._connection.request(camera.Command(COMMANDS[action]), now)
+        self._pending[sequence] = (action, attempt)
+
+    def _say_fault(self) -> None:
         if self._fault:
             fault, self._fault = self._fault, ""
             raise DeviceError(fault)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _answered(self, answer: Answer) -> None:
         asked = self._pending.pop(answer.sequence, None)

@@ -27,6 +27,7 @@ POLL_RATE = 25  # Hz, questions for the angles: pushes may come once a second on
 GREETING_RATE = 1  # Hz, of the push of our own version: R SDK V2.5, section 2.3.4.10, figure 17
 UNANSWERED = 0.3  # s without an answer after which a push is believed instead
 REPEAT = 1.0  # s after which the position of a resting axis is sent again
+YIELD, YIELD_FRESH = 5.0, 0.2  # deg from commanded at the end, by a reading no older (s): it is left where it is
 REFUSALS = 5  # refused commands in a row before it is a fault: one may be damage that a checksum missed
 
 
@@ -108,22 +109,49 @@ class PositionSink:
         self._refusals = Refusals(connection, gimbal.Position)
         self._sent: Mapping[Axis, float] = {}
         self._sent_at = -math.inf
+        self._last: Tick | None = None
+        self._unreached = False
         self._waited = False
 
     def write(self, tick: Tick) -> None:
+        """Raises DeviceError when the gimbal refuses, and LinkError as the link does.
+
+        After a LinkError nothing more is sent: the gimbal has long stopped at what reached it last, and would leap from
+        there to wherever the plan has got to since. The run is ending anyway.
+        """
+        self._last = tick
         self._refusals.check()
-        if self._pace.due(tick.time):
-            aims = {axis: self._aim(axis, state) for axis, state in tick.motion.items() if axis in self._limits}
-            if aims != self._sent or tick.time - self._sent_at >= REPEAT:
-                self._connection.request(position_command(aims, self._wiring, TIME_FOR_ACTION), tick.time)
-                self._sent, self._sent_at = aims, tick.time
+        if self._unreached or not self._pace.due(tick.time, tick.motion):
+            return
+        aims = {axis: self._aim(axis, state) for axis, state in tick.motion.items() if axis in self._limits}
+        if aims != self._sent or tick.time - self._sent_at >= REPEAT:
+            self._unreached = True
+            self._connection.request(position_command(aims, self._wiring, TIME_FOR_ACTION), tick.time)
+            self._unreached = False
+            self._sent, self._sent_at = aims, tick.time
 
     def release(self, now: float) -> float | None:
-        """Nothing was taken over; the last command is left the time to be carried out."""
-        if self._waited:
+        """Nothing was taken over; the last command is left the time to be carried out.
+
+        An axis that is far from it is told to stay where it is: it must not set out once whatever holds it lets go.
+        """
+        if self._waited or self._unreached:
             return None
+        if elsewhere := self._elsewhere(now):
+            self._connection.request(position_command(elsewhere, self._wiring, TIME_FOR_ACTION), now)
         self._waited = True
         return now + TIME_FOR_ACTION
+
+    def _elsewhere(self, now: float) -> Mapping[Axis, float]:
+        if self._last is None:
+            return {}
+        aims, reported = self._last.motion, self._last.reported
+        return {
+            axis: reported[axis].position
+            for axis in self._limits
+            if axis in aims and axis in reported and now - reported[axis].time < YIELD_FRESH
+            if abs(reported[axis].position - aims[axis].position) > YIELD
+        }
 
     def _aim(self, axis: Axis, state: State) -> float:
         soon = (

@@ -10,13 +10,14 @@ from collections.abc import Mapping
 
 from teleop.dji import gimbal
 from teleop.motion import Axis, Limits, Tick
-from teleop.sinks.connection import Connection
-from teleop.sinks.correction import Correction
+from teleop.sinks.connection import Answer, Connection
+from teleop.sinks.correction import Correction, Gains
 from teleop.sinks.gimbal import Refusals, position_command
 from teleop.sinks.pace import Pace
 from teleop.sinks.wiring import Wiring
 
 ZEROS, BETWEEN_ZEROS = 3, 0.05  # how to stop: zero speed so often, so many s apart (r-sdk-facts.md, Behaviour)
+GIVE_BACKS = 3  # times, at most, until the gimbal says that it has heard; more would not help one that is mute
 SETTLE = 0.5  # s for the last position command,
 SETTLE_WITHIN = 1.0  # deg of error at the most,
 SETTLE_FRESH = 1.0  # s since that was measured
@@ -26,39 +27,58 @@ class SpeedSink:
     """Streams speed commands for `limits`' axes; `delay` is how much later than commanded a speed is reached, in s."""
 
     def __init__(
-        self, connection: Connection, rate: int, delay: float, wiring: Wiring, limits: Mapping[Axis, Limits]
+        self,
+        connection: Connection,
+        rate: int,
+        delay: float,
+        wiring: Wiring,
+        limits: Mapping[Axis, Limits],
+        gains: Gains = Gains(),  # noqa: B008 - immutable
     ) -> None:
         self._connection, self._wiring = connection, wiring
         self._pace = Pace(rate)
-        self._correction = Correction(limits, delay + self._pace.period / 2)
+        self._correction = Correction(limits, delay + self._pace.period / 2, gains)
         self._refusals = Refusals(connection, gimbal.Speed)
         self._last: Tick | None = None
         self._taken_over = False
-        self._zeros = 0
+        self._zeros = self._given_back = 0  # how often each was said
+        self._waiting = -1  # the sequence number of a giving back that has not been answered
+        connection.on_answer(gimbal.Speed, self._answered)
 
     def write(self, tick: Tick) -> None:
         self._refusals.check()
         self._last = tick
         self._correction.note(tick)
-        if self._pace.due(tick.time):
+        if self._pace.due(tick.time, tick.motion):
             self._taken_over = True  # before it is sent: what may have left must be given back
             self._send(self._correction.speeds(tick), tick.time)
 
     def release(self, now: float) -> float | None:
-        """Zero speed three times, control given back, and a short position command that levels what drifted."""
+        """Zero speed three times, control given back, and a short position command that levels what drifted.
+
+        Control is given back again until the gimbal has answered: a lost frame must not leave it taken over.
+        """
         if not self._taken_over:
             return None
         if self._zeros < ZEROS:
             self._send({}, now)
             self._zeros += 1
             return now + BETWEEN_ZEROS
-        self._connection.request(gimbal.Speed(0.0, 0.0, 0.0, take_over=False, ignore_focal_length=True), now)
+        if self._given_back == 0 or (self._waiting >= 0 and self._given_back < GIVE_BACKS):
+            give_back = gimbal.Speed(0.0, 0.0, 0.0, take_over=False, ignore_focal_length=True)
+            self._waiting = self._connection.request(give_back, now)
+            self._given_back += 1
+            return now + BETWEEN_ZEROS
         self._taken_over = False
         targets = self._settled(now)
         if not targets:
             return None
         self._connection.request(position_command(targets, self._wiring, SETTLE), now)
         return now + SETTLE
+
+    def _answered(self, answer: Answer) -> None:
+        if answer.sequence == self._waiting and answer.reply is not None:
+            self._waiting = -1
 
     def _send(self, speeds: Mapping[Axis, float], now: float) -> None:
         yaw, roll, pitch = self._wiring.to_gimbal(speeds)

@@ -13,7 +13,7 @@ from teleop.dji.gimbal import Joystick
 from teleop.dji.joystick import deflection
 from teleop.motion import Axis, Limits, Tick
 from teleop.sinks.connection import Connection
-from teleop.sinks.correction import Correction
+from teleop.sinks.correction import Correction, Gains
 from teleop.sinks.gimbal_speed import BETWEEN_ZEROS, ZEROS
 from teleop.sinks.pace import Pace
 from teleop.sinks.wiring import Wiring
@@ -33,15 +33,16 @@ class StickSink:
         wiring: Wiring,
         limits: Mapping[Axis, Limits],
         full: Mapping[Axis, float],
+        gains: Gains = Gains(),  # noqa: B008 - immutable
     ) -> None:
         self._connection, self._wiring, self._full = connection, wiring, full
         self._pace = Pace(rate)
-        self._correction = Correction(limits, delay + self._pace.period / 2)
+        self._correction = Correction(limits, delay + self._pace.period / 2, gains)
         self._zeros = ZEROS  # nothing to let go yet
 
     def write(self, tick: Tick) -> None:
         self._correction.note(tick)
-        if self._pace.due(tick.time):
+        if self._pace.due(tick.time, tick.motion):
             self._zeros = 0
             self._push(self._correction.speeds(tick))
 

@@ -45,9 +45,11 @@ class Held:
     """An input at one tick.
 
     `deflections` are -1..1 of the axes that it is mapped to, centred ones as 0; `steps` are units by which an axis is
-    to be moved on since the last read (a dial by clicks); `dial` is -1..1 for the gimbal's own dial. `enabled` is
+    to be moved on since the last read (a dial by clicks); `positions` are where sliders say that an axis is to be, 0..1
+    of the way between its soft limits; `dial` is -1..1 for the gimbal's own dial. `enabled` is
     whether the enable button is held, None for an input that has none. `trouble` says why it cannot be trusted now, ""
-    when it can: unplugged, silent for 0.2 s. What it held before is then no longer true.
+    when it can: unplugged, silent for 0.2 s. What it held before is then no longer true. `notes` are lines that the
+    operator is to read once.
     """
 
     deflections: Mapping[Axis, float] = field(default_factory=dict)
@@ -56,6 +58,8 @@ class Held:
     presses: Sequence[Press] = ()
     enabled: bool | None = None
     trouble: str = ""
+    positions: Mapping[Axis, float] = field(default_factory=dict)
+    notes: Sequence[str] = ()
 
 
 class Input(Protocol):

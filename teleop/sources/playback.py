@@ -95,6 +95,11 @@ class Playback:
             self._ask(lambda pace, start: change_rate(self._move, self._limits, pace, rate, start), now)
 
     @property
+    def chosen(self) -> float:
+        """The speed asked for last: what it plays at, will play at, or goes on at after a pause."""
+        return self._resumed
+
+    @property
     def paused(self) -> bool:
         return self._pace.rate == 0.0
 

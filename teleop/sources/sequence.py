@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
 
 from teleop.motion import Act, Axis, Demand, Follow, Limits, Motion
 from teleop.planner.ease import ease
@@ -25,6 +26,7 @@ class SequenceSource:
     """`limits` are the axes', for the ease to the start and for changes of speed; `preroll` is in s.
 
     `speed` is the share of the speed that the sequence was written for; PlanError says when the move does not allow it.
+    `executor` searches for changes of it, a thread unless given.
     `begin` is when the performance's own time is zero, on the loop's clock; inf until the run has started.
     """
 
@@ -34,10 +36,11 @@ class SequenceSource:
         limits: Mapping[Axis, Limits],
         preroll: float = PREROLL,
         speed: float = 1.0,
+        executor: Executor | None = None,
     ) -> None:
         self._move, self._limits, self._preroll = performance.move, limits, preroll
         keys = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
-        self.playback = Playback(performance.move, limits, speed, keys)
+        self.playback = Playback(performance.move, limits, speed, keys, executor)
         self._cues = list(performance.cues)
         self._approach: Move | None = None
         self._approach_begin = self._approach_end = math.inf

@@ -20,28 +20,20 @@ from teleop.planner.findings import Infeasible, PlanError
 from teleop.planner.keyframes import Key, plan, stretch
 from teleop.planner.move import Move
 from teleop.planner.repeat import Repeat, repeated
-from teleop.section import Finite, Section
+from teleop.section import PositionsSection, Section
 from teleop.shipped import find
 from teleop.sources.easing import ramps
 from teleop.sources.sequence_rules import file_rules, rig_rules
 from teleop.sources.times import seconds
 
 
-class Keyframe(Section):
+class Keyframe(PositionsSection):
     """What stands in the file; `at`, `hold` and `ease` are as written, the axes' positions are in their units."""
 
     at: Any
     hold: Any = 0
     pass_: Literal["through", "stop"] = Field("through", alias="pass")
     ease: Any = None
-    pan: Finite | None = None
-    tilt: Finite | None = None
-    roll: Finite | None = None
-    focus: Finite | None = None
-    stick_roll: Finite | None = None
-    stick_pitch: Finite | None = None
-    stick_throttle: Finite | None = None
-    stick_yaw: Finite | None = None
 
 
 class CueSection(Section):

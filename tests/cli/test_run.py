@@ -60,6 +60,8 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
         (["plai"], 2, 'Did you mean "play"?'),
         (["play"], 2, "requires an argument"),
         (["play", "reveal", "--rgi", "sim"], 2, "--rgi"),
+        (["play", "reveal", "--speed", "500%"], 2, "--speed 500%: the move allows at most 200 % of its speed"),
+        (["play", "reveal", "--speed", "fast"], 2, "--speed fast: must be a percentage above 0"),
         (["play", "revel"], 2, "did you mean reveal?"),
         (["play", "./nothing.yaml"], 2, "no such file"),
         (["play", "reveal", "--rig", "smi"], 2, "did you mean sim?"),
@@ -94,6 +96,12 @@ def test_a_bad_file_says_everything_at_once_and_a_hard_move_is_another_failure(t
         assert hard.returncode == 1
         assert hard.stderr.startswith("hard.yaml:3:5: pan, keyframes[0]..[1]: ")
     assert json.loads(teleop("check", "hard.yaml", "--json", cwd=tmp_path).stdout)["ok"] is False
+
+
+def test_a_move_plays_at_another_speed() -> None:
+    played = json.loads(teleop("play", "reveal", "--fast", "--speed", "150%", "--json").stdout)
+    assert played["seconds"] == pytest.approx(10.0, abs=0.1)
+    assert played["axes"]["pan"]["peak"] < 0.15
 
 
 def test_debug_shows_where_an_error_came_from() -> None:

@@ -3,7 +3,7 @@
 import pytest
 from far_end import FarEnd
 
-from teleop.dji import camera
+from teleop.dji import camera, gimbal
 from teleop.dji.camera import CameraCommand
 from teleop.dji.message import Result
 from teleop.motion import Action, Tick
@@ -50,3 +50,50 @@ def test_a_refusal_is_a_fault() -> None:
     far.replies[camera.Command] = lambda _command: Result(2)
     with pytest.raises(DeviceError, match=r"the camera refused to record \(return code 0x02\)"):
         run(far, Action.RECORD)
+
+
+def leave(far: FarEnd, sink: CameraSink, now: float) -> float:
+    """Release to its end, the other end answering; when that was."""
+    again: float | None = now
+    while again is not None:
+        now = again
+        again = sink.release(now)
+        far.serve(now)
+        far.push(gimbal.VersionPush(version="01.02.03.04"))  # the link itself is alive
+        assert now < 10, "it never ends"
+    return now
+
+
+def test_a_camera_that_records_is_stopped_on_leaving_and_once() -> None:
+    far = FarEnd()
+    far.replies[camera.Command] = lambda _command: Result(0)
+    sink = CameraSink(far.connection)
+    sink.write(Tick(1.0, {}, {}, (Action.RECORD,), {}))
+    far.serve(1.0)
+    assert leave(far, sink, 1.01) < 1.1
+    assert leave(far, sink, 2.0) == 2.0
+    assert [m.command for m in far.heard if isinstance(m, camera.Command)] == [CameraCommand.RECORD, CameraCommand.STOP]
+
+
+def test_one_that_was_stopped_or_never_recorded_is_left_alone() -> None:
+    far = FarEnd()
+    far.replies[camera.Command] = lambda _command: Result(0)
+    sink = CameraSink(far.connection)
+    assert sink.release(0.5) is None
+    sink.write(Tick(1.0, {}, {}, (Action.RECORD,), {}))
+    sink.write(Tick(1.01, {}, {}, (Action.STOP,), {}))
+    far.serve(1.01)
+    leave(far, sink, 1.02)
+    assert len([m for m in far.heard if isinstance(m, camera.Command)]) == 2
+
+
+def test_a_stop_on_leaving_is_said_again_and_then_a_fault() -> None:
+    far = FarEnd()
+    far.replies[camera.Command] = lambda command: None if command == camera.Command(CameraCommand.STOP) else Result(0)
+    sink = CameraSink(far.connection)
+    sink.write(Tick(1.0, {}, {}, (Action.RECORD,), {}))
+    far.serve(1.0)
+    with pytest.raises(DeviceError, match="the camera did not answer when asked to stop"):
+        leave(far, sink, 1.01)
+    assert [m.command for m in far.heard if isinstance(m, camera.Command)].count(CameraCommand.STOP) == 3
+    assert sink.release(3.0) is None

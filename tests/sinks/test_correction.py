@@ -1,9 +1,13 @@
 """Feed-forward and correction: against a simple axis with lag, and what an old or absent reading does."""
 
-import pytest
+from itertools import pairwise
 
-from teleop.motion import Axis, Limits, Reading, State, Tick
-from teleop.sinks.correction import DEAD_BAND, FRESH, MAX_INTEGRAL, Correction
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from teleop.motion import Axis, Halt, Limits, Reading, State, Tick
+from teleop.sinks.correction import DEAD_BAND, FRESH, MAX_ERROR, MAX_INTEGRAL, Correction, Gains
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600)}
 
@@ -25,8 +29,40 @@ def test_without_a_fresh_reading_it_is_feed_forward_alone() -> None:
 
 
 def test_an_error_is_worked_against_but_not_within_the_grid() -> None:
-    assert speed(Correction(LIMITS, 0.0), 1.0, State(0, 0, 0), Reading(1.0, 1.0)) < -1
-    assert speed(Correction(LIMITS, 0.0), 1.0, State(0, 0, 0), Reading(DEAD_BAND * 0.9, 1.0)) == 0
+    for measured, answer in ((1.0, -3.0), (-1.0, 3.0), (DEAD_BAND * 0.9, 0.0)):
+        correction = Correction(LIMITS, 0.0, Gains(3.0, 0.0))
+        assert speed(correction, 1.0, State(0, 0, 0), Reading(measured, 1.0)) == 0
+        assert speed(correction, 1.05, State(0, 0, 0), Reading(measured, 1.05)) == pytest.approx(answer)
+
+
+@given(st.lists(st.tuples(st.floats(-400, 400), st.sampled_from([0.01, 0.02, 0.1])), min_size=1, max_size=50))
+def test_whatever_is_measured_the_speed_never_jumps(readings: list[tuple[float, float]]) -> None:
+    correction, now, before = Correction(LIMITS, 0.05), 1.0, 0.0
+    for measured, passed in readings:
+        now += passed
+        after = speed(correction, now, State(0, 0, 0), Reading(measured, now))
+        assert abs(after - before) <= LIMITS[Axis.PAN].acceleration * passed + 1e-9
+        assert abs(after) <= 3 * MAX_ERROR + MAX_INTEGRAL
+        before = after
+
+
+def test_it_fades_when_the_axis_is_told_to_halt() -> None:
+    correction, now, speeds = Correction(LIMITS, 0.0), 1.0, []
+    while now < 2.0:
+        now += 0.02
+        demand = {Axis.PAN: Halt()} if now > 1.5 else {}
+        each = Tick(now, {Axis.PAN: State(0)}, demand, (), {Axis.PAN: Reading(4.0, now)})
+        correction.note(each)
+        speeds.append(correction.speeds(each)[Axis.PAN])
+    assert min(speeds) < -12
+    assert speeds[-1] == 0
+    assert max(abs(after - before) for before, after in pairwise(speeds)) <= 120 * 0.02 + 1e-9
+
+
+def test_gains_of_zero_correct_nothing() -> None:
+    correction = Correction(LIMITS, 0.0, Gains(0.0, 0.0))
+    for now in (1.0, 1.1, 1.2):
+        assert speed(correction, now, State(0, 7, 0), Reading(3.0, now)) == 7
 
 
 def test_the_error_is_taken_where_the_reading_was() -> None:
@@ -41,8 +77,10 @@ def test_an_axis_held_by_hand_winds_up_no_lunge() -> None:
     correction, now = Correction(LIMITS, 0.0), 0.0
     while now < 60:
         now += 0.04
-        assert abs(speed(correction, now, State(20, 0, 0), Reading(0.0, now))) <= 60
-    assert speed(correction, now + 0.04, State(20, 0, 0), Reading(20.0, now + 0.04)) <= MAX_INTEGRAL
+        assert speed(correction, now, State(20, 0, 0), Reading(0.0, now)) <= 3 * MAX_ERROR + MAX_INTEGRAL
+    speeds = [speed(correction, now + k / 25, State(20, 0, 0), Reading(20.0, now + k / 25)) for k in range(1, 6)]
+    assert speeds == sorted(speeds, reverse=True)
+    assert speeds[-1] <= MAX_INTEGRAL
 
 
 def test_a_steady_disturbance_is_corrected_to_the_grid() -> None:

@@ -6,9 +6,10 @@ import pytest
 from far_end import FarEnd
 
 from teleop.dji import gimbal
+from teleop.dji.message import Message, Result
 from teleop.motion import Axis, Limits, Motion, Reading, State, Tick
 from teleop.ports import LinkError
-from teleop.sinks.gimbal_speed import BETWEEN_ZEROS, SETTLE, SETTLE_FRESH, SETTLE_WITHIN, ZEROS, SpeedSink
+from teleop.sinks.gimbal_speed import BETWEEN_ZEROS, GIVE_BACKS, SETTLE, SETTLE_FRESH, SETTLE_WITHIN, ZEROS, SpeedSink
 from teleop.sinks.wiring import Wiring
 
 LIMITS = {
@@ -28,12 +29,14 @@ def tick(time: float, motion: Motion, measured: float | None = None, measured_at
 
 
 def released(far: FarEnd, sink: SpeedSink, now: float) -> list[tuple[float, Any]]:
-    """Every command of the release, and when it came."""
+    """Every command of the release, and when it came; the gimbal answers."""
+    far.replies.setdefault(gimbal.Speed, lambda _speed: Result(0))
     commands: list[tuple[float, Any]] = []
     due: float | None = now
     while due is not None:
         now, due = due, sink.release(due)
         commands += [(now, message) for message in far.serve(now)]
+        far.connection.poll(now + 1e-3)
     return commands
 
 
@@ -103,6 +106,23 @@ def test_a_release_that_fails_on_the_way_can_be_tried_again(failing: int) -> Non
     commands = [command for _, command in released(far, sink, now + 0.01)]
     assert len(commands) == ZEROS + 1 - failing
     assert not commands[-1].take_over
+
+
+@pytest.mark.parametrize(("lost", "given_back"), [(0, 1), (1, 2), (2, 3), (9, GIVE_BACKS)])
+def test_giving_back_is_said_until_it_is_answered_but_not_for_ever(lost: int, given_back: int) -> None:
+    far = FarEnd()
+    sink = sink_of(far)
+    sink.write(tick(1.0, {Axis.PAN: State(5.0, 0.0)}))
+    far.serve(1.0)
+    silence = iter(range(lost))
+
+    def answer(speed: Message) -> Message | None:
+        assert isinstance(speed, gimbal.Speed)
+        return Result(0) if speed.take_over or next(silence, None) is None else None
+
+    far.replies[gimbal.Speed] = answer
+    commands = [message for _, message in released(far, sink, 1.02) if isinstance(message, gimbal.Speed)]
+    assert [command.take_over for command in commands] == [True] * ZEROS + [False] * given_back
 
 
 def refuse(data: bytes) -> None:

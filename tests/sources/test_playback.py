@@ -2,9 +2,10 @@
 
 import math
 import threading
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 
 import pytest
+from at_once import AtOnce
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -20,18 +21,6 @@ KEYS = {PAN: [Key(0, 0), Key(4, 60), Key(7, 60, hold=1), Key(12, -40)], TILT: [K
 MOVE = plan(KEYS, LIMITS)
 STOPS = [0.0, 4.0, 6.0, 7.0, 12.0]
 DT = 0.01
-
-
-class AtOnce(Executor):
-    """Searches where it is asked to, so that a test's outcome does not hang on a thread."""
-
-    def submit(self, fn, /, *args, **kwargs):
-        future: Future = Future()
-        try:
-            future.set_result(fn(*args, **kwargs))
-        except PlanError as error:
-            future.set_exception(error)
-        return future
 
 
 class Show:

@@ -18,7 +18,9 @@ class FaultyBus(VirtualBus):
         super().__init__(channel, bitrate=bitrate)
         self.room = 1 << 30  # CAN frames the queue still takes
         self.send_fault: Exception | None = None
+        self.off = False  # it still takes frames into its queue, and none arrives
         self.receive_faults: deque[Exception] = deque()
+        self.own_errors: deque[can.Message] = deque()  # as the controller here reports its state; others see nothing
         self.opened.append(self)
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
@@ -27,12 +29,16 @@ class FaultyBus(VirtualBus):
         if self.room == 0:
             raise driver_fault("Failed to transmit", errno.ENOBUFS)
         self.room -= 1
-        super().send(msg, timeout)
+        if not self.off:
+            super().send(msg, timeout)
 
     def _recv_internal(self, timeout: float | None):
         if self.receive_faults:
             raise self.receive_faults.popleft()
-        return super()._recv_internal(timeout)
+        arrived = super()._recv_internal(timeout)
+        if arrived[0] is None and self.own_errors:  # what had arrived before it comes first
+            return self.own_errors.popleft(), False
+        return arrived
 
 
 def driver_fault(text: str, number: int) -> can.CanOperationError:

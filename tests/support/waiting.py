@@ -8,8 +8,8 @@ from teleop.ports import Link, LinkError
 DEADLINE = 5.0  # s: far beyond any bus here, so that only a real fault reaches it
 
 
-def wait_until(holds: Callable[[], object], what: str = "condition") -> None:
-    deadline = time.monotonic() + DEADLINE
+def wait_until(holds: Callable[[], object], what: str = "condition", patience: float = DEADLINE) -> None:
+    deadline = time.monotonic() + patience
     while not holds():
         assert time.monotonic() < deadline, f"{what} never held"
         time.sleep(0.0005)

@@ -1,0 +1,117 @@
+"""`teleop calibrate`: what a profile has to know about a gimbal, measured on the gimbal itself.
+
+The measuring run is a run like any other: through the same loop, within the axis's limits, stopped by the same faults
+and signals. The profile's own delay and gains are left out meanwhile, because they would hide what is looked for.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from statistics import fmean, stdev
+from typing import TYPE_CHECKING
+
+from cyclopts import App
+
+from teleop.cli.display import Display
+from teleop.cli.options import DEFAULTS, Options
+from teleop.cli.perform import EXIT_CODES, signals_to
+from teleop.cli.play import Fast, the_clock
+from teleop.motion import Axis
+from teleop.ports import DeviceError, UsageError
+from teleop.profile import Angle, GainsSection, GimbalSection, Profile
+from teleop.rig import open_rig
+from teleop.sources.swing import Swing
+from teleop.supervisor import Result, Supervisor
+
+if TYPE_CHECKING:
+    from teleop.sinks.delay import Delay, Traces
+
+REACH = 6.0  # deg: enough for a grid of 0.1 deg, and little enough to be made anywhere
+SWINGS = 6  # the first and the last are eased in and out, the others are measured
+FAITHFUL = 0.5, 1.5  # times as far as commanded: beyond these it does something else than it was told
+NOISE = 0.5  # deg rms that no delay explains
+
+app = App(name="calibrate", help="Measure what a profile has to know about a gimbal.")
+
+
+@app.command(name="delay")
+def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULTS) -> int:
+    """Measure how much later than commanded the gimbal moves, by a small slow test move, for `delay` in the profile.
+
+    Parameters
+    ----------
+    axis
+        The axis that is moved: six degrees to one side and back, six times.
+    """
+    moved = Axis(axis)
+    profile, mode = _undelayed(options.profile(), moved)
+    clock = the_clock(fast, profile)
+    swing = Swing(moved, profile.limits[moved], REACH, SWINGS)
+    title = f"measuring the delay of {axis}, mode {mode}"
+    display = Display(title, lambda: swing.begin, swing.duration, silent=options.json)
+    from teleop.sinks.delay import Traces  # numpy takes 0.1 s to load
+
+    traces = Traces(moved)
+    with open_rig(profile, clock) as rig:
+        loop = rig.loop([moved], [swing], [traces, display])
+        with signals_to(loop.interrupt), display:
+            ended = loop.run()
+    if ended.result is not Result.DONE:
+        return _stopped(ended, options.json)
+    delays = _delays(swing, traces)
+    _say(axis, mode, delays, options.json)
+    return 0
+
+
+def _undelayed(profile: Profile, axis: Axis) -> tuple[Profile, str]:
+    """The rig with nothing that makes up for lateness, and the mode of the gimbal; raises UsageError without one."""
+    for index, section in enumerate(profile.sinks):
+        if isinstance(section, GimbalSection) and axis in section.axes and axis in profile.axes:
+            bare = section.model_copy(update={"delay": 0.0, "gains": GainsSection(proportional=0.0, integral=0.0)})
+            sinks = [*profile.sinks[:index], bare, *profile.sinks[index + 1 :]]
+            return profile.model_copy(update={"sinks": sinks}), section.mode
+    raise UsageError(f"--axis {axis}: no gimbal of {profile.name} moves it")
+
+
+def _delays(swing: Swing, traces: Traces) -> list[Delay]:
+    """One for each swing but the first and the last. Raises DeviceError when the axis did something else altogether."""
+    from teleop.sinks.delay import estimate
+
+    begins = [swing.begin + number * swing.period for number in range(1, SWINGS - 1)]
+    each = [estimate(traces.commanded, traces.measured, begin, begin + swing.period) for begin in begins]
+    delays = [one for one in each if one is not None]
+    if len(delays) < len(each):
+        raise DeviceError("the axis did not move, or hardly said where it was: nothing can be measured")
+    scale, rms = fmean(one.scale for one in delays), max(one.rms for one in delays)
+    if not FAITHFUL[0] <= scale <= FAITHFUL[1] or rms > NOISE:
+        raise DeviceError(
+            f"the axis moved {scale:.2f} times as far as it was told, {rms:.2f} deg beside it:"
+            " does this gimbal obey this mode?"
+        )
+    return delays
+
+
+def _say(axis: str, mode: str, delays: list[Delay], as_json: bool) -> None:
+    seconds = [one.seconds for one in delays]
+    late, spread, scale = fmean(seconds), stdev(seconds), fmean(one.scale for one in delays)
+    written = max(0.0, round(late, 3))  # a gimbal that seems to be early is one that is on time
+    if as_json:
+        found = {"delay": written, "measured": round(late, 5), "spread": round(spread, 5), "scale": round(scale, 4)}
+        print(json.dumps({"result": "done", "axis": axis, "mode": mode, **found, "swings": len(delays)}))
+        return
+    print(
+        f"{axis} moves {1000 * written:.1f} ms later than commanded in mode {mode}"
+        f" (spread {1000 * spread:.1f} ms over {len(delays)} swings), {scale:.2f} times as far"
+    )
+    print("for the gimbal among the sinks of the profile:")
+    print(f"    delay: {written:g}")
+
+
+def _stopped(ended: Supervisor, as_json: bool) -> int:
+    if as_json:
+        print(json.dumps({"result": ended.result.name.lower(), "reasons": ended.reasons}))
+    else:
+        for reason in ended.reasons:
+            print(f"teleop: stopped: {reason}", file=sys.stderr)
+    return EXIT_CODES[ended.result]

@@ -1,0 +1,133 @@
+"""What moves by hand: sticks merged, steps and sliders, and the recall that is under way, as one demand.
+
+Whatever moves an axis belongs to a hand, and stops with it: a stick while it is deflected, a recall or a jog until it
+is there. An axis that was driven and is no longer is told to rest until it does, so that nothing beneath takes it over
+in flight: gently when a stick was let go, as fast as the axis may when the hand was lost.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from teleop.motion import Axis, Cruise, Limits, Motion, Wish
+from teleop.sources.arming import Arming
+from teleop.sources.handling import SticksSection
+from teleop.sources.recall import Jog, Recall
+from teleop.sources.steering import Steering
+
+LATE = 0.05  # s after which a recall is said to have been late
+
+
+class Driving:
+    """`hands` in the order of their priority; `say` is for what the operator has to know.
+
+    `drivers` are the hands whose sticks deflect an axis, `deflections` (-1..1) by how much, `recall` what is under way.
+    """
+
+    def __init__(
+        self,
+        limits: Mapping[Axis, Limits],
+        hands: Sequence[Arming],
+        sticks: SticksSection,
+        say: Callable[[str], object],
+    ) -> None:
+        self._limits, self._hands, self._say = limits, hands, say
+        self._steering = {axis: Steering(of, sticks.ramp, sticks.low_pass) for axis, of in limits.items()}
+        self._jog = Jog(limits)
+        self.recall: Recall | None = None
+        self.drivers: dict[Axis, Arming] = {}
+        self.deflections: dict[Axis, float] = {}
+        self._driven: dict[Axis, Arming | None] = {}  # not yet at rest since this hand moved it; None: it is to rest
+
+    def begin(self, recall: Recall) -> None:
+        """Take the axes somewhere; what else was under way is over."""
+        self._jog.clear()
+        self.recall = recall
+
+    def wishes(self, now: float, seconds: float, motion: Motion, share: float) -> dict[Axis, Wish]:
+        """What trusted hands want of the axes that they move, and rest for those that they moved.
+
+        `seconds` since the last time; `share` is what full deflection is of an axis's velocity.
+        """
+        self._merge()
+        self._take_steps(motion)
+        sent = self._sent(now, motion)
+        demand: dict[Axis, Wish] = {}
+        for axis, steering in self._steering.items():
+            deflection = self.deflections.get(axis, 0.0)
+            hand = None if axis in sent else self.drivers.get(axis, self._driven.get(axis))
+            lost = hand is None or not hand.trusted
+            if lost:
+                steering.drop()
+            wish = steering.wish(deflection, share, motion[axis], seconds)
+            if axis in sent or deflection or (lost and axis in self._driven):
+                self._driven[axis] = None if lost else hand
+            if axis in sent:
+                demand[axis] = sent[axis]
+            elif wish is None:
+                self._driven.pop(axis, None)
+            elif axis in self._driven:
+                demand[axis] = Cruise(0.0) if lost else wish
+        return demand
+
+    def _merge(self) -> None:
+        """Which hand drives which axis: the first one trusted that deflects it. A stick ends what was under way."""
+        self.drivers, self.deflections = {}, {}
+        for hand in self._hands:
+            if not hand.trusted:
+                continue
+            for axis, deflection in hand.said.deflections.items():
+                if deflection and axis in self._limits and axis not in self.drivers:
+                    self.drivers[axis], self.deflections[axis] = hand, deflection
+                    self._jog.drop(axis)
+        if self.recall and self.drivers:
+            axis, hand = next(iter(self.drivers.items()))
+            self._end_recall(f"{hand.name} moved {axis}")
+
+    def _take_steps(self, motion: Motion) -> None:
+        """Steps, and sliders that were moved: both send an axis somewhere, unless a stick has it."""
+        for hand in self._hands:
+            for axis, units in hand.said.steps.items():
+                if units and self._may_send(hand, axis) and self._jog.step(axis, units, motion[axis], hand):
+                    self._say(f"{axis} is at its soft limit")
+            for axis, share in hand.slid().items():
+                if self._may_send(hand, axis):
+                    self._jog.slide(axis, share, hand)
+
+    def _may_send(self, hand: Arming, axis: Axis) -> bool:
+        if hand.said.trouble:
+            return False
+        if not hand.trusted:
+            self._say(f"{hand.name} moves nothing: {hand.waits_for}")
+        elif axis not in self._limits:
+            self._say(f"{axis} is not an axis of this rig")
+        elif axis not in self.drivers:
+            if self.recall:
+                self._end_recall(f"{hand.name} moved {axis}")
+            return True
+        return False
+
+    def _sent(self, now: float, motion: Motion) -> dict[Axis, Wish]:
+        """The axes that are on their way to a position, and there."""
+        recall = self.recall
+        if recall and not recall.asker.trusted:
+            self._end_recall(f"{recall.asker.name}: {recall.asker.waits_for}")
+        elif recall and recall.is_over(motion):
+            late = now - recall.begun - recall.seconds
+            slow = f" in {late + recall.seconds:.1f} s: its axes go no faster" if late > LATE else ""
+            self._end_recall(f"{recall.title} reached{slow}", reached=True)
+        return self.recall.wishes() if self.recall else self._jog.wishes(motion)
+
+    def _end_recall(self, why: str, reached: bool = False) -> None:
+        assert self.recall is not None
+        self._say(why if reached else f"{self.recall.title} ended: {why}")
+        self.recall = None
+
+    def let_go(self) -> None:
+        """Nothing moves by hand any more, and what does is to rest as soon as it may."""
+        self.recall = None
+        self._jog.clear()
+        self.drivers, self.deflections = {}, {}
+        for steering in self._steering.values():
+            steering.drop()
+        self._driven = dict.fromkeys(self._limits)

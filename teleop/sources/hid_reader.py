@@ -1,0 +1,186 @@
+"""The thread that finds one device, reads it until it is unplugged, and finds it again.
+
+Everything that may take its time is done here: listing what is plugged in, opening, reading, asking. The control
+thread sees a `Plugged` or None, and asks that for what it holds. Several readers share their `Claims`, so that two do
+not take the same device.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+
+from teleop.hid.descriptor import parse_descriptor
+from teleop.sources.hid_backend import DeviceInfo, HidBackend, HidDevice, described
+from teleop.sources.hid_state import HidState
+from teleop.sources.inputs_section import DeviceSection, InputSection
+from teleop.sources.mapping import Mapped
+from teleop.sources.pads import STICKS, Chosen, choose, fits, pad_for
+
+LOOK_EVERY = 1.0  # s between two looks for a device that is missing
+WAIT = 0.05  # s for a report, after which the thread looks whether it is to end
+ASK_AFTER = 0.1  # s without a report until one is asked for: ten times a second
+_UNASKED = 64  # bytes: the longest report of a full-speed USB device, where a descriptor has none
+_OTHER_HANDS = frozenset({(0x01, 0x02), (0x01, 0x06), (0x01, 0x07)})  # mouse, keyboard, keypad
+
+
+class Claims:
+    """Which devices are taken, by their paths."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._taken: set[bytes] = set()
+
+    def take(self, path: bytes) -> bool:
+        with self._lock:
+            free = path not in self._taken
+            self._taken.add(path)
+            return free
+
+    def give_back(self, path: bytes) -> None:
+        with self._lock:
+            self._taken.discard(path)
+
+
+class Plugged:
+    """A device from its plugging in to its unplugging: what it is, what it does, what it has said."""
+
+    def __init__(self, info: DeviceInfo, state: HidState, chosen: Chosen, mapped: Mapped) -> None:
+        self.info, self.state, self.chosen, self.mapped = info, state, chosen, mapped
+        self.missing = sorted(mapped.names - state.names)
+        state.watched, state.counting = mapped.watched, mapped.counting
+        self._ids = state.report_ids(mapped.names)
+        state.vital = frozenset(self._ids)
+        self._askable, self._asked = bool(self._ids), -float("inf")
+
+    @property
+    def on_change(self) -> bool:
+        """Whether its silence is no fault, as long as it is at rest or answers when asked."""
+        return self.chosen.reports == "on-change" or (self.chosen.reports == "auto" and not self.state.steady)
+
+    def ask(self, device: HidDevice, now: Callable[[], float]) -> None:
+        """Ask for its reports, if it has been quiet for a while and answers; one that once did not is left alone."""
+        time = now()
+        if not self._askable or not self.on_change or time - max(self.state.last, self._asked) < ASK_AFTER:
+            return
+        self._asked = time
+        try:
+            for number in self._ids:
+                length = self.state.length(number) or _UNASKED
+                answer = device.get_input_report(number, length)
+                self._askable = self._askable and bool(answer)
+                self.state.take(answer, now(), asked=True)
+        except OSError:  # it does not answer, or it is gone, which the next read will say
+            self._askable = False
+
+
+class HidReader:
+    """`plugged` is the device while it is there; `refused` why one that is there cannot be used, "" otherwise."""
+
+    def __init__(
+        self,
+        section: InputSection,
+        backend: HidBackend,
+        now: Callable[[], float],
+        claims: Claims,
+        mapped: Callable[[Chosen, HidState], Mapped],
+    ) -> None:
+        self._section, self._backend, self._now, self._claims, self._mapped = section, backend, now, claims, mapped
+        self.plugged: Plugged | None = None
+        self.last: DeviceInfo | None = None  # the device that was there, which alone is taken again
+        self.refused = ""
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"hid {section.device}", daemon=True)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def close(self) -> None:
+        """Returns when the thread has ended, or is stuck in a driver; a daemon, it then keeps nobody from leaving."""
+        self._stop.set()
+        if self._thread.is_alive():
+            self._thread.join(2 * WAIT + LOOK_EVERY)
+
+    def _run(self) -> None:
+        try:
+            while not self._stop.is_set():
+                if not self._serve():
+                    self._stop.wait(LOOK_EVERY)
+        except Exception as fault:  # noqa: BLE001 - a thread that ends unseen would leave a device that never reports
+            self.refused = f"its reader failed: {fault or type(fault).__name__}"
+        finally:
+            self.plugged = None
+
+    def _serve(self) -> bool:
+        """Find the device and read it until it is gone; whether there was one."""
+        try:
+            found = self._backend.enumerate()
+        except OSError as error:
+            self.refused = f"devices cannot be listed: {error}"
+            return False
+        self.refused = ""
+        return any(self._try(info) for info in wanted(self._section.device, found, self.last))
+
+    def _try(self, info: DeviceInfo) -> bool:
+        """Read this device until it is gone, unless another reader has it; whether it could be read."""
+        if self._stop.is_set() or not self._claims.take(info.path):
+            return False
+        try:
+            return self._open(info)
+        finally:
+            self._claims.give_back(info.path)
+
+    def _open(self, info: DeviceInfo) -> bool:
+        try:
+            device = self._backend.open(info.path)
+        except OSError as error:
+            self.refused = f"{described(info)} cannot be opened ({error}): is there a udev rule? teleop doctor"
+            return False
+        try:
+            state = HidState(parse_descriptor(device.get_report_descriptor()))
+            chosen = choose(self._section, info, state.names)
+            if chosen.unreadable:
+                self.refused = f"{described(info)} cannot be used: {chosen.unreadable}"
+                return False
+            plugged = Plugged(info, state, chosen, self._mapped(chosen, state))
+            self.plugged, self.last, self.refused = plugged, info, ""
+            self._read(device, plugged)
+        except OSError:  # unplugged
+            return self.plugged is not None
+        finally:
+            self.plugged = None
+            device.close()
+        return True
+
+    def _read(self, device: HidDevice, plugged: Plugged) -> None:
+        """Until it is unplugged, which is an OSError, or until the end."""
+        while not self._stop.is_set():
+            if report := device.read(WAIT):
+                plugged.state.take(report, self._now())
+            else:
+                plugged.ask(device, self._now)
+
+
+def wanted(device: DeviceSection, found: Sequence[DeviceInfo], last: DeviceInfo | None) -> Sequence[DeviceInfo]:
+    """The devices that `device` may stand for, the best first; after an unplugging only those like the `last` one.
+
+    A keyboard or a mouse is taken only where its ids are asked for, anything else that is no joystick and no known pad
+    where its name is.
+    """
+    fitting = [info for info in found if fits(device, info) and (device.vendor is not None or _for_hands(device, info))]
+    if last is not None:
+        fitting = [info for info in fitting if (info.vendor_id, info.product_id) == (last.vendor_id, last.product_id)]
+    serial = last.serial if last is not None else ""
+
+    def rank(info: DeviceInfo) -> tuple[bool, bool, bool, bytes]:
+        usage = (info.usage_page, info.usage)
+        return info.serial != serial, usage not in STICKS, usage in _OTHER_HANDS, info.path
+
+    return sorted(fitting, key=rank)
+
+
+def _for_hands(device: DeviceSection, info: DeviceInfo) -> bool:
+    usage = (info.usage_page, info.usage)
+    if usage in STICKS or pad_for(info):
+        return usage not in _OTHER_HANDS
+    return not device.any and info.usage_page != 0 and usage not in _OTHER_HANDS  # 0: the system does not say

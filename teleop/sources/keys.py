@@ -1,0 +1,148 @@
+"""Which key asks for what, and how the bytes of a terminal become keys.
+
+A terminal tells of presses and never of releases, so no key can be held: keys move an axis on by steps. The space bar
+is the e-stop wherever it comes, in the middle of a sequence too: nothing typed before it may swallow it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from teleop.motion import Axis
+from teleop.sources.inputs import Command, Press
+
+STOP = " "
+ESCAPE = "\x1b"
+
+
+class Step(NamedTuple):
+    """An axis moved on by so many units."""
+
+    axis: Axis
+    units: float
+
+
+Act = Press | Step
+
+_ARROWS = {"A": (Axis.TILT, 1), "B": (Axis.TILT, -1), "C": (Axis.PAN, 1), "D": (Axis.PAN, -1)}
+_MODIFIED = {2: 10.0, 5: 0.1}  # xterm's shift and control: deg
+_LETTERS = {"k": "A", "j": "B", "l": "C", "h": "D"}  # fine, or with shift coarse, where a terminal keeps such arrows
+FOLLOW_MODES: Mapping[str, str] = {"l": "lock", "y": "yaw", "s": "sport"}
+
+KEYS: Mapping[str, Act] = {
+    STOP: Press(Command.STOP),
+    "c": Press(Command.CLEAR),
+    "e": Press(Command.ENABLE),
+    "-": Press(Command.SLOWER),
+    "+": Press(Command.FASTER),
+    "=": Press(Command.FASTER),
+    "v": Press(Command.RANGE),
+    "z": Press(Command.RECENTER),
+    "r": Press(Command.RECORD),
+    ".": Press(Command.SHUTTER),
+    "q": Press(Command.QUIT),
+    "[": Step(Axis.FOCUS, -0.01),
+    "]": Step(Axis.FOCUS, 0.01),
+    "{": Step(Axis.FOCUS, -0.1),
+    "}": Step(Axis.FOCUS, 0.1),
+    "<": Step(Axis.ROLL, -1.0),
+    ">": Step(Axis.ROLL, 1.0),
+    **{str(digit): Press(Command.RECALL, digit) for digit in range(10)},
+    **{key: Step(_ARROWS[arrow][0], 0.1 * _ARROWS[arrow][1]) for key, arrow in _LETTERS.items()},
+    **{key.upper(): Step(_ARROWS[arrow][0], 10.0 * _ARROWS[arrow][1]) for key, arrow in _LETTERS.items()},
+}
+
+PREFIXES: Mapping[str, tuple[str, Mapping[str, Act]]] = {
+    "s": ("store as which preset? 0-9", {str(digit): Press(Command.STORE, digit) for digit in range(10)}),
+    "x": ("delete which preset? 0-9", {str(digit): Press(Command.DELETE, digit) for digit in range(10)}),
+    "f": (
+        "follow how? l lock, y yaw, s sport",
+        {key: Press(Command.TELL, words=f"gimbal follow {mode}") for key, mode in FOLLOW_MODES.items()},
+    ),
+}
+"""Keys that ask for a second one: the question, and its answers. Any other key takes it back."""
+
+HELP: Sequence[tuple[str, str]] = (
+    ("space", "E-STOP"),
+    ("c", "clear the e-stop"),
+    ("arrows", "pan, tilt by 1 deg; shift 10, ctrl 0.1"),
+    ("h j k l", "pan, tilt by 0.1 deg; H J K L by 10"),
+    ("< >", "roll by 1 deg"),
+    ("[ ]", "focus by 1 %; { } by 10 %"),
+    ("- +  v", "speed range: slower, faster, next"),
+    ("f l/y/s", "follow mode: lock, yaw, sport"),
+    ("0-9", "recall a preset"),
+    ("s 0-9", "store it"),
+    ("x 0-9", "delete it"),
+    ("z", "recentre"),
+    ("r", "record, and stop"),
+    (".", "shutter"),
+    ("e", "hands off, and on"),
+    ("q", "quit"),
+)
+
+_SEQUENCE = re.compile(r"\x1b(?:O|\[(?P<parameters>[0-9;]*))(?P<final>[@-~])")
+_BEGUN = re.compile(r"\x1b(?:O|\[[0-9;]*)?")
+
+
+class KeyReader:
+    """From what a terminal sends to what is asked for; `question` is what it waits to be answered, "" for nothing."""
+
+    def __init__(self) -> None:
+        self.question = ""
+        self.helping = False
+        self._answers: Mapping[str, Act] = {}
+        self._begun = ""  # of an escape sequence
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether an escape sequence has begun: its rest comes at once or never."""
+        return bool(self._begun)
+
+    def settle(self) -> None:
+        """The rest never came: it was the escape key, which takes a question back."""
+        self._begun = ""
+        self._ask("")
+
+    def feed(self, text: str) -> Iterator[Act]:
+        text = self._begun + text
+        self._begun = ""
+        while text:
+            if match := _SEQUENCE.match(text):
+                self._ask("")
+                yield from _arrow(match)
+                text = text[match.end() :]
+            elif _BEGUN.fullmatch(text):
+                self._begun = text
+                return
+            elif begun := _BEGUN.match(text):  # and then comes what is no part of it
+                self._ask("")
+                text = text[begun.end() :]
+            else:
+                yield from self._key(text[0])
+                text = text[1:]
+
+    def _key(self, key: str) -> Iterator[Act]:
+        answers = self._answers
+        asked = bool(self.question)
+        self._ask(key if key in PREFIXES and not (asked and key in answers) else "")
+        if key == "?":
+            self.helping = not self.helping
+        elif asked and key in answers:
+            yield answers[key]
+        elif (not asked and key in KEYS) or key == STOP:
+            yield KEYS[key]
+
+    def _ask(self, key: str) -> None:
+        self.question, self._answers = PREFIXES.get(key, ("", {}))
+
+
+def _arrow(match: re.Match[str]) -> Iterator[Act]:
+    """What an arrow asks for: xterm says its modifier as the second parameter."""
+    if match["final"] not in _ARROWS:
+        return
+    axis, sign = _ARROWS[match["final"]]
+    modifier = (match["parameters"] or "").partition(";")[2]
+    yield Step(axis, sign * _MODIFIED.get(int(modifier), 1.0) if modifier.isdecimal() else float(sign))

@@ -1,0 +1,305 @@
+"""The table of faults: each is made for real in the middle of a move, and what came of it is measured on the wire.
+
+Whatever the fault, the axes come to rest within their limits and without a lurch, speed control is given back and the
+reason is said. Where the link itself is gone nobody can give anything back: there the gimbal stops by itself.
+"""
+
+from __future__ import annotations
+
+import errno
+import re
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import can
+import pytest
+from faulty_bus import driver_fault
+from scene import SPEEDS, Scene, scene
+
+from teleop.cli.perform import EXIT_CODES
+from teleop.dji import gimbal
+from teleop.dji.session import Session
+from teleop.motion import Cruise
+from teleop.sinks.correction import MAX_ERROR, MAX_INTEGRAL
+from teleop.supervisor import Result, Run
+
+MODES = ("position", "speed", "stick")
+BY_RATE = ("speed", "stick")
+_BUS_OFF = 0x40  # class of an error frame: Linux's can/error.h
+_SPEED_ON = {axis: Cruise(speed) for axis, speed in SPEEDS.items()}
+
+
+@dataclass(frozen=True)
+class Row:
+    """A fault, what is said of it, and what may be asked of the wire: `lives` is whether commands still arrive."""
+
+    name: str
+    breaks: Callable[[Scene, float], None]
+    said: str
+    code: int = 1
+    lives: bool = True
+    within: float = 2.0  # s until it is over
+    lunge: float = 0.0  # deg/s by which the correction may add to the speed of a gimbal that is not where it should be
+    modes: tuple[str, ...] = MODES
+
+
+def unplugged(scene: Scene, _now: float) -> None:
+    scene.deaf = True
+    scene.bus.send_fault = driver_fault("Failed to transmit", errno.ENXIO)
+    scene.bus.receive_faults.append(OSError(errno.ENODEV, "No such device"))
+
+
+def bus_off(scene: Scene, _now: float) -> None:
+    scene.bus.off = scene.mute = True
+    scene.bus.own_errors.append(can.Message(arbitration_id=_BUS_OFF, is_error_frame=True, is_extended_id=False))
+
+
+def bus_full(scene: Scene, _now: float) -> None:
+    scene.bus.room = 0
+
+
+def full_for_a_moment(scene: Scene, now: float) -> None:
+    """Longer than the link's patience, shorter than the time for which giving back is tried."""
+    pass_time = scene.clock.hook
+
+    def until(later: float) -> None:
+        scene.bus.room = 0 if later < now + 0.6 else 1 << 30
+        pass_time(later)
+
+    scene.clock.hook = until
+
+
+def cable_out(scene: Scene, _now: float) -> None:
+    scene.deaf = scene.mute = True
+
+
+def mute(scene: Scene, _now: float) -> None:
+    scene.mute = True
+
+
+def angles_lost(scene: Scene, _now: float) -> None:
+    scene.gimbal.tells_angles = False
+
+
+def raises_always(error: BaseException) -> Callable[..., Any]:
+    def fails(*_arguments: object) -> Any:
+        raise error
+
+    return fails
+
+
+def in_source(error: BaseException) -> Callable[[Scene, float], None]:
+    """In every read from now on, not in one only."""
+
+    def breaks(scene: Scene, _now: float) -> None:
+        scene.mover.read = raises_always(error)  # type: ignore[method-assign]  # a defect is put in
+        raise error
+
+    return breaks
+
+
+def in_planner(scene: Scene, _now: float) -> None:
+    scene.loop._planner.step = raises_always(ZeroDivisionError("a defect"))  # type: ignore[method-assign]
+
+
+def planner_goes_mad(scene: Scene, _now: float) -> None:
+    planner = scene.loop._planner
+    step = planner.step
+    planner.step = lambda demand, steps=1: {
+        axis: s._replace(position=float("nan")) for axis, s in step(demand, steps).items()
+    }  # type: ignore[method-assign]
+
+
+def planner_never_rests(scene: Scene, now: float) -> None:
+    planner = scene.loop._planner
+    step = planner.step
+    planner.step = lambda demand, steps=1: step(_SPEED_ON, steps)  # type: ignore[method-assign]
+    scene.loop.interrupt("SIGINT received")
+
+
+def in_watcher(scene: Scene, _now: float) -> None:
+    scene.watcher.write = raises_always(MemoryError("no room"))  # type: ignore[method-assign]
+
+
+def in_sink(scene: Scene, _now: float) -> None:
+    sink = scene.loop._sinks[0]
+    write = sink.write
+    countdown = iter(range(3))
+
+    def fails(tick) -> None:
+        if next(countdown, None) is not None:
+            raise ValueError("a defect")
+        write(tick)
+
+    sink.write = fails  # type: ignore[method-assign]
+
+
+def in_reporter(scene: Scene, _now: float) -> None:
+    scene.loop._reporters[0].report = raises_always(KeyError("a defect"))  # type: ignore[method-assign]
+
+
+SILENT = "gimbal on faulty:.* does not answer: is it on, is the cable in[?]"
+ROWS = [
+    Row("CAN adapter unplugged", unplugged, "the adapter", lives=False),
+    Row("bus off", bus_off, "the bus is off", lives=False),
+    Row("bus full", bus_full, "nothing has left for 250 ms, the bus is full or off", lives=False),
+    Row("bus full for a moment", full_for_a_moment, "nothing has left for 250 ms", lives=False),
+    Row("gimbal silent, cable out", cable_out, SILENT, lives=False),
+    Row("gimbal silent, but it hears", mute, SILENT),
+    Row("gimbal rebooted", lambda s, now: s.gimbal.reboot(now, 3.0), SILENT, lives=False),
+    Row(
+        "gimbal rebooted in no time",
+        lambda s, now: s.gimbal.reboot(now, 0.2),
+        "pan does not follow: commanded",
+        lunge=MAX_ERROR * 3 + MAX_INTEGRAL,
+        modes=BY_RATE,
+    ),
+    Row(
+        "angles no longer told",
+        angles_lost,
+        "pan: no position has been reported for 2.5 s",
+        within=4.0,
+        modes=("position", "speed"),
+    ),
+    Row("angles no longer told, and nothing else is", angles_lost, SILENT, modes=("stick",)),
+    Row(
+        "pan held by hand",
+        lambda s, now: s.gimbal.hold(now, yaw=True),
+        "pan does not follow: commanded .*, measured .*: is it blocked, or held by hand[?]",
+    ),
+    Row("300 ms stall of the process", lambda s, _: s.clock.stall(0.3), "the computer stalled for 0.30 s", within=2.3),
+    Row("450 ms stall of the process", lambda s, _: s.clock.stall(0.45), "the computer stalled for 0.45 s", within=2.3),
+    Row("600 ms stall of the process", lambda s, _: s.clock.stall(0.6), "the computer stalled for 0.60 s", within=2.3),
+    Row(
+        "suspended for an hour", lambda s, _: s.clock.stall(3600.0), "the computer stalled for 3600.00 s", within=3602.0
+    ),
+    Row("a signal", lambda s, _: s.loop.interrupt("SIGTERM received"), "SIGTERM received", code=130),
+    Row("exception in a source", in_source(ZeroDivisionError("a defect")), "ZeroDivisionError: a defect"),
+    Row("a source wants to exit", in_source(SystemExit(3)), "SystemExit: 3"),
+    Row("a generator's end in a source", in_source(GeneratorExit()), "GeneratorExit"),
+    Row("no memory in a source", in_source(MemoryError()), "MemoryError"),
+    Row("Ctrl-C in the middle of a source", in_source(KeyboardInterrupt()), "Ctrl-C", code=130),
+    Row("exception in the planner", in_planner, "ZeroDivisionError: a defect"),
+    Row("planner without numbers", planner_goes_mad, "the planner has pan at nan"),
+    Row("planner that never comes to rest", planner_never_rests, "SIGINT received", code=130, within=6.0),
+    Row("exception in a sink", in_sink, "ValueError: a defect"),
+    Row("exception in a watcher", in_watcher, "MemoryError: no room"),
+    Row("exception in a reporter", in_reporter, "KeyError: 'a defect'"),
+]
+
+
+@pytest.mark.parametrize(
+    ("row", "mode"), [pytest.param(row, mode, id=f"{row.name}, {mode}") for row in ROWS for mode in row.modes]
+)
+def test_a_fault_ends_at_rest_and_given_back_with_its_reason(
+    row: Row, mode: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with scene(mode, tmp_path, monkeypatch) as stage:
+        stage.move(lambda now: row.breaks(stage, now))
+        stage.assert_moving_when_broken()
+        stage.assert_at_rest()
+        assert stage.over - stage.broken_at < row.within
+        assert re.search(row.said, stage.ended.reasons[0])
+        assert EXIT_CODES[stage.ended.result] == row.code
+        stage.assert_no_lurch(row.lunge)
+        stage.assert_no_jump()
+        if row.lives:
+            stage.assert_given_back()
+
+
+def test_a_gimbal_that_is_no_longer_reached_stops_by_itself_within_half_a_second(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for mode, holds in (("position", 0.1), ("speed", 0.5), ("stick", 0.5)):
+        with scene(mode, tmp_path, monkeypatch) as stage:
+            stage.move(lambda now: unplugged(stage, now))
+            last = max(time for time, _ in stage.wire)
+            still = min(time for time, yaw, pitch in stage.rates if time > last and abs(yaw) < 0.5 and abs(pitch) < 0.5)
+            assert still - last < holds + 0.3, "the motor's own lag of 50 ms, and no more"
+
+
+def test_the_wall_clock_does_not_matter(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Set back by years in the middle of a move: the same frames at the same times."""
+    real = time.time
+    wires = []
+    for step in (0.0, 1e8):
+        set_back = partial(monkeypatch.setattr, time, "time", lambda step=step: real() - step)
+        with scene("speed", tmp_path, monkeypatch) as stage:
+            stage.move(lambda _now, set_back=set_back: set_back(), seconds=3.0)
+            assert stage.ended.reasons == []
+            wires.append(stage.wire)
+    assert wires[0] == wires[1]
+
+
+def test_an_axis_that_was_held_does_not_set_out_once_it_is_let_go(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for mode in MODES:
+        with scene(mode, tmp_path, monkeypatch) as stage:
+            stage.move(lambda now: stage.gimbal.hold(now, yaw=True))
+            stood = stage.gimbal.angles.yaw
+            [*_, (_, last)] = (
+                stage.of(gimbal.Position)
+                if mode == "position"
+                else stage.of(gimbal.Speed if mode == "speed" else gimbal.Joystick)
+            )
+            if isinstance(last, gimbal.Position):
+                assert not last.yaw_ignored
+                assert last.pitch_ignored
+                assert last.yaw == pytest.approx(stood, abs=0.1)
+            else:
+                assert last.yaw == 0
+
+
+@pytest.mark.parametrize("lost", [1, 2])
+def test_control_is_given_back_again_when_that_very_frame_is_lost(
+    lost: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with scene("speed", tmp_path, monkeypatch) as stage:
+        receive, left = stage.gimbal.receive, [lost]
+
+        def lossy(data: bytes, now: float) -> None:
+            if left[0] and any(
+                isinstance(each.message, gimbal.Speed) and not each.message.take_over
+                for each in Session().receive(data, now)
+            ):
+                left[0] -= 1
+                return
+            receive(data, now)
+
+        stage.gimbal.receive = lossy  # type: ignore[method-assign]
+        stage.move(lambda _now: stage.loop.interrupt("SIGINT received"))
+        assert left == [0]
+        assert not stage.gimbal.controlled
+
+
+@pytest.mark.parametrize("at", [0.0, 0.03, 0.1, 0.16, 0.2, 0.3])
+def test_ctrl_c_again_and_again_while_it_is_given_back(
+    at: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As Python raises it where nobody handles the signal, out of whatever is being called."""
+    with scene("speed", tmp_path, monkeypatch) as stage:
+        pressed: list[float] = []
+        send = stage.bus.send
+
+        def interrupted(message, timeout=None) -> None:
+            now = stage.clock.now()
+            send(message, timeout)
+            if (
+                stage.loop.supervisor.state is Run.RELEASING
+                and (not pressed or now - pressed[0] >= at)
+                and len(pressed) < 3
+            ):
+                pressed.append(now)
+                raise KeyboardInterrupt
+
+        stage.bus.send = interrupted  # type: ignore[method-assign]
+        stage.move(lambda _now: stage.loop.interrupt("SIGINT received"))
+        assert pressed
+        assert stage.ended.result is Result.INTERRUPTED
+        assert not stage.gimbal.controlled
+        assert not stage.of(gimbal.Speed)[-1][1].take_over
