@@ -21,7 +21,7 @@ DONE, FAILED, BAD_USAGE, INTERRUPTED = 0, 1, 2, 130
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
     "play": ("teleop.cli.play:play", "Play a sequence on a rig."),
-    "live": ("teleop.cli.live:live", "Move a rig by its sticks."),
+    "live": ("teleop.cli.live:live", "Move a rig by joystick, dial and keys."),
     "check": ("teleop.cli.check:check", "Check a sequence against a rig."),
     "preview": ("teleop.cli.preview:preview", "Draw a sequence as a page, a picture or a table."),
     "sim": ("teleop.cli.sim:sim", "Simulate a rig's devices on a real bus."),
@@ -35,7 +35,8 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
 }
 """Where each command is, imported when it is used, and its line of help."""
 
-app = App(name="teleop", help=teleop.__doc__, version=lambda: version("rs-teleop"), suppress_keyboard_interrupt=False)
+_ABOUT = (teleop.__doc__ or "").partition("\n")[0]  # its first line: the rest is for programs
+app = App(name="teleop", help=_ABOUT, version=lambda: version("rs-teleop"), suppress_keyboard_interrupt=False)
 for _name, (_place, _help) in COMMANDS.items():
     app.command(_place, name=_name, help=_help)
 
