@@ -46,6 +46,7 @@ def perform(
     gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
     with signals_to(loop.interrupt), display:
         ended = loop.run()
+    gc.unfreeze()
     if take is not None:
         take.finish(ended.result, ended.reasons)
     if as_json:
