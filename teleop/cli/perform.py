@@ -69,7 +69,10 @@ def perform(
 
 @contextmanager
 def signals_to(interrupt: Callable[[str], object]) -> Iterator[None]:
-    """Ctrl-C and its kin call `interrupt` with their name, however often they are sent, and do nothing else."""
+    """Ctrl-C and its kin call `interrupt` with their name, however often they are sent, and do nothing else.
+
+    Afterwards a terminal that closes is ignored: what is left to do is a report, and a hang-up may come late or twice.
+    """
 
     def stop(number: int, _frame: FrameType | None) -> None:
         interrupt(f"{signal.Signals(number).name} received")
@@ -80,7 +83,7 @@ def signals_to(interrupt: Callable[[str], object]) -> Iterator[None]:
         yield
     finally:
         for number, handler in before.items():
-            signal.signal(number, handler)
+            signal.signal(number, signal.SIG_IGN if number.name in LEAVING else handler)
 
 
 def _known(names: Sequence[str]) -> Sequence[signal.Signals]:
