@@ -130,6 +130,20 @@ def test_a_signal_stops_a_move_smoothly_and_soon(number: signal.Signals) -> None
     assert f"stopped: {number.name} received" in said
 
 
+def test_a_hang_up_that_its_starter_had_ignored_stops_nothing() -> None:
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does
+    try:
+        with running("play", "reveal") as process:
+            wait_for(process, " / 15.0 s")
+            process.send_signal(signal.SIGHUP)
+            wait_for(process, "   3.0 / 15.0 s")
+            process.send_signal(signal.SIGTERM)
+            _, said = process.communicate(timeout=10)
+    finally:
+        signal.signal(signal.SIGHUP, before)
+    assert "stopped: SIGTERM received" in said
+
+
 @pytest.fixture(scope="module")
 def bus() -> Iterator[str]:
     """A bus between processes, in a network namespace of its own."""
