@@ -17,13 +17,12 @@ from teleop.planner.move import Move
 from teleop.sources.playback import Playback
 from teleop.sources.sequence_file import Performance
 
-PREROLL = 0.5  # s at rest on the first keyframe before the start
 EASE_SHARE = 0.5  # of each axis's velocity, acceleration and jerk: on the way to the start nothing is in a hurry
 _INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 
 
 class SequenceSource:
-    """`limits` are the axes', for the ease to the start and for changes of speed; `preroll` is in s.
+    """`limits` are the axes', for the ease to the start and for changes of speed.
 
     `speed` is the share of the speed that the sequence was written for; PlanError says when the move does not allow it.
     `executor` searches for changes of it, a thread unless given.
@@ -34,11 +33,10 @@ class SequenceSource:
         self,
         performance: Performance,
         limits: Mapping[Axis, Limits],
-        preroll: float = PREROLL,
         speed: float = 1.0,
         executor: Executor | None = None,
     ) -> None:
-        self._move, self._limits, self._preroll = performance.move, limits, preroll
+        self._move, self._limits, self._preroll = performance.move, limits, performance.preroll
         keys = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
         self.playback = Playback(performance.move, limits, speed, keys, executor)
         self._cues = list(performance.cues)
@@ -52,7 +50,7 @@ class SequenceSource:
         self._approach = ease(here, targets, {axis: self._limits[axis] for axis in targets}, EASE_SHARE)
         self._approach_begin = now
         self._approach_end = now + math.ceil(self._approach.duration * 100) / 100
-        self.begin = self._approach_end + self._preroll
+        self.begin = self._approach_end + math.ceil(self._preroll * 100 - _INSTANT) / 100
         self.playback.begin(self.begin)
 
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:

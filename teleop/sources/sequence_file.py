@@ -26,6 +26,8 @@ from teleop.sources.easing import ramps
 from teleop.sources.sequence_rules import file_rules, rig_rules
 from teleop.sources.times import seconds
 
+PREROLL = 0.5  # s at rest on the first keyframe before the start, unless the file says otherwise
+
 
 class Keyframe(PositionsSection):
     """What stands in the file; `at`, `hold` and `ease` are as written, the axes' positions are in their units."""
@@ -51,7 +53,8 @@ class RepeatSection(Section):
 class SequenceSection(Section):
     """`tension`: 0 is smoothest, 1 closest to constant speed between keys. `fit`: what is too fast is stretched.
 
-    `ease`: the ramps at every stop that has none of its own.
+    `ease`: the ramps at every stop that has none of its own. `preroll`: the rest on the first keyframe before the
+    start. `back_to_one`: at the end the axes go back to the first keyframe.
     """
 
     title: str = ""
@@ -59,6 +62,8 @@ class SequenceSection(Section):
     tension: Annotated[float, Field(ge=0, le=1)] = 0.0
     ease: Any = None
     fit: Literal["stretch"] | None = None
+    preroll: Any = PREROLL
+    back_to_one: bool = False
     repeat: RepeatSection | None = None
     keyframes: Annotated[list[Keyframe], Field(min_length=1)]
     cues: list[CueSection] = Field(default_factory=list)
@@ -74,13 +79,19 @@ class Cue:
 
 @dataclass(frozen=True)
 class Performance:
-    """A sequence compiled for a rig: everything that will happen, checked. `warnings` are lines for the user."""
+    """A sequence compiled for a rig: everything that will happen, checked. `warnings` are lines for the user.
+
+    `preroll` is how long to rest on the first keyframe before the start, in s; `back_to_one`: whether to go back to
+    it after the end.
+    """
 
     title: str
     move: Move
     cues: Sequence[Cue]
     warnings: Sequence[str]
     keys: Mapping[Axis, Sequence[Key]]
+    preroll: float = PREROLL
+    back_to_one: bool = False
 
     @property
     def duration(self) -> float:
@@ -113,7 +124,8 @@ def load_performance(name: str, limits: Mapping[Axis, Limits], rig: str) -> Perf
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
     cues = [Cue(factor * seconds(cue.at, sheet.fps), Action(cue.camera)) for cue in sheet.cues]
     cues.sort(key=lambda cue: cue.at)
-    return Performance(sheet.title or Path(document.name).stem, move, cues, warnings, keys)
+    title, preroll = sheet.title or Path(document.name).stem, seconds(sheet.preroll, sheet.fps)
+    return Performance(title, move, cues, warnings, keys, preroll, sheet.back_to_one)
 
 
 def _planned(sheet: SequenceSection, limits: Mapping[Axis, Limits]) -> tuple[Mapping[Axis, Sequence[Key]], Move, float]:

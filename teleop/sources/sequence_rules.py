@@ -36,6 +36,8 @@ def file_rules(data: Any) -> Iterator[Wrong]:
         before = (index, at)
         free.update({axis: (index, at + (hold or 0)) for axis in AXES if axis in frame})
     yield from ease_rules(data, fps)
+    if wrong := _time(mapping(data), "preroll", fps)[1]:
+        yield ("preroll",), wrong
     for index, cue in enumerate(sequence(data, "cues")):
         if wrong := _time(mapping(cue), "at", fps)[1]:
             yield ("cues", index, "at"), wrong

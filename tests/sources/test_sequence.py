@@ -6,8 +6,8 @@ import pytest
 
 from teleop.motion import Action, Axis, Follow, Limits, State
 from teleop.planner.keyframes import Key, plan
-from teleop.sources.sequence import PREROLL, SequenceSource
-from teleop.sources.sequence_file import Cue, Performance
+from teleop.sources.sequence import SequenceSource
+from teleop.sources.sequence_file import PREROLL, Cue, Performance
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-56, 146, 60, 120, 600)}
 

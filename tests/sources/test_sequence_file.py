@@ -168,6 +168,17 @@ def test_ramps_are_refused_or_lengthened_with_the_line_of_their_key(tmp_path: Pa
     ]
 
 
+def test_preroll_and_back_to_one_are_the_files(tmp_path: Path) -> None:
+    text = "keyframes: [{at: 0, pan: 0}, {at: 4, pan: 20}]\n"
+    assert (load(tmp_path, text).preroll, load(tmp_path, text).back_to_one) == (0.5, False)
+    asked = load(tmp_path, "fps: 25\npreroll: 75f\nback_to_one: true\n" + text)
+    assert (asked.preroll, asked.back_to_one) == (3.0, True)
+    assert problems_of(tmp_path, "preroll: soon\nback_to_one: 1\n" + text) == [
+        "shoot.yaml:1:10: preroll must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not 'soon'",
+        "shoot.yaml:2:14: back_to_one must be true or false, not 1",
+    ]
+
+
 def test_a_program_plans_a_sequence_for_a_rig_in_one_call(tmp_path: Path) -> None:
     file = tmp_path / "shoot.yaml"
     file.write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 4, pan: 20}\n")
