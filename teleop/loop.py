@@ -6,8 +6,8 @@ sleeps over ticks, but never past the keep-alive. Only this module decides what 
 anywhere in a tick, by whomever, becomes a reason to ramp to rest, release and end with a result that is not DONE.
 Nothing a piece does can keep a run from ending: stopping and releasing have their own longest times.
 
-After a stall the planner no longer knows where the axes are: a gimbal forgets a speed after 0.5 s and a position after
-0.1 s. So the ramp to rest then starts from what two fresh readings say, and nothing is commanded before they are in.
+After a stall the planner no longer knows where the axes are (`whereabouts`): the ramp to rest then starts from what
+two fresh readings say, and nothing is commanded before they are in.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from teleop.motion import Act, Axis, Demand, Halt, Limits, Motion, Reading, Stat
 from teleop.planner.stop import stop_phases, stop_state
 from teleop.ports import Clock, DeviceError, Reporter, Sink, Source, TeleopError
 from teleop.supervisor import Event, Run, Supervisor
+from teleop.whereabouts import Whereabouts
 
 RATE = 100  # Hz
 PERIOD = 1 / RATE  # s
@@ -30,7 +31,6 @@ FIRST_REPORT = 2.0  # s to wait for the first report of every axis in use
 STOP_SHARE, STOP_EXTRA = 2.0, 1.0  # a planner has so many times the fastest stop, and so many s, to come to rest
 RELEASE_PATIENCE = 0.5  # s to keep trying to give a device back over a link that fails
 RELEASE_LONGEST = 10.0  # s for all of giving back, whatever a sink still wants to do
-FINDING = 0.3  # s to wait after a stall for two readings of every axis; one without them goes on as planned
 
 log = logging.getLogger(__name__)
 
@@ -74,8 +74,7 @@ class Loop:
         self._interrupt = ""
         self._planner_failed = False  # while stopping
         self._stop_end = math.inf
-        self._stalled = math.inf  # when a stall ended, and since then
-        self._found: dict[Axis, list[Reading]] = {}  # the last two readings of each axis; empty once it is over
+        self._lost: Whereabouts | None = None  # since a stall, until they are found
         self._release_due = dict.fromkeys(range(len(sinks)), -math.inf)  # sink -> when its next step is
         self._release_end = self._release_limit = math.inf
         self._turns: Mapping[Run, Callable[[float, int], None]] = {
@@ -121,8 +120,7 @@ class Loop:
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (Run.RUNNING, Run.STOPPING):
             self._fault(TeleopError(f"the computer stalled for {late:.2f} s"))
-            self._stalled = self._time(self._ticks)
-            self._found = {axis: [] for axis, state in self._motion.items() if state.velocity or state.acceleration}
+            self._lost = Whereabouts(self._motion, self._time(self._ticks))
             return self._time(self._ticks), 1
         return self._time(self._ticks), 1 if self._resting else elapsed
 
@@ -160,7 +158,7 @@ class Loop:
 
     def _stop(self, now: float, steps: int) -> None:
         """Ramp to rest; once even the planner has failed, by the closed form alone, from what was last sent."""
-        if self._found and not self._find(now):
+        if self._lost and not self._find(now):
             return
         if math.isinf(self._stop_end):
             self._stop_end = now + STOP_EXTRA + STOP_SHARE * max(map(self._stop_time, self._motion), default=0.0)
@@ -179,26 +177,14 @@ class Loop:
         return _finite(self._planner.step(demand, steps))
 
     def _find(self, now: float) -> bool:
-        """Whether the axes that moved before the stall are found: the planner then goes on from there.
-
-        None can be faster than it was commanded, nor have turned round, whatever two rounded readings seem to say.
-        """
+        """Whether the axes that moved before the stall are found: the planner then goes on from there."""
         self._report(now)
-        for axis, readings in self._found.items():
-            reading = self._reported[axis]
-            if reading.time >= self._stalled and reading not in readings[-1:]:
-                self._found[axis] = [*readings[-1:], reading]
-        if now < self._stalled + FINDING and any(len(readings) < 2 for readings in self._found.values()):
-            return False
-        for axis, readings in self._found.items():
-            if len(readings) == 2:
-                (before, earlier), (position, later) = readings
-                low, high = sorted((0.0, self._motion[axis].velocity))
-                velocity = min(max((position - before) / (later - earlier), low), high)
-                here = State(position + velocity * (now - later), velocity)
-                self._motion = {**self._motion, axis: here}
-                self._guarded(self._planner.reset, {axis: here})
-        self._found = {}
+        if self._lost is None or not self._lost.known(now, self._reported):
+            return self._lost is None
+        for axis, here in self._lost.found(now).items():
+            self._motion = {**self._motion, axis: here}
+            self._guarded(self._planner.reset, {axis: here})
+        self._lost = None
         return True
 
     def _stop_time(self, axis: Axis) -> float:
