@@ -68,6 +68,11 @@ class Frame(NamedTuple):  # a third of the cost of making a frozen dataclass
         return not self.is_reply and self.cmd_type & 0x1F >= 2
 
     @property
+    def allows_reply(self) -> bool:
+        """Whether a reply may come (reply types 1 to 31 of a command frame)."""
+        return not self.is_reply and bool(self.cmd_type & 0x1F)
+
+    @property
     def is_encrypted(self) -> bool:
         return bool(self.encryption >> 5)
 

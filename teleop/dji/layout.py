@@ -60,6 +60,7 @@ class Layout:
         self.fields = tuple(place for place in places if isinstance(place, Field))
         cells = list(_cells(places))
         self._struct = struct.Struct("<" + "".join(cell.code for cell in cells))
+        self.size = self._struct.size  # bytes, without a tail of no fixed size
         self._constants = [
             (position, cell.constant) for position, cell in enumerate(cells) if cell.constant is not None
         ]
@@ -118,7 +119,8 @@ def _shared_byte(fields: Mapping[str, Any]) -> Cell:
         else:
             mask = ~named & 0xFF if isinstance(wire, Reserved) else wire.mask
             pack.append(f"within(m.{name}, {mask}) << {wire.first}")
-            unpack[name] = f"{{c}} >> {wire.first} & {mask}"
+            bits = f"{{c}} >> {wire.first} & {mask}"
+            unpack[name] = f"from_{name}({bits})" if wire.words else bits
     return Cell("B", " | ".join(pack), unpack)
 
 

@@ -10,7 +10,7 @@ set and id. Lengths and checks are not written down: a frame that decodes has th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from typing import Any
 
 from teleop.dji.frame import Damage, Frame
@@ -30,15 +30,16 @@ class Transcriber:
 
     def __init__(self, registry: Registry) -> None:
         self._registry = registry
-        self._requests: dict[int, bytes] = {}  # set and id by sequence, at most 65536
+        self._requests: dict[Hashable, bytes] = {}  # set and id by exchange: at most 65536, and 32 times that onboard
 
     def record(self, found: Frame | Damage) -> Record:
         """`found` as a JSON object."""
         if isinstance(found, Damage):
             return {"damage": found.reason, "bytes": found.data.hex()}
-        if found.wants_reply and not found.is_encrypted:
-            self._requests[found.sequence] = found.data[:2]
-        request = self._requests.get(found.sequence, b"") if found.is_reply else b""
+        exchange = self._registry.exchange(found)
+        if found.allows_reply and not found.is_encrypted:
+            self._requests[exchange] = found.data[:2]
+        request = self._requests.get(exchange, b"") if found.is_reply else b""
         return describe(self._registry, found, self._registry.decode(found, request))
 
 
@@ -83,8 +84,9 @@ def restore(registry: Registry, record: object) -> bytes:
     _check_shape(record)
     record = _USUAL | record
     message = registry.message(record["message"], record["reply"], record["fields"])
+    bare = record["bare"] or (record["reply"] and not registry.replies_have_command)
     return Frame(
-        (b"" if record["bare"] else registry.command(record["message"])) + message.encode(),
+        (b"" if bare else registry.command(record["message"])) + message.encode(),
         record["cmd_type"],
         record["sequence"],
         record["encryption"],

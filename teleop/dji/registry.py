@@ -7,7 +7,7 @@ knows the request passes its set and id.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -35,6 +35,8 @@ class Decoded(NamedTuple):
 class Registry:
     """The messages of one protocol. `sets` names its command sets, `names` commands that have several messages."""
 
+    replies_have_command = True  # as a rule: old firmware's do not
+
     def __init__(
         self, sets: Mapping[int, str], messages: Iterable[type[Message]], names: Mapping[bytes, str] | None = None
     ) -> None:
@@ -51,6 +53,10 @@ class Registry:
 
     def _names_of(self, command: bytes) -> set[str]:
         return {cls.name for cls in self.messages if cls.set_and_id == command}
+
+    def exchange(self, frame: Frame) -> Hashable:
+        """What a reply shares with its request and, as far as that goes, with no other frame."""
+        return frame.sequence
 
     def decode(self, frame: Frame, request: bytes = b"") -> Decoded:
         """What `frame` says; `request` is the set and id that it answers, b"" if unknown. Never raises.

@@ -102,6 +102,7 @@ U8 = partial(Number, "B")
 U16 = partial(Number, "H")
 U32 = partial(Number, "I")
 I16 = partial(Number, "h")
+I32 = partial(Number, "i")
 
 
 @dataclass(frozen=True, slots=True)
