@@ -28,6 +28,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "send": ("teleop.cli.send:send", "Send one command to a rig's gimbal, camera or focus motor."),
     "monitor": ("teleop.cli.monitor:monitor", "Show what host and gimbal say to each other on a CAN bus."),
     "calibrate": ("teleop.cli.calibrate:app", "Measure what a profile has to know about a gimbal."),
+    "take": ("teleop.cli.take:app", "List, judge, export and repair recorded runs."),
     "doctor": ("teleop.cli.doctor:doctor", "Say what this machine can do, and what is in the way."),
     "devices": ("teleop.cli.devices:devices", "List CAN interfaces, serial ports and HID devices."),
     "decode": ("teleop.cli.decode:app", "Bytes of a protocol as JSON lines."),

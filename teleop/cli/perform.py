@@ -48,7 +48,8 @@ def perform(
         ended = loop.run()
     gc.unfreeze()
     if take is not None:
-        take.finish(ended.result, ended.reasons)
+        links = {name: dict(connection.counts) for name, connection in rig.connections.items()}
+        take.finish(ended.result, ended.reasons, links)
     if as_json:
         report = _report(ended, tally, rig)
         print(json.dumps(report if take is None else {**report, "take": take.facts}))

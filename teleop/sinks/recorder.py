@@ -52,6 +52,7 @@ class Recorder:
         self._seconds = 0.0
         self._over = Event()
         self._ended: tuple[str, Sequence[str]] = ("", ())
+        self._links: Mapping[str, Mapping[str, int]] = {}
         self._thread = Thread(target=self._work, name="recorder", daemon=True)
         self._thread.start()
 
@@ -68,9 +69,14 @@ class Recorder:
     def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
         return None
 
-    def finish(self, result: Result, reasons: Sequence[str]) -> None:
-        """The run is over: write what is left, and why it stopped. Waits PATIENCE seconds at most."""
-        self._ended = result.name.lower(), list(reasons)
+    def finish(
+        self, result: Result, reasons: Sequence[str], links: Mapping[str, Mapping[str, int]] | None = None
+    ) -> None:
+        """The run is over: write what is left, why it stopped, and what its links counted.
+
+        Waits PATIENCE seconds at most.
+        """
+        self._ended, self._links = (result.name.lower(), list(reasons)), links or {}
         self._over.set()
         self._thread.join(PATIENCE)
         if self._thread.is_alive():
@@ -129,7 +135,7 @@ class Recorder:
             if (looks >= FLUSH and self._taken > self._safe) or over:
                 writer.flush()
                 looks, self._safe, self._seconds = 0, self._taken, writer.seconds
-        writer.end(*self._ended, self._dropped)
+        writer.end(*self._ended, self._dropped, self._links)
 
 
 class _Whole:

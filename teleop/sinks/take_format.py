@@ -20,6 +20,7 @@ from teleop.motion import Act, Axis, Cruise, Dialled, Follow, Goto, Limits, Stat
 
 ABOUT, END = "teleop take", "teleop end"  # the names of the metadata records
 FORMAT = "1"
+CUT = "cut"  # the result of a run whose end is not recorded: of a file that was recovered
 CHUNK = 1 << 20  # bytes of messages after which a chunk is written even if nobody asks
 PLACES = (12, 10, 8)  # decimals of a position, velocity, acceleration
 WISH_PLACES = 6  # decimals of what was asked for
@@ -87,7 +88,7 @@ class TakeWriter:
     def __init__(self, stream: BinaryIO, about: About) -> None:
         from mcap.writer import Writer  # with its compressors, only where something is recorded
 
-        self._writer = Writer(stream, chunk_size=CHUNK)
+        self._writer = Writer(stream, chunk_size=CHUNK, enable_data_crcs=True)
         self._writer.start(profile="", library=f"teleop {about.version}")
         self._writer.add_metadata(ABOUT, about.record())
         self._started = round(about.started * 1e9)
@@ -123,11 +124,12 @@ class TakeWriter:
         """Everything so far goes to the stream; a reader of a file that is cut later will have it."""
         self._writer.flush()
 
-    def end(self, result: str, reasons: Sequence[str], dropped: int) -> None:
-        """How the run ended, and the index."""
-        last = {"result": result, "reasons": json.dumps(list(reasons)), "dropped": str(dropped)}
+    def end(
+        self, result: str, reasons: Sequence[str], dropped: int, links: Mapping[str, Mapping[str, int]] | None = None
+    ) -> None:
+        """How the run ended, what each of its links counted, and the index."""
         self._writer.flush()
-        self._writer.add_metadata(END, {**last, "ticks": str(self.ticks), "seconds": f"{self.seconds:.2f}"})
+        self._writer.add_metadata(END, ending_record(result, reasons, dropped, self.ticks, self.seconds, links or {}))
         self._writer.finish()
 
     def _measured(self, tick: Tick) -> None:
@@ -152,6 +154,19 @@ class TakeWriter:
     def _write(self, topic: str, time: float, data: bytes) -> None:
         nanoseconds = self._started + round((time - self._origin) * 1e9)
         self._writer.add_message(self._channels[topic], nanoseconds, data, nanoseconds)
+
+
+def ending_record(
+    result: str,
+    reasons: Sequence[str],
+    dropped: int,
+    ticks: int,
+    seconds: float,
+    links: Mapping[str, Mapping[str, int]],
+) -> dict[str, str]:
+    """The strings of the metadata record that ends a take."""
+    counts = {"dropped": str(dropped), "ticks": str(ticks), "seconds": f"{seconds:.2f}"}
+    return {"result": result, "reasons": json.dumps(list(reasons)), **counts, "links": json.dumps(links)}
 
 
 def _json(content: object) -> bytes:

@@ -20,6 +20,7 @@ from teleop.planner.warp import Pace, at_most, change_rate, go_to, state_at, ste
 
 AHEAD = 0.08  # s from asking for a change to its beginning; the search takes 9 ms in the median (planning.md, C)
 LATER = 2.0  # times further ahead when it was found too late
+WRITTEN = 1.0  # the speed that a move was written for
 FASTEST = 2.0  # times the speed that a move was written for
 PATIENCE = 0.05  # s between two looks at a paused move
 _INSTANT = 1e-6  # s: times on the loop's grid that are closer are the same
@@ -31,7 +32,8 @@ class Playback:
     """A move's own time over the clock's, at `rate` from `begin` on; 1 is the speed that it was written for.
 
     `keys` are the move's times to step to, in s, rising. Changes are searched for by `executor`, a thread unless given.
-    Raises PlanError where `rate` is more than the move allows.
+    Raises PlanError where `rate` is more than the move allows. The speed that it was written for it always allows: a
+    recording at the limits themselves leaves no headroom, and whoever made the move has checked every step of it.
     """
 
     def __init__(
@@ -44,7 +46,8 @@ class Playback:
     ) -> None:
         self._move, self._limits, self._keys = move, limits, keys
         self.at_most = min(at_most(move, limits), FASTEST)
-        allowed(rate, self.at_most)
+        if rate != WRITTEN:
+            allowed(rate, self.at_most)
         self._pace = steady(0.0, rate, math.inf)
         self._resumed = rate  # what a pause ends with
         self._executor = executor or ThreadPoolExecutor(1, thread_name_prefix="warp")
@@ -107,7 +110,7 @@ class Playback:
         self._ask(lambda pace, start: change_rate(self._move, self._limits, pace, 0.0, start), now)
 
     def resume(self, now: float) -> None:
-        rate = self._resumed
+        rate = self._resumed = min(self._resumed, self.at_most)
         self._ask(lambda pace, start: change_rate(self._move, self._limits, pace, rate, start), now)
 
     def step(self, keys: int, now: float) -> None:

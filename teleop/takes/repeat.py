@@ -183,8 +183,10 @@ def _warnings(take: Take) -> list[str]:
     told = [said["words"] for _, said in take.actions if said["action"] == "told"]
     if told:
         warnings.append(f"{take.path}: is not told again: {'; '.join(dict.fromkeys(told))}")
-    if take.ending is None:
+    if take.remark:
+        warnings.append(take.remark)
+    if take.cut:
         warnings.append(f"{take.path}: was cut at {take.duration:.2f} s; what was moving is brought to rest there")
-    elif take.ending.dropped:
+    elif take.ending and take.ending.dropped:
         warnings.append(f"{take.path}: {take.ending.dropped} ticks were not recorded; the way between is made up")
     return warnings

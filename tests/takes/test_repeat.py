@@ -113,3 +113,19 @@ def test_a_take_that_was_cut_is_read_as_far_as_it_is_whole(take: Path, tmp_path:
     if len(left.times):
         move = take_performance(cut, LIMITS, "sim").move
         assert all(state.velocity == 0 and state.acceleration == 0 for state in move.at(move.duration).values())
+
+
+def test_a_take_at_the_limits_themselves_is_repeated_at_its_own_speed(tmp_path: Path) -> None:
+    (tmp_path / "sticks.csv").write_text("time,pan\n0,0\n0.5,1\n1.5,-0.6\n2.5,0\n3.5,0\n")
+    done = teleop("live", "--sticks", "sticks.csv", "--fast", "--take", "full.mcap", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    again = teleop("play", "full.mcap", "--fast", "--take", "again.mcap", cwd=tmp_path)
+    assert again.returncode == 0, again.stderr
+    first, second = (read_take(tmp_path / name).motion[Axis.PAN] for name in ("full.mcap", "again.mcap"))
+    assert abs(first[1]).max() == pytest.approx(LIMITS[Axis.PAN].velocity)
+    assert (second[0].max(), second[0][-1]) == pytest.approx((first[0].max(), first[0][-1]), abs=1e-3)
+    faster = teleop("play", "full.mcap", "--fast", "--speed", "120%", cwd=tmp_path)
+    assert (faster.returncode, faster.stderr) == (
+        2,
+        "--speed 120%: the move allows at most 97 % of its speed, not 120 %\n",
+    )

@@ -1,0 +1,17 @@
+"""`teleop take`: what can be done with recorded runs. Each command is imported when it is used, as in `teleop.cli`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from cyclopts import App
+
+COMMANDS: Mapping[str, tuple[str, str]] = {
+    "list": ("teleop.cli.take_list:take_list", "List the takes of a folder."),
+    "info": ("teleop.cli.take_list:take_info", "Say what is in a take."),
+    "recover": ("teleop.cli.take_files:take_recover", "Save what is whole of a take that was never closed."),
+}
+
+app = App(name="take", help="List, judge, export and repair recorded runs.")
+for _name, (_place, _help) in COMMANDS.items():
+    app.command(_place, name=_name, help=_help)
