@@ -9,7 +9,8 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from teleop.cli.options import DEFAULTS, Options
+from teleop.cli.options import DEFAULTS, Options, warn
+from teleop.cli.timelapse_words import facts, summary
 from teleop.motion import Limits
 from teleop.planner.move import Peaks
 from teleop.planner.warp import at_most
@@ -24,15 +25,20 @@ def check(
     options: Options = DEFAULTS,
 ) -> int:
     """Check a sequence against a rig: every error with its line, or what the move asks of each axis."""
-    profile, performance = options.performance(file)
+    profile, performance, timelapse = options.compiled(file)
+    if timelapse is not None:
+        warn(performance)
     most = at_most(performance.move, profile.limits)
     asked = {axis.value: _share(peaks, profile.limits[axis]) for axis, peaks in performance.move.peaks().items()}
     if options.json:
         found = {"ok": True, "title": performance.title, "duration": performance.duration, "axes": asked}
         speed = None if math.isinf(most) else most
-        print(json.dumps({**found, "speed_at_most": speed, "warnings": list(performance.warnings)}))
+        found |= {"speed_at_most": speed, "warnings": list(performance.warnings)}
+        print(json.dumps(found if timelapse is None else {**found, "timelapse": facts(timelapse)}))
     else:
         _print(performance, profile, asked)
+        if timelapse is not None:
+            print(f"{summary(timelapse)}. The table is of its rehearsal.")
         if math.isfinite(most):
             print(f"It can be played at most at {math.floor(100 * most)} % of its speed.")
     return 0

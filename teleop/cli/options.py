@@ -16,6 +16,7 @@ from teleop.sinks.recorder import ENDING
 
 if TYPE_CHECKING:
     from teleop.sources.sequence_file import Performance
+    from teleop.sources.timelapse_file import Timelapse
 
 
 @Parameter(name="*")
@@ -41,28 +42,38 @@ class Options:
             links[name] = url
         return load_profile(self.rig, links)
 
-    def performance(self, file: str) -> tuple[Profile, Performance]:
+    def compiled(self, file: str) -> tuple[Profile, Performance, Timelapse | None]:
         """The sequence or take called `file`, compiled for the rig, its warnings said.
 
+        Of a timelapse, which is handed out too, it is the rehearsal, whose warnings are left to whoever rehearses.
         Raises DocumentError, and with --json prints it.
         """
         from teleop.sources.sequence_file import load_performance  # the planner's solver takes 0.3 s to load
+        from teleop.sources.timelapse_file import load_timelapse
 
+        timelapse = None
         try:
             profile = self.profile()
             if is_take(file):
                 from teleop.takes.repeat import take_performance
 
                 performance = take_performance(Path(file), profile.limits, profile.name)
+            elif timelapse := load_timelapse(file, profile.limits, profile.name):
+                performance = timelapse.rehearsal()
             else:
                 performance = load_performance(file, profile.limits, profile.name)
         except DocumentError as error:
             if self.json:
                 print(json.dumps({"ok": False, "problems": error.problems}))
             raise
-        for warning in performance.warnings:
-            print(warning, file=sys.stderr)
-        return profile, performance
+        warn(performance if timelapse is None else timelapse)
+        return profile, performance, timelapse
+
+
+def warn(compiled: Performance | Timelapse) -> None:
+    """Say what is merely to be known about it."""
+    for warning in compiled.warnings:
+        print(warning, file=sys.stderr)
 
 
 def is_take(file: str) -> bool:

@@ -10,12 +10,13 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from teleop.cli.display import Display
-from teleop.cli.options import DEFAULTS, Options, is_take
+from teleop.cli.options import DEFAULTS, Options, is_take, warn
 from teleop.cli.perform import perform
 from teleop.clock import SystemClock, VirtualClock
 from teleop.document import DocumentError
 from teleop.links import parse
 from teleop.planner.findings import PlanError
+from teleop.ports import UsageError
 from teleop.profile import Profile
 from teleop.rig import open_rig
 from teleop.sinks.recorder import recording
@@ -38,12 +39,19 @@ def play(
     speed: Annotated[
         str, Parameter(help="How fast, as a percentage: up to 200, as far as `check` says the move allows.")
     ] = "100%",
+    rehearse: Annotated[
+        bool, Parameter(help="A timelapse's move at its clip's speed, no shutter.", negative=(), show_default=False)
+    ] = False,
     fast: Fast = False,
     take: Take = None,
     options: Options = DEFAULTS,
 ) -> int:
     """Play a sequence: ease to its first keyframe, then the move, then say how well the rig followed."""
-    profile, performance = options.performance(file)
+    profile, performance, timelapse = options.compiled(file)
+    if timelapse is not None:
+        if not rehearse:
+            raise UsageError(f"{file} is a timelapse: --rehearse plays its move")
+        warn(performance)
     title, limits = performance.title, {axis: profile.limits[axis] for axis in performance.move.tracks}
     if is_take(file):
         from teleop.takes.repeat import followable

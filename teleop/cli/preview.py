@@ -15,7 +15,7 @@ from typing import Annotated, BinaryIO
 
 from cyclopts import Parameter
 
-from teleop.cli.options import DEFAULTS, Options
+from teleop.cli.options import DEFAULTS, Options, warn
 from teleop.ports import UsageError
 from teleop.preview.output import replacing
 from teleop.profile import Profile
@@ -37,7 +37,9 @@ def preview(
 ) -> int:
     """Draw a sequence as a rig would play it: an interactive page, a drawing or a table."""
     writes = _writes(output, csv, rate)
-    profile, performance = options.performance(file)
+    profile, performance, timelapse = options.compiled(file)
+    if timelapse is not None:
+        warn(performance)
     written = []
     for path, write in writes.items():
         with replacing(path) as stream:

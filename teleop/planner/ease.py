@@ -13,6 +13,7 @@ import numpy as np
 
 from teleop.motion import Axis, Limits, Motion
 from teleop.planner.move import Move, Track
+from teleop.planner.polynomial import Array
 
 PEAK_VELOCITY = 15 / 8
 PEAK_ACCELERATION = 10 / math.sqrt(3)
@@ -27,19 +28,21 @@ def ease(start: Motion, target: Mapping[Axis, float], limits: Mapping[Axis, Limi
     """
     distances = {axis: position - start[axis].position for axis, position in target.items()}
     duration = max(
-        (_shortest(abs(distance), limits[axis].scaled(share)) for axis, distance in distances.items()), default=0.0
+        (float(shortest(np.abs(distance), limits[axis].scaled(share))) for axis, distance in distances.items()),
+        default=0.0,
     )
     return Move({axis: _quintic(start[axis].position, target[axis], duration) for axis in target})
 
 
-def _shortest(distance: float, limits: Limits) -> float:
-    if distance <= NEGLIGIBLE:
-        return 0.0
-    return max(
-        PEAK_VELOCITY * distance / limits.velocity,
-        math.sqrt(PEAK_ACCELERATION * distance / limits.acceleration),
-        math.cbrt(PEAK_JERK * distance / limits.jerk),
+def shortest(distance: Array, limits: Limits) -> Array:
+    """Seconds from rest to rest over distances (>= 0, units), whatever their shape."""
+    times = np.maximum(
+        np.maximum(
+            PEAK_VELOCITY * distance / limits.velocity, np.sqrt(PEAK_ACCELERATION * distance / limits.acceleration)
+        ),
+        np.cbrt(PEAK_JERK * distance / limits.jerk),
     )
+    return np.where(distance > NEGLIGIBLE, times, 0.0)
 
 
 def _quintic(start: float, end: float, duration: float) -> Track:

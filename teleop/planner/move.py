@@ -12,12 +12,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
+from typing import Self
 
 import numpy as np
 
 from teleop.motion import Axis, State
 from teleop.planner.findings import LongRamp, Overshoot
-from teleop.planner.polynomial import Array, extremes
+from teleop.planner.polynomial import HERMITE, Array, extremes
 
 CHUNK = 1 << 15  # samples at a time: a megabyte an axis
 
@@ -62,6 +63,14 @@ class Track:
     @classmethod
     def constant(cls, time: float, position: float) -> Track:
         return cls(np.array([time]), np.empty((0, 6)), position)
+
+    @classmethod
+    def through(cls, times: Array, states: Array) -> Self:
+        """Quintics from each state to the next: `times` (n,) in s, rising, `states` (3, n), at rest in the last."""
+        widths = np.diff(times)
+        scale = np.array([np.ones_like(widths), widths, widths**2])
+        ends = np.vstack([states[:, :-1] * scale, states[:, 1:] * scale])
+        return cls(times, (HERMITE @ ends).T / widths[:, None] ** np.arange(6), float(states[0, -1]))
 
     @property
     def start(self) -> float:

@@ -24,6 +24,7 @@ from teleop.section import PositionsSection, Section
 from teleop.shipped import find
 from teleop.sources.easing import ramps
 from teleop.sources.sequence_rules import file_rules, rig_rules
+from teleop.sources.timelapse_section import TimelapseSection
 from teleop.sources.times import seconds
 
 PREROLL = 0.5  # s at rest on the first keyframe before the start, unless the file says otherwise
@@ -65,6 +66,7 @@ class SequenceSection(Section):
     preroll: Any = PREROLL
     back_to_one: bool = False
     repeat: RepeatSection | None = None
+    timelapse: TimelapseSection | None = None
     keyframes: Annotated[list[Keyframe], Field(min_length=1)]
     cues: list[CueSection] = Field(default_factory=list)
 
@@ -110,16 +112,16 @@ def load_performance(name: str, limits: Mapping[Axis, Limits], rig: str) -> Perf
         sheet = document.check(SequenceSection, [*file_rules(document.data), *beyond_rig])
     except DocumentError as error:
         raise (UnplayableError(error.problems) if len(error.problems) == len(beyond_rig) else error) from None
-    own_limits = {axis: limits[axis] for axis in _axes(sheet)}
+    own_limits = {axis: limits[axis] for axis in axes_of(sheet)}
     try:
         keys, move, factor = _planned(sheet, own_limits)
     except Infeasible as error:
-        problems = [_at_keyframe(document, finding.last, str(finding)) for finding in error.findings]
+        problems = [at_keyframe(document, finding.last, str(finding)) for finding in error.findings]
         raise UnplayableError(problems) from None
     except PlanError as error:
         raise DocumentError([document.problem(("repeat",), str(error))]) from None
     remarks = [*move.overshoots, *move.long_ramps]
-    warnings = [_at_keyframe(document, remark.last, str(remark)) for remark in remarks]
+    warnings = [at_keyframe(document, remark.last, str(remark)) for remark in remarks]
     if factor > 1:
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
     cues = [Cue(factor * seconds(cue.at, sheet.fps), Action(cue.camera)) for cue in sheet.cues]
@@ -130,7 +132,7 @@ def load_performance(name: str, limits: Mapping[Axis, Limits], rig: str) -> Perf
 
 def _planned(sheet: SequenceSection, limits: Mapping[Axis, Limits]) -> tuple[Mapping[Axis, Sequence[Key]], Move, float]:
     """The keys of every pass at the times they will have, the move through them, and how far it had to be stretched."""
-    keys = _keys(sheet)
+    keys = keys_of(sheet)
     if sheet.repeat:
         keys = repeated(keys, sheet.repeat.times, sheet.repeat.mode)
     if sheet.fit is None:
@@ -139,11 +141,11 @@ def _planned(sheet: SequenceSection, limits: Mapping[Axis, Limits]) -> tuple[Map
     return {axis: [key.later(factor) for key in of_axis] for axis, of_axis in keys.items()}, move, factor
 
 
-def _axes(sheet: SequenceSection) -> Sequence[Axis]:
+def axes_of(sheet: SequenceSection) -> Sequence[Axis]:
     return [axis for axis in Axis if any(getattr(frame, axis.value) is not None for frame in sheet.keyframes)]
 
 
-def _keys(sheet: SequenceSection) -> Mapping[Axis, Sequence[Key]]:
+def keys_of(sheet: SequenceSection) -> Mapping[Axis, Sequence[Key]]:
     keys: dict[Axis, list[Key]] = {}
     everywhere = ramps(sheet.ease, sheet.fps)
     for index, frame in enumerate(sheet.keyframes):
@@ -154,10 +156,10 @@ def _keys(sheet: SequenceSection) -> Mapping[Axis, Sequence[Key]]:
             if position is not None:
                 stop = frame.pass_ == "stop"
                 keys.setdefault(axis, []).append(Key(at, position, stop, hold, f"keyframes[{index}]", *eases))
-    return {axis: keys[axis] for axis in _axes(sheet)}
+    return {axis: keys[axis] for axis in axes_of(sheet)}
 
 
-def _at_keyframe(document: Document, where: str, text: str) -> str:
+def at_keyframe(document: Document, where: str, text: str) -> str:
     """A line for something the planner says of the keyframe that it calls `where`."""
     index = int(where.removeprefix("keyframes[").removesuffix("]"))
     line, column = document.places["keyframes", index]

@@ -2,61 +2,76 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any
 
 from teleop.document import Wrong, mapping, number, sequence
 from teleop.motion import Axis, Limits
 from teleop.sources.easing import ease_rules
-from teleop.sources.times import seconds
+from teleop.sources.timelapse_section import is_timelapse, timelapse_rules
+from teleop.sources.times import frames, seconds
 
 AXES = tuple(axis.value for axis in Axis)
+When = Callable[[Any], float]  # a time as written -> seconds, or output frames
 
 
 def file_rules(data: Any) -> Iterator[Wrong]:
     """Times that are times and in order, keyframes that say something."""
     fps = number(mapping(data).get("fps"))
+    when = frames if is_timelapse(data) else partial(seconds, fps=fps)
     before: tuple[int, float] | None = None
     free: dict[str, tuple[int, float]] = {}  # axis -> the keyframe that holds it, and until when
     for index, frame in enumerate(sequence(data, "keyframes")):
         frame = mapping(frame)
         if not any(axis in frame for axis in AXES):
             yield ("keyframes", index), f"names no axis ({', '.join(AXES[:4])})"
-        at, wrong = _time(frame, "at", fps)
-        hold, wrong_hold = _time(frame, "hold", fps)
+        at, wrong = _time(frame, "at", when)
+        hold, wrong_hold = _time(frame, "hold", when)
         for key, text in (("at", wrong), ("hold", wrong_hold)):
             if text:
                 yield ("keyframes", index, key), text
         if at is None:
             continue
         if before and at <= before[1]:
-            yield ("keyframes", index, "at"), f"must be after keyframes[{before[0]}].at ({before[1]:g} s)"
+            yield ("keyframes", index, "at"), f"must be after keyframes[{before[0]}].at ({_said(before[1], when)})"
         else:
-            yield from _hold_rules(index, frame, at, free)
+            yield from _hold_rules(index, frame, at, free, when)
         before = (index, at)
         free.update({axis: (index, at + (hold or 0)) for axis in AXES if axis in frame})
+    if is_timelapse(data):
+        yield from ease_rules(data, 1.0)  # a ramp of 24f takes 24 frames
+        yield from timelapse_rules(data)
+        return
     yield from ease_rules(data, fps)
-    if wrong := _time(mapping(data), "preroll", fps)[1]:
+    if wrong := _time(mapping(data), "preroll", partial(seconds, fps=fps))[1]:
         yield ("preroll",), wrong
     for index, cue in enumerate(sequence(data, "cues")):
-        if wrong := _time(mapping(cue), "at", fps)[1]:
+        if wrong := _time(mapping(cue), "at", when)[1]:
             yield ("cues", index, "at"), wrong
 
 
 def _hold_rules(
-    index: int, frame: Mapping[str, Any], at: float, free: Mapping[str, tuple[int, float]]
+    index: int, frame: Mapping[str, Any], at: float, free: Mapping[str, tuple[int, float]], when: When
 ) -> Iterator[Wrong]:
     for axis, (holder, end) in free.items():
         if axis in frame and at < end:
-            yield ("keyframes", index, "at"), f"must be after keyframes[{holder}] has held {axis} (until {end:g} s)"
+            yield (
+                ("keyframes", index, "at"),
+                f"must be after keyframes[{holder}] has held {axis} (until {_said(end, when)})",
+            )
 
 
-def _time(section: Mapping[str, Any], key: str, fps: float | None) -> tuple[float | None, str]:
-    """The time at a key in seconds, or what is wrong with it; a missing one is pydantic's to report."""
+def _said(time: float, when: When) -> str:
+    return f"frame {time:g}" if when is frames else f"{time:g} s"
+
+
+def _time(section: Mapping[str, Any], key: str, when: When) -> tuple[float | None, str]:
+    """The time at a key in seconds or frames, or what is wrong with it; a missing one is pydantic's to report."""
     if key not in section:
         return None, ""
     try:
-        return seconds(section[key], fps), ""
+        return when(section[key]), ""
     except ValueError as error:
         return None, str(error)
 

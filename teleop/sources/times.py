@@ -1,4 +1,6 @@
-"""Times as people write them in a sequence: seconds, `1m30s`, frames, timecode. All become seconds, once, here."""
+"""Times as people write them in a sequence: seconds, `1m30s`, frames, timecode. All become seconds, once, here.
+
+In a timelapse the keyframes' times are output frames instead, and stay so until the interval is known."""
 
 from __future__ import annotations
 
@@ -34,6 +36,15 @@ def seconds(value: Any, fps: float | None) -> float:
             raise ValueError(f"has frame {frames}, and there are {rate:g} in a second")
         return (hours * 3600 + minutes * 60 + whole) * math.ceil(rate) / rate + frames / rate
     raise ValueError(f"must be a time ({_WRITTEN}), not {value!r}")
+
+
+def frames(value: Any) -> float:
+    """`240` or `240f` as output frames of a timelapse. Raises ValueError with what would be right."""
+    if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value) and value >= 0:
+        return float(value)
+    if isinstance(value, str) and (match := _FRAMES.fullmatch(value.strip())):
+        return float(match[1])
+    raise ValueError(f"must be in output frames (240 or 240f), not {value!r}")
 
 
 def _needed(fps: float | None, text: str) -> float:

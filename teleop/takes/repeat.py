@@ -23,7 +23,7 @@ from teleop.document import UnplayableError
 from teleop.loop import PERIOD
 from teleop.motion import Action, Axis, Limits, State
 from teleop.planner.move import Move, Peaks, Track
-from teleop.planner.polynomial import HERMITE, Array
+from teleop.planner.polynomial import Array
 from teleop.planner.stop import stop_phases, stop_state
 from teleop.profile import Profile
 from teleop.sources.sequence_file import Cue, Performance
@@ -139,12 +139,7 @@ def _track(recorded: Samples) -> RecordedTrack:
     """A quintic a tick, what rests in one piece."""
     times, states = recorded
     first = _first_of_rests(states)
-    kept, starts = times[first], states[:, first]
-    widths = np.diff(kept)
-    scale = np.array([np.ones_like(widths), widths, widths**2])
-    ends = np.vstack([starts[:, :-1] * scale, starts[:, 1:] * scale])
-    coefficients = (HERMITE @ ends).T / widths[:, None] ** np.arange(6)
-    track = RecordedTrack(kept, coefficients, float(states[0, -1]))
+    track = RecordedTrack.through(times[first], states[:, first])
     object.__setattr__(track, "samples", recorded)
     return track
 
