@@ -107,6 +107,8 @@ class Action(StrEnum):
     RECORD = "record"
     STOP = "stop"
     SHUTTER = "shutter"
+    FOCUS = "focus"  # on the centre, until END_FOCUS
+    END_FOCUS = "end_focus"
 
 
 class Told(NamedTuple):

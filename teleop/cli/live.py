@@ -16,13 +16,12 @@ from cyclopts import Parameter
 from teleop.cli.display import Display
 from teleop.cli.live_view import LiveView
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.perform import perform
+from teleop.cli.perform import commands, perform
 from teleop.cli.play import Fast, Take, the_clock
 from teleop.motion import Axis
 from teleop.ports import Clock, DeviceError, Sink, UsageError
 from teleop.profile import Profile
-from teleop.rig import Rig, open_rig
-from teleop.sinks.commands import CommandSink
+from teleop.rig import open_rig
 from teleop.sinks.recorder import recording
 from teleop.sinks.tally import Tally
 from teleop.sources.hid_backend import Hidapi
@@ -78,7 +77,7 @@ def live(
         rig = stack.enter_context(open_rig(profile, clock))
         trouble = (lambda: "") if recorder is None else (lambda: recorder.trouble)
         view = LiveView(title, limits, lambda: operator.status, rig.connections, keyboard, trouble, options.json)
-        watchers: list[Sink] = [operator, *_commands(rig, operator), *([] if keyboard is None else [keyboard])]
+        watchers: list[Sink] = [operator, *commands(rig, operator.say), *([] if keyboard is None else [keyboard])]
         tally = Tally(lambda: operator.begin)
         return perform(rig, axes, [operator], tally, view, options.json, recorder, watchers)
 
@@ -98,11 +97,6 @@ def _keyboard() -> Keyboard | None:
     """The keys of the terminal that this was started on, if there is one."""
     descriptor = terminal()
     return None if descriptor is None else Keyboard(descriptor)
-
-
-def _commands(rig: Rig, operator: Operator) -> list[CommandSink]:
-    links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
-    return [CommandSink(rig.connections[link], operator.say) for link in links[:1]]
 
 
 def _open_devices(stack: ExitStack, profile: Profile, clock: Clock, keys: bool) -> tuple[Sequence[Input], str]:

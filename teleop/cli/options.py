@@ -61,7 +61,8 @@ class Options:
             elif timelapse := load_timelapse(file, profile.limits, profile.name):
                 performance = timelapse.rehearsal()
             else:
-                performance = load_performance(file, profile.limits, profile.name)
+                devices = [sink.type for sink in profile.sinks]
+                performance = load_performance(file, profile.limits, profile.name, devices)
         except DocumentError as error:
             if self.json:
                 print(json.dumps({"ok": False, "problems": error.problems}))

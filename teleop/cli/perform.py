@@ -15,6 +15,7 @@ from teleop.cli.display import Display, error_table
 from teleop.motion import Axis
 from teleop.ports import Sink, Source
 from teleop.rig import Rig
+from teleop.sinks.commands import CommandSink
 from teleop.sinks.recorder import Recorder
 from teleop.sinks.tally import Tally
 from teleop.supervisor import Result, Supervisor
@@ -66,6 +67,12 @@ def perform(
             if take.trouble:
                 print(f"teleop: {take.trouble}", file=sys.stderr)
     return EXIT_CODES[ended.result]
+
+
+def commands(rig: Rig, say: Callable[[str], object]) -> list[Sink]:
+    """What gives a gimbal its own commands, where the rig has one; `say` is for what comes of them."""
+    links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
+    return [CommandSink(rig.connections[link], say) for link in links[:1]]
 
 
 @contextmanager

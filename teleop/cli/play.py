@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
@@ -11,7 +12,7 @@ from cyclopts import Parameter
 
 from teleop.cli.display import Display
 from teleop.cli.options import DEFAULTS, Options, is_take, warn
-from teleop.cli.perform import perform
+from teleop.cli.perform import commands, perform
 from teleop.clock import SystemClock, VirtualClock
 from teleop.document import DocumentError
 from teleop.links import parse
@@ -77,7 +78,9 @@ def play(
     with ExitStack() as stack:
         recorder = stack.enter_context(recording(take, profile.name, title, limits, patient=fast))
         rig = stack.enter_context(open_rig(profile, clock))
-        watchers = [] if keys is None else [stack.enter_context(keys)]
+        said: list[str] = []
+        stack.callback(lambda: print(*said, sep="\n", end="\n" if said else "", file=sys.stderr))
+        watchers = [*commands(rig, said.append), *([] if keys is None else [stack.enter_context(keys)])]
         tally = Tally(lambda: source.begin)
         return perform(rig, list(limits), [conductor or source], tally, display, options.json, recorder, watchers)
 

@@ -80,6 +80,14 @@ def find(words: Sequence[str]) -> Message:
     raise FieldError(f"there is no command {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
 
 
+STREAMED: Final = (gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Dial, focus.Set)
+
+
+def is_taken_back(message: Message) -> bool:
+    """Whether it moves the gimbal or the focus motor to where the stream of a run would at once move it back from."""
+    return isinstance(message, STREAMED) or (isinstance(message, gimbal.Mode) and bool(message.action))
+
+
 class FieldHelp(NamedTuple):
     """One field of a command: what it must be, with its unit, and its default, None where it must be given."""
 

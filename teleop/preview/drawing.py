@@ -94,7 +94,7 @@ def _cue_name(panel: Axes, cue: Cue, *, late: bool) -> None:
     spot, aside = (cue.at, 0), (-4 if late else 4, 4)
     across = panel.get_xaxis_transform()
     panel.annotate(
-        cue.action.value, spot, aside, across, "offset points", ha="right" if late else "left", color=CUE, fontsize=8
+        cue.name, spot, aside, across, "offset points", ha="right" if late else "left", color=CUE, fontsize=8
     )
 
 

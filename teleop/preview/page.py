@@ -50,7 +50,7 @@ def _data(performance: Performance, profile: Profile) -> dict[str, Any]:
         "title": performance.title,
         "rig": profile.name,
         "duration": performance.duration,
-        "cues": [{"at": cue.at, "name": cue.action.value} for cue in performance.cues],
+        "cues": [{"at": cue.at, "name": cue.name} for cue in performance.cues],
         "quantities": [{"name": name, "per": PER[name]} for name in QUANTITIES],
         "axes": [_axis(axis, performance, profile.limits[axis]) for axis in performance.move.tracks],
         "warnings": list(performance.warnings),

@@ -3,7 +3,7 @@
 Recording is said again when no reply comes, because saying it twice does no harm. The shutter is not: a lost reply
 does not mean a lost command, and a frame shot twice is a fault nobody sees. A camera that refuses stops the run, since
 a move that is not being filmed is not worth finishing. What this program has set recording it stops on leaving, however
-it leaves: nobody else knows that the card is filling.
+it leaves: nobody else knows that the card is filling. So it is with a focus that it holds.
 """
 
 from __future__ import annotations
@@ -21,9 +21,14 @@ COMMANDS: Mapping[Action, CameraCommand] = {
     Action.RECORD: CameraCommand.RECORD,
     Action.STOP: CameraCommand.STOP,
     Action.SHUTTER: CameraCommand.SHUTTER,
+    Action.FOCUS: CameraCommand.CENTER_FOCUS,
+    Action.END_FOCUS: CameraCommand.END_CENTER_FOCUS,
 }
+ENDS: Mapping[Action, Action] = {Action.RECORD: Action.STOP, Action.FOCUS: Action.END_FOCUS}
+"""What lasts until something else is said, and what that is."""
+
 LISTEN = 0.02  # s between looks for the answer on leaving
-TRIES: Mapping[Action, int] = {Action.RECORD: 3, Action.STOP: 3, Action.SHUTTER: 1}
+TRIES = 3  # how often it is said without a reply; the shutter once
 
 
 class CameraSink:
@@ -34,7 +39,7 @@ class CameraSink:
         self._pending: dict[int, tuple[Action, int]] = {}  # sequence -> what was asked, for the how manieth time
         self._again: list[tuple[Action, int]] = []
         self._fault = ""
-        self._rolling = False
+        self._lasting: set[Action] = set()
         connection.on_answer(camera.Command, self._answered)
 
     def write(self, tick: Tick) -> None:
@@ -47,19 +52,19 @@ class CameraSink:
     def release(self, now: float) -> float | None:
         """Stop what still records, and wait for the camera's word; raises as `write` does."""
         again, self._again = self._again, []
-        asked = [(action, attempt) for action, attempt in again if action is Action.STOP]
-        if self._rolling and not asked:
-            asked = [(Action.STOP, 1)]
+        asked = [(action, attempt) for action, attempt in again if action in ENDS.values()]
+        asked += [(ENDS[action], 1) for action in ENDS if action in self._lasting]
         for action, attempt in asked:
             self._ask(action, attempt, now)
         self._connection.poll(now)
         self._say_fault()
-        waits = self._again or any(action is Action.STOP for action, _ in self._pending.values())
+        waits = self._again or any(action in ENDS.values() for action, _ in self._pending.values())
         return now + LISTEN if waits else None
 
     def _ask(self, action: Action, attempt: int, now: float) -> None:
-        if action is not Action.SHUTTER:
-            self._rolling = action is Action.RECORD
+        if action in ENDS:
+            self._lasting.add(action)
+        self._lasting -= {lasting for lasting, end in ENDS.items() if end is action}
         sequence = self._connection.request(camera.Command(COMMANDS[action]), now)
         self._pending[sequence] = (action, attempt)
 
@@ -74,8 +79,12 @@ class CameraSink:
             return
         action, attempt = asked
         if isinstance(answer.reply, Result) and answer.reply.return_code:
-            self._fault = f"the camera refused to {action} (return code {answer.reply.return_code:#04x})"
-        elif answer.reply is None and attempt < TRIES[action]:
+            self._fault = f"the camera refused to {_said(action)} (return code {answer.reply.return_code:#04x})"
+        elif answer.reply is None and action is not Action.SHUTTER and attempt < TRIES:
             self._again.append((action, attempt + 1))
         elif answer.reply is None:
-            self._fault = f"the camera did not answer when asked to {action}"
+            self._fault = f"the camera did not answer when asked to {_said(action)}"
+
+
+def _said(action: Action) -> str:
+    return action.replace("_", " ")

@@ -10,15 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from teleop.dji import focus, gimbal
-from teleop.dji.catalogue import find
+from teleop.dji import gimbal
+from teleop.dji.catalogue import find, is_taken_back
 from teleop.dji.message import FieldError, Message
 from teleop.motion import Dialled, Tick, Told
 from teleop.sinks.connection import Answer, Connection
 
 FULL_DIAL = 2048  # R SDK V2.5, section 2.3.4.11
 DIAL_PERIOD = 0.02  # s between two words of the dial, at least
-STREAMED = (gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Dial, focus.Set)
 
 
 class CommandSink:
@@ -37,6 +36,8 @@ class CommandSink:
                 self._tell(act.words, tick.time)
             elif isinstance(act, Dialled):
                 self._dial = round(max(-1.0, min(1.0, act.speed)) * FULL_DIAL)
+        if self._asked:
+            self._connection.poll(tick.time)  # the gimbal may have no axis in this run, and so nobody else who does
         if (self._dial or self._sent_dial) and tick.time - self._sent_at > DIAL_PERIOD - 1e-6:
             self._sent_at = tick.time
             self._push_dial(self._dial)
@@ -57,7 +58,7 @@ class CommandSink:
         except FieldError as error:
             self._say(f"{words}: {error}")
             return
-        if isinstance(message, STREAMED) or (isinstance(message, gimbal.Mode) and message.action):
+        if is_taken_back(message):
             self._say(f"{words} refused: it would fight what is streamed")
             return
         if type(message) not in self._kinds:

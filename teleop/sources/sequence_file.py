@@ -7,76 +7,24 @@ keyframe where it goes wrong. The rules read the plain data, so that all errors 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
-
-from pydantic import Field
 
 from teleop.document import Document, DocumentError, UnplayableError, read_document
-from teleop.motion import Action, Axis, Limits
+from teleop.motion import Axis, Limits
 from teleop.planner.findings import Infeasible, PlanError
 from teleop.planner.keyframes import Key, plan, stretch
 from teleop.planner.move import Move
-from teleop.planner.repeat import Repeat, repeated
-from teleop.section import PositionsSection, Section
+from teleop.planner.repeat import repeated
+from teleop.planner.rests import SAME, Rest, rests
 from teleop.shipped import find
-from teleop.sources.easing import ramps
-from teleop.sources.sequence_rules import file_rules, rig_rules
-from teleop.sources.timelapse_section import TimelapseSection
+from teleop.sources.cues import Cue
+from teleop.sources.sequence_keys import KeysError, axes_of, keys_of, recentred
+from teleop.sources.sequence_rules import STICKS, file_rules, rig_rules
+from teleop.sources.sequence_section import PREROLL, SequenceSection
 from teleop.sources.times import seconds
-
-PREROLL = 0.5  # s at rest on the first keyframe before the start, unless the file says otherwise
-
-
-class Keyframe(PositionsSection):
-    """What stands in the file; `at`, `hold` and `ease` are as written, the axes' positions are in their units."""
-
-    at: Any
-    hold: Any = 0
-    pass_: Literal["through", "stop"] = Field("through", alias="pass")
-    ease: Any = None
-
-
-class CueSection(Section):
-    at: Any
-    camera: Literal["record", "stop", "shutter"]
-
-
-class RepeatSection(Section):
-    """`times` passes; a bounce counts the way there and the way back as two."""
-
-    times: Annotated[int, Field(ge=1, le=10_000)]
-    mode: Annotated[Repeat, Field(strict=False)]
-
-
-class SequenceSection(Section):
-    """`tension`: 0 is smoothest, 1 closest to constant speed between keys. `fit`: what is too fast is stretched.
-
-    `ease`: the ramps at every stop that has none of its own. `preroll`: the rest on the first keyframe before the
-    start. `back_to_one`: at the end the axes go back to the first keyframe.
-    """
-
-    title: str = ""
-    fps: Annotated[float, Field(gt=0, le=1000)] | None = None
-    tension: Annotated[float, Field(ge=0, le=1)] = 0.0
-    ease: Any = None
-    fit: Literal["stretch"] | None = None
-    preroll: Any = PREROLL
-    back_to_one: bool = False
-    repeat: RepeatSection | None = None
-    timelapse: TimelapseSection | None = None
-    keyframes: Annotated[list[Keyframe], Field(min_length=1)]
-    cues: list[CueSection] = Field(default_factory=list)
-
-
-@dataclass(frozen=True)
-class Cue:
-    """An action `at` so many seconds after the first keyframe's zero."""
-
-    at: float
-    action: Action
 
 
 @dataclass(frozen=True)
@@ -101,66 +49,97 @@ class Performance:
         return max([self.move.duration, *(cue.at for cue in self.cues)])
 
 
-def load_performance(name: str, limits: Mapping[Axis, Limits], rig: str) -> Performance:
+def load_performance(
+    name: str, limits: Mapping[Axis, Limits], rig: str, devices: Collection[str] | None = None
+) -> Performance:
     """The sequence called `name`, shipped or at a path, compiled for a rig with these limits.
 
-    Raises DocumentError with a line for everything wrong with it; UnplayableError when only the rig is in the way.
+    `devices` are the kinds of device that the rig has, None where that is not known. Raises DocumentError with a line
+    for everything wrong with it; UnplayableError when only the rig is in the way.
     """
     document = read_document(*find(name, "sequences", "sequence"))
-    beyond_rig = list(rig_rules(document.data, limits, rig))
+    beyond_rig = list(rig_rules(document.data, limits, rig, devices))
     try:
         sheet = document.check(SequenceSection, [*file_rules(document.data), *beyond_rig])
     except DocumentError as error:
         raise (UnplayableError(error.problems) if len(error.problems) == len(beyond_rig) else error) from None
     own_limits = {axis: limits[axis] for axis in axes_of(sheet)}
+    keys = _keys(document, sheet, own_limits)
     try:
-        keys, move, factor = _planned(sheet, own_limits)
+        keys, move, factor = _planned(keys, sheet, own_limits)
     except Infeasible as error:
         problems = [at_keyframe(document, finding.last, str(finding)) for finding in error.findings]
         raise UnplayableError(problems) from None
-    except PlanError as error:
-        raise DocumentError([document.problem(("repeat",), str(error))]) from None
+    cues = _cues(sheet, factor)
+    problems = [document.problem(("cues", index), text) for index, text in _restless(sheet, move, factor)]
+    if problems:
+        raise DocumentError(problems)
     remarks = [*move.overshoots, *move.long_ramps]
     warnings = [at_keyframe(document, remark.last, str(remark)) for remark in remarks]
     if factor > 1:
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
-    cues = [Cue(factor * seconds(cue.at, sheet.fps), Action(cue.camera)) for cue in sheet.cues]
-    cues.sort(key=lambda cue: cue.at)
+        if sticks := [axis for axis in move.tracks if axis in STICKS]:
+            warnings.append(document.problem(("fit",), f"does so to {', '.join(sticks)} too: the drone flies further"))
     title, preroll = sheet.title or Path(document.name).stem, seconds(sheet.preroll, sheet.fps)
     return Performance(title, move, cues, warnings, keys, preroll, sheet.back_to_one)
 
 
-def _planned(sheet: SequenceSection, limits: Mapping[Axis, Limits]) -> tuple[Mapping[Axis, Sequence[Key]], Move, float]:
-    """The keys of every pass at the times they will have, the move through them, and how far it had to be stretched."""
-    keys = keys_of(sheet)
+def _keys(document: Document, sheet: SequenceSection, limits: Mapping[Axis, Limits]) -> Mapping[Axis, Sequence[Key]]:
+    """The keys of every pass, and those that recentre cues add. Raises DocumentError."""
+    keys, problems = keys_of(sheet), []
     if sheet.repeat:
-        keys = repeated(keys, sheet.repeat.times, sheet.repeat.mode)
+        try:
+            keys = repeated(keys, sheet.repeat.times, sheet.repeat.mode)
+        except PlanError as error:
+            raise DocumentError([document.problem(("repeat",), str(error))]) from None
+    centres = [(index, cue) for index, cue in enumerate(sheet.cues) if cue.recenter is not None]
+    for index, cue in sorted(centres, key=lambda each: seconds(each[1].at, sheet.fps)):
+        at, duration = seconds(cue.at, sheet.fps), seconds(cue.recenter, sheet.fps)
+        try:
+            keys = recentred(keys, limits, at, duration, f"cues[{index}]")
+        except KeysError as error:
+            problems.append(document.problem(("cues", index, "recenter"), str(error)))
+    if problems:
+        raise DocumentError(problems)
+    return keys
+
+
+def _planned(
+    keys: Mapping[Axis, Sequence[Key]], sheet: SequenceSection, limits: Mapping[Axis, Limits]
+) -> tuple[Mapping[Axis, Sequence[Key]], Move, float]:
+    """The keys at the times they will have, the move through them, and how far it had to be stretched."""
     if sheet.fit is None:
         return keys, plan(keys, limits, sheet.tension), 1.0
     move, factor = stretch(keys, limits, sheet.tension)
     return {axis: [key.later(factor) for key in of_axis] for axis, of_axis in keys.items()}, move, factor
 
 
-def axes_of(sheet: SequenceSection) -> Sequence[Axis]:
-    return [axis for axis in Axis if any(getattr(frame, axis.value) is not None for frame in sheet.keyframes)]
+def _cues(sheet: SequenceSection, factor: float) -> list[Cue]:
+    """What is done beside the motion, in order of time; at one time, in the file's order."""
+    cues = [Cue(factor * seconds(cue.at, sheet.fps), cue.act) for cue in sheet.cues if cue.act is not None]
+    return sorted(cues, key=lambda cue: cue.at)
 
 
-def keys_of(sheet: SequenceSection) -> Mapping[Axis, Sequence[Key]]:
-    keys: dict[Axis, list[Key]] = {}
-    everywhere = ramps(sheet.ease, sheet.fps)
-    for index, frame in enumerate(sheet.keyframes):
-        at, hold = seconds(frame.at, sheet.fps), seconds(frame.hold, sheet.fps)
-        eases = ramps(frame.ease, sheet.fps, everywhere)
-        for axis in Axis:
-            position = getattr(frame, axis.value)
-            if position is not None:
-                stop = frame.pass_ == "stop"
-                keys.setdefault(axis, []).append(Key(at, position, stop, hold, f"keyframes[{index}]", *eases))
-    return {axis: keys[axis] for axis in axes_of(sheet)}
+def _restless(sheet: SequenceSection, move: Move, factor: float) -> Iterator[tuple[int, str]]:
+    """Cues that need rest and have none, each with what would be right."""
+    places = rests(move)
+    for index, cue in enumerate(sheet.cues):
+        at = factor * seconds(cue.at, sheet.fps)
+        if cue.needs_rest and not any(rest.start - SAME <= at <= rest.end + SAME for rest in places):
+            yield index, _elsewhere(move, places, at)
+
+
+def _elsewhere(move: Move, places: Sequence[Rest], at: float) -> str:
+    """Why a cue may not be there, and where the nearest place is."""
+    moving = [axis for axis, state in move.at(at).items() if abs(state.velocity) > SAME] or list(move.tracks)
+    nearest = min(places, key=lambda rest: max(rest.start - at, at - rest.end))
+    where = nearest.start if nearest.start > at else nearest.end
+    what = f"{' and '.join(moving)} move{'' if len(moving) > 1 else 's'}"
+    return f"is at {at:g} s, where {what}; all rest at {where:g} s, and would here with pass: stop in a key of each"
 
 
 def at_keyframe(document: Document, where: str, text: str) -> str:
-    """A line for something the planner says of the keyframe that it calls `where`."""
-    index = int(where.removeprefix("keyframes[").removesuffix("]"))
-    line, column = document.places["keyframes", index]
+    """A line for something the planner says of the keyframe, or the cue, that it calls `where`."""
+    section, index = re.fullmatch(r"(\w+)\[(\d+)\]", where).groups()  # type: ignore[union-attr] - our own words
+    line, column = document.places[section, int(index)]
     return f"{document.name}:{line}:{column}: {text}"

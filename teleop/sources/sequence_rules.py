@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from typing import Any
 
 from teleop.document import Wrong, mapping, number, sequence
 from teleop.motion import Axis, Limits
+from teleop.sources.cues import cue_rules
 from teleop.sources.easing import ease_rules
 from teleop.sources.timelapse_section import is_timelapse, timelapse_rules
 from teleop.sources.times import frames, seconds
 
 AXES = tuple(axis.value for axis in Axis)
 When = Callable[[Any], float]  # a time as written -> seconds, or output frames
+STICKS = tuple(axis for axis in Axis if axis.value.startswith("stick_"))
+DEVICES = {"camera": "camera", "follow": "gimbal", "send": "gimbal"}  # what performs a cue
 
 
 def file_rules(data: Any) -> Iterator[Wrong]:
@@ -39,6 +42,7 @@ def file_rules(data: Any) -> Iterator[Wrong]:
             yield from _hold_rules(index, frame, at, free, when)
         before = (index, at)
         free.update({axis: (index, at + (hold or 0)) for axis in AXES if axis in frame})
+    yield from _stick_rules(data)
     if is_timelapse(data):
         yield from ease_rules(data, 1.0)  # a ramp of 24f takes 24 frames
         yield from timelapse_rules(data)
@@ -46,9 +50,25 @@ def file_rules(data: Any) -> Iterator[Wrong]:
     yield from ease_rules(data, fps)
     if wrong := _time(mapping(data), "preroll", partial(seconds, fps=fps))[1]:
         yield ("preroll",), wrong
+    moved = {axis for frame in sequence(data, "keyframes") for axis in AXES if axis in mapping(frame)}
     for index, cue in enumerate(sequence(data, "cues")):
-        if wrong := _time(mapping(cue), "at", when)[1]:
-            yield ("cues", index, "at"), wrong
+        yield from cue_rules(cue, ("cues", index), moved)
+        for key in ("at", "recenter"):
+            if mapping(cue).get(key) is not None and (wrong := _time(mapping(cue), key, when)[1]):
+                yield ("cues", index, key), wrong
+
+
+def _stick_rules(data: Any) -> Iterator[Wrong]:
+    """A drone is left with its sticks in the middle, and taken over so."""
+    for stick in STICKS:
+        named = [
+            (index, number(mapping(frame)[stick]))
+            for index, frame in enumerate(sequence(data, "keyframes"))
+            if stick in mapping(frame)
+        ]
+        for which, (index, position) in (("first", named[0]), ("last", named[-1])) if named else ():
+            if position:
+                yield ("keyframes", index, stick), f"must be 0 in its {which} key, where the drone is to hover"
 
 
 def _hold_rules(
@@ -76,8 +96,14 @@ def _time(section: Mapping[str, Any], key: str, when: When) -> tuple[float | Non
         return None, str(error)
 
 
-def rig_rules(data: Any, limits: Mapping[Axis, Limits], rig: str) -> Iterator[Wrong]:
-    """Every key is on an axis of the rig and inside its soft limits."""
+def rig_rules(
+    data: Any, limits: Mapping[Axis, Limits], rig: str, devices: Collection[str] | None = None
+) -> Iterator[Wrong]:
+    """Every key is on an axis of the rig and inside its soft limits, and for every cue there is a device."""
+    for index, cue in enumerate(sequence(data, "cues")):
+        for kind, device in DEVICES.items():
+            if devices is not None and kind in mapping(cue) and device not in devices:
+                yield ("cues", index, kind), f"cannot be: {rig} has no {device}; its sinks are {', '.join(devices)}"
     by_name = {axis.value: axis_limits for axis, axis_limits in limits.items()}
     for index, frame in enumerate(sequence(data, "keyframes")):
         for axis in AXES:

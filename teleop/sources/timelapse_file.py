@@ -23,8 +23,10 @@ from teleop.planner.move import Move, Track
 from teleop.planner.polynomial import Array
 from teleop.planner.warp import at_most
 from teleop.shipped import find
-from teleop.sources.sequence_file import Performance, SequenceSection, at_keyframe, axes_of, keys_of
+from teleop.sources.sequence_file import Performance, at_keyframe
+from teleop.sources.sequence_keys import axes_of, keys_of
 from teleop.sources.sequence_rules import file_rules, rig_rules
+from teleop.sources.sequence_section import SequenceSection
 from teleop.sources.slots import Slots
 from teleop.sources.timelapse_budget import Phases, budget
 from teleop.sources.timelapse_section import TimelapseSection, is_timelapse

@@ -104,6 +104,18 @@ def test_a_move_plays_at_another_speed() -> None:
     assert played["axes"]["pan"]["peak"] < 0.15
 
 
+def test_what_a_sequence_tells_the_gimbal_is_told_and_its_answer_said(tmp_path: Path) -> None:
+    (tmp_path / "told.yaml").write_text(
+        "keyframes: [{at: 0, pan: 0}, {at: 2, pan: 5}]\n"
+        "cues:\n  - {at: 0, follow: lock}\n  - {at: 2, send: gimbal stiffness}\n  - {at: 2, camera: focus}\n"
+        "  - {at: 3, send: gimbal version}\n"
+    )
+    done = teleop("play", "told.yaml", "--fast", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    for words in ("gimbal follow lock: done", "gimbal stiffness: done", "gimbal version: "):
+        assert words in done.stderr
+
+
 def test_debug_shows_where_an_error_came_from() -> None:
     assert "Traceback" not in teleop("play", "revel").stderr
     assert "Traceback" in teleop("play", "revel", "--debug").stderr

@@ -35,12 +35,15 @@ def test_recording_survives_a_lost_reply() -> None:
     assert run(far, Action.RECORD) == [CameraCommand.RECORD] * 3
 
 
-@pytest.mark.parametrize(("action", "times"), [(Action.RECORD, 3), (Action.STOP, 3), (Action.SHUTTER, 1)])
+@pytest.mark.parametrize(
+    ("action", "times"),
+    [(Action.RECORD, 3), (Action.STOP, 3), (Action.SHUTTER, 1), (Action.FOCUS, 3), (Action.END_FOCUS, 3)],
+)
 def test_a_camera_that_does_not_answer_is_a_fault_and_the_shutter_is_never_said_twice(
     action: Action, times: int
 ) -> None:
     far = FarEnd()
-    with pytest.raises(DeviceError, match=f"the camera did not answer when asked to {action}"):
+    with pytest.raises(DeviceError, match=f"the camera did not answer when asked to {action}".replace("_", " ")):
         run(far, action)
     assert len([message for message in far.heard if isinstance(message, camera.Command)]) == times
 
@@ -85,6 +88,18 @@ def test_one_that_was_stopped_or_never_recorded_is_left_alone() -> None:
     far.serve(1.01)
     leave(far, sink, 1.02)
     assert len([m for m in far.heard if isinstance(m, camera.Command)]) == 2
+
+
+def test_a_focus_that_is_held_is_let_go_on_leaving() -> None:
+    far = FarEnd()
+    far.replies[camera.Command] = lambda _command: Result(0)
+    sink = CameraSink(far.connection)
+    sink.write(Tick(1.0, {}, {}, (Action.FOCUS, Action.RECORD), {}))
+    far.serve(1.0)
+    leave(far, sink, 1.01)
+    commands = [m.command for m in far.heard if isinstance(m, camera.Command)]
+    assert commands[:2] == [CameraCommand.CENTER_FOCUS, CameraCommand.RECORD]
+    assert sorted(commands[2:]) == [CameraCommand.STOP, CameraCommand.END_CENTER_FOCUS]
 
 
 def test_a_stop_on_leaving_is_said_again_and_then_a_fault() -> None:

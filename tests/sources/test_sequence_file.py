@@ -5,31 +5,14 @@ from pathlib import Path
 import pytest
 
 import teleop
-from teleop.document import DocumentError, UnplayableError
-from teleop.motion import Action, Axis, Limits
+from sequences import load, problems_of
+from teleop.document import UnplayableError
+from teleop.motion import Action, Axis
 from teleop.planner.ramp import Ramp
 from teleop.profile import load_profile
 from teleop.shipped import folder
-from teleop.sources.sequence_file import Cue, Performance, load_performance
-
-LIMITS = {
-    Axis.PAN: Limits(-180, 180, 120, 240, 1200),
-    Axis.TILT: Limits(-56, 146, 90, 180, 900),
-    Axis.FOCUS: Limits(0, 1, 0.5, 2, 10),
-}
-
-
-def load(tmp_path: Path, text: str) -> Performance:
-    file = tmp_path / "shoot.yaml"
-    file.write_text(text)
-    return load_performance(str(file), LIMITS, "the rig")
-
-
-def problems_of(tmp_path: Path, text: str, kind: type[DocumentError] = DocumentError) -> list[str]:
-    with pytest.raises(DocumentError) as caught:
-        load(tmp_path, text)
-    assert type(caught.value) is kind
-    return [problem.removeprefix(f"{tmp_path}/") for problem in caught.value.problems]
+from teleop.sources.cues import Cue
+from teleop.sources.sequence_file import load_performance
 
 
 @pytest.mark.parametrize(
@@ -57,7 +40,7 @@ def problems_of(tmp_path: Path, text: str, kind: type[DocumentError] = DocumentE
         ),
         (
             "keyframes:\n  - {at: 0, pan: 0}\ncues:\n  - {at: 0, camera: rcord}\n",
-            "shoot.yaml:4:21: cues[0].camera must be one of record, stop, shutter, not 'rcord'; did you mean record?",
+            "shoot.yaml:4:21: cues[0].camera must be one of record, stop, shutter, focus, end_focus, not 'rcord'; did",
         ),
         ("keyframes: 3\n", "shoot.yaml:1:12: keyframes must be a list, not 3"),
         ("- 3\n", "shoot.yaml:1:1: must be a mapping, not [3]"),

@@ -1,0 +1,127 @@
+"""What happens once at a time of a sequence, beside the motion: the camera, the gimbal's own commands.
+
+A command is looked up, and its ranges are checked, when the file is read. What the gimbal does by itself would be taken
+back by the stream that moves it, so that is refused with what does it instead: a recentre is planned like any other
+way to a key. What changes how the gimbal behaves is given only where every axis rests, as in `teleop live`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, Literal, NamedTuple
+
+from teleop.dji import camera, focus, gimbal
+from teleop.dji.catalogue import find, is_taken_back
+from teleop.dji.message import FieldError, Message
+from teleop.document import Location, Wrong, mapping
+from teleop.motion import Act, Action, Axis, Told
+from teleop.section import Section
+
+KINDS = ("camera", "follow", "recenter", "send")
+FOLLOW: Mapping[str, str] = {
+    "lock": "gimbal follow lock",
+    "pan": "gimbal follow yaw",
+    "sport": "gimbal follow sport",
+}
+CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)
+"""What a recentre takes to 0, and what moves when the gimbal does something by itself."""
+
+_BY_ITSELF = (gimbal.Calibrate, gimbal.ActiveTrack, gimbal.Orient)
+_CAMERA = {
+    camera.CameraCommand.RECORD: Action.RECORD,
+    camera.CameraCommand.STOP: Action.STOP,
+    camera.CameraCommand.SHUTTER: Action.SHUTTER,
+    camera.CameraCommand.CENTER_FOCUS: Action.FOCUS,
+    camera.CameraCommand.END_CENTER_FOCUS: Action.END_FOCUS,
+}
+
+
+class CueSection(Section):
+    """Something done once, `at` a time of the sequence; one of these.
+
+    `camera`: what the camera is told; a focus on the centre holds until end_focus. `follow`: what the gimbal does
+    when its handle is turned. `recenter`: pan, tilt and roll go to 0 within this time. `send`: a command in the words
+    of `teleop send`.
+    """
+
+    at: Any
+    camera: Literal["record", "stop", "shutter", "focus", "end_focus"] | None = None
+    follow: Literal["lock", "pan", "sport"] | None = None
+    recenter: Any = None
+    send: str | None = None
+
+    @property
+    def kind(self) -> str:
+        """Which of KINDS it is."""
+        return next(kind for kind in KINDS if getattr(self, kind) is not None)
+
+    @property
+    def act(self) -> Act | None:
+        """What is done; None where that is motion."""
+        if self.camera:
+            return Action(self.camera)
+        if self.follow or self.send:
+            return Told(FOLLOW[self.follow] if self.follow else " ".join((self.send or "").split()))
+        return None
+
+    @property
+    def needs_rest(self) -> bool:
+        """Whether it may be only where every axis rests for a while; what the camera is told may be anywhere."""
+        return bool(self.follow) or (self.send is not None and not find(self.send.split()).name.startswith("camera."))
+
+
+class Cue(NamedTuple):
+    """An action `at` so many seconds after the first keyframe's zero."""
+
+    at: float
+    action: Act
+
+    @property
+    def name(self) -> str:
+        """For people, in a word or a few."""
+        match self.action:
+            case Told(words):
+                return words
+            case _:
+                return str(getattr(self.action, "value", self.action))
+
+
+def cue_rules(cue: Any, here: Location, moved: Collection[str]) -> Iterator[Wrong]:
+    """What is wrong with one cue but for its times; `moved` are the axes that the sequence moves."""
+    given = [kind for kind in KINDS if mapping(cue).get(kind) is not None]
+    if isinstance(cue, dict) and len(given) != 1 and cue.keys() <= {"at", *KINDS}:
+        yield here, f"must have one of {', '.join(KINDS)}{', not ' + ' and '.join(given) if given else ''}"
+    words = mapping(cue).get("send")
+    if isinstance(words, str) and (wrong := _unsendable(words, moved)):
+        yield (*here, "send"), wrong
+    if "recenter" in given and not any(axis in moved for axis in CENTRED):
+        yield (*here, "recenter"), "moves pan, tilt and roll, and no keyframe has one of them"
+
+
+def _unsendable(words: str, moved: Collection[str]) -> str:
+    try:
+        message = find(words.split())
+        message.check()
+    except FieldError as error:
+        return f"cannot be sent: {error}"
+    if isinstance(message, camera.Command | camera.ShortCommand) and message.command in _CAMERA:
+        return f"must be written as camera: {_CAMERA[camera.CameraCommand(message.command)].value}"
+    if is_taken_back(message):
+        return f"would be taken back by what is streamed: {_instead(message)}"
+    if isinstance(message, _BY_ITSELF) and any(axis in moved for axis in CENTRED):
+        return "would have the gimbal move by itself, against the keyframes"
+    if isinstance(message, focus.Calibrate) and Axis.FOCUS in moved:
+        return "would have the focus motor move by itself, against the keyframes"
+    return ""
+
+
+def _instead(message: Message) -> str:
+    match message:
+        case gimbal.Mode(action=gimbal.CentreAction.RECENTER):
+            return "write recenter: 3s"
+        case gimbal.Dial():
+            return "a dial is for teleop live"
+        case focus.Set():
+            return "write focus: into a keyframe"
+        case _:
+            return "write pan:, tilt: and roll: into a keyframe"
