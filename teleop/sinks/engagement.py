@@ -1,0 +1,172 @@
+"""Who has the drone: the engagement of an operator, from asking for it to having given it back, as one table.
+
+Nothing flies by accident. A drone is taken only by an operator's own act, once per act, never within two seconds of the
+last time (repeating it locks the drone: osdk-facts.md, Safety) and never again by itself: the table has one row that
+takes, and it begins at IDLE. Every other way ends in LEAVING, in which the sticks are neutral, and from there in one
+giving back, whose effect is looked for. Sticks are in force only while a hand holds them: without one they are neutral
+at once, and the drone is given back after a second.
+
+All of this is pure: time comes in as `now`, what to send goes out as an Order, at the pace that the drone wants.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from enum import Enum, auto
+
+GAP = 2.0  # s between two takings, at least: osdk-facts.md, Safety
+OFF_AFTER = 1.0  # s without a hand on the sticks after which the drone is given back
+CONFIRM = 1.0  # s within which the drone says that it was taken
+LAST_NEUTRALS = 6  # neutral frames before giving back
+LEAVE_WITHIN = 1.0  # s for these, however seldom they may leave
+CHECK = 1.5  # s within which the drone says that it was given back: longer than its own timeout of 1 s
+SLACK = 1e-6  # s
+
+
+class Stage(Enum):
+    IDLE = "idle"  # nothing is sent
+    TAKING = "taking"  # taken, which the drone has not confirmed yet; sticks are in force
+    ENGAGED = "engaged"  # confirmed
+    ADRIFT = "adrift"  # no hand on the sticks: neutral
+    LEAVING = "leaving"  # neutral, then given back
+    CHECKING = "checking"  # given back, which the drone has not confirmed yet; nothing is sent
+
+
+class Event(Enum):
+    ENGAGE = auto()
+    CONFIRMED = auto()
+    HAND_LOST = auto()
+    HAND_BACK = auto()
+    LEAVE = auto()
+    GIVEN_BACK = auto()
+    FREE = auto()  # confirmed, or no longer waited for
+
+
+TRANSITIONS: Mapping[tuple[Stage, Event], Stage] = {
+    (Stage.IDLE, Event.ENGAGE): Stage.TAKING,
+    (Stage.TAKING, Event.CONFIRMED): Stage.ENGAGED,
+    (Stage.TAKING, Event.LEAVE): Stage.LEAVING,
+    (Stage.ENGAGED, Event.HAND_LOST): Stage.ADRIFT,
+    (Stage.ENGAGED, Event.LEAVE): Stage.LEAVING,
+    (Stage.ADRIFT, Event.HAND_BACK): Stage.ENGAGED,
+    (Stage.ADRIFT, Event.LEAVE): Stage.LEAVING,
+    (Stage.LEAVING, Event.GIVEN_BACK): Stage.CHECKING,
+    (Stage.CHECKING, Event.FREE): Stage.IDLE,
+}
+HELD = frozenset({Stage.TAKING, Stage.ENGAGED, Stage.ADRIFT})  # the drone is in our hands
+
+
+class Order(Enum):
+    """What to send now."""
+
+    NOTHING = auto()
+    DRIVE = auto()  # the sticks as they are
+    NEUTRAL = auto()
+    GIVE_BACK = auto()
+
+
+class Engagement:
+    """One operator's hold on one drone, reached at `opened` (s).
+
+    `what` is what is taken ("virtual RC"), `period` is s between two frames, `say` is for what the operator has to
+    know. A run that was killed may have taken the drone just before `opened`, so the first taking waits like any other.
+    """
+
+    def __init__(self, what: str, period: float, opened: float, say: Callable[[str], object]) -> None:
+        self.stage = Stage.IDLE
+        self.failure = ""  # why it was last left without the operator asking for it
+        self._what, self._period, self._say = what, period, say
+        self._taken = opened
+        self._since = opened  # in this stage
+        self._next = -math.inf  # s: when a frame is due
+        self._neutrals = 0
+
+    def refusal(self, now: float) -> str:
+        """Why the drone cannot be taken now, "" if it can."""
+        if self.stage is not Stage.IDLE:
+            return "it is engaged" if self.stage in HELD else "it is still being given back"
+        if (left := self._taken + GAP - now) > SLACK:
+            return f"{self._what} may be taken again in {left:.1f} s: twice within {GAP:g} s would lock the drone"
+        return ""
+
+    def engage(self, now: float) -> None:
+        """Whoever calls this takes the drone, once, now."""
+        assert not self.refusal(now)
+        self._taken, self._next, self.failure = now, now, ""
+        self._happened(Event.ENGAGE, now)
+
+    def leave(self, now: float, why: str, *, asked: bool = False) -> None:
+        """Begin to give the drone back, if it is held; `asked` is whether the operator wants it so."""
+        if self.stage in HELD:
+            self.failure = "" if asked else why
+            self._say(f"{why}: sticks neutral, {self._what} is given back")
+            self._happened(Event.LEAVE, now)
+
+    def advance(self, now: float, hand: bool, held: bool | None) -> Order:
+        """What to send now; to be asked each tick.
+
+        `hand` is whether a live input holds the sticks, `held` whether the drone says that it is ours, None where it
+        says nothing.
+        """
+        match self.stage:
+            case Stage.IDLE:
+                return Order.NOTHING
+            case Stage.CHECKING:
+                self._check(now, held)
+                return Order.NOTHING
+            case Stage.TAKING:
+                self._confirm(now, held)
+            case Stage.ENGAGED | Stage.ADRIFT if held is False:
+                self.leave(now, f"the drone has ended {self._what}: its pilot took it back, or it heard nothing")
+        self._mind_the_hand(now, hand)
+        return self._frame(now)
+
+    def _confirm(self, now: float, held: bool | None) -> None:
+        late = now - self._since > CONFIRM
+        if held or (late and held is None):
+            self._happened(Event.CONFIRMED, now)
+            self._say(f"engaged: the drone confirms {self._what}" if held else self._unconfirmed)
+        elif late:
+            self.leave(now, f"the drone does not confirm {self._what}")
+
+    @property
+    def _unconfirmed(self) -> str:
+        return f"engaged, but the drone does not say whether {self._what} is on: it sends no control field"
+
+    def _mind_the_hand(self, now: float, hand: bool) -> None:
+        if self.stage is Stage.TAKING and not hand:
+            self.leave(now, "no hand is on the sticks")
+        elif self.stage is Stage.ENGAGED and not hand:
+            self._happened(Event.HAND_LOST, now)
+            self._say(f"no hand is on the sticks: neutral, and in {OFF_AFTER:g} s {self._what} is given back")
+        elif self.stage is Stage.ADRIFT and hand:
+            self._happened(Event.HAND_BACK, now)
+            self._say("a hand is on the sticks again")
+        elif self.stage is Stage.ADRIFT and now - self._since >= OFF_AFTER - SLACK:
+            self.leave(now, f"no hand on the sticks for {OFF_AFTER:g} s")
+
+    def _frame(self, now: float) -> Order:
+        if now < self._next - SLACK:
+            return Order.NOTHING
+        self._next = now + self._period
+        if self.stage is Stage.LEAVING:
+            if self._neutrals >= LAST_NEUTRALS or now - self._since > LEAVE_WITHIN:
+                self._happened(Event.GIVEN_BACK, now)
+                return Order.GIVE_BACK
+            self._neutrals += 1
+        return Order.DRIVE if self.stage in (Stage.TAKING, Stage.ENGAGED) else Order.NEUTRAL
+
+    def _check(self, now: float, held: bool | None) -> None:
+        if held is False:
+            self._say(f"{self._what} is given back: the drone confirms")
+        elif now - self._since <= CHECK:
+            return
+        else:
+            said = "says that it still has it" if held else "says nothing"
+            self._say(f"{self._what} was given back, but the drone {said}: take it over with its RC")
+            self.failure = self.failure or f"the drone did not confirm that {self._what} was given back"
+        self._happened(Event.FREE, now)
+
+    def _happened(self, event: Event, now: float) -> None:
+        self.stage, self._since, self._neutrals = TRANSITIONS[self.stage, event], now, 0
