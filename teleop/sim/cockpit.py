@@ -40,6 +40,7 @@ class Cockpit:
         self._back_to_rc = True
         self._enabled = self._stick_heard = self._move_heard = -math.inf
         self._in_corners = math.inf  # since when the sticks of whoever flies are
+        self._gesture_made = False  # and have not left them since
         self._battery = battery
         self._plan: list[tuple[float, Callable[[], object]]] = []  # what it does by itself, and when
         self._auto: Status | None = None
@@ -214,9 +215,9 @@ class Cockpit:
 
     def _obey(self, controls: Controls) -> None:
         if controls.in_corners:
-            self._in_corners = min(self._in_corners, self.time)
+            self._in_corners = math.inf if self._gesture_made else min(self._in_corners, self.time)
             return
-        self._in_corners = math.inf
+        self._in_corners, self._gesture_made = math.inf, False
         if self._auto is not None and not (controls.roll or controls.pitch or controls.throttle or controls.yaw):
             return  # nobody interferes with what it does by itself
         self._by_itself(None)
@@ -230,7 +231,7 @@ class Cockpit:
 
     def _gesture(self) -> None:
         """The sticks have been in the corners for long enough: on the ground the motors start or stop."""
-        self._in_corners = math.inf
+        self._in_corners, self._gesture_made = math.inf, True
         if self.flight.motors:
             self.flight.stop_motors()
         else:
