@@ -19,8 +19,9 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
+from teleop.cli.drone_options import KeyFile, Model, cipher_of
 from teleop.dji.frame import FrameReader
-from teleop.dji.record import Transcriber
+from teleop.dji.record import MakeCipher, Transcriber
 from teleop.dji.registry import Registry
 from teleop.ports import UsageError
 
@@ -53,9 +54,25 @@ def r_sdk(
         print(line, flush=True)
 
 
-def decode_hex(lines: Iterable[str], registry: Registry) -> Iterator[str]:
+@app.command
+def onboard(
+    *text: Annotated[str, Parameter(help="Hexadecimal; without any, standard input.")],
+    model: Model = "m100",
+    key_file: KeyFile = None,
+) -> None:
+    """Decode frames of the drone's Onboard SDK.
+
+    What an acknowledgement says is known only together with its command: paste both. Encrypted frames need the key.
+    """
+    from teleop.dji.onboard import MODELS
+
+    for line in decode_hex(text or standard_input(), MODELS[model], cipher_of(key_file)):
+        print(line, flush=True)
+
+
+def decode_hex(lines: Iterable[str], registry: Registry, cipher: MakeCipher | None = None) -> Iterator[str]:
     """A JSON line for each frame and each run of damage in the bytes that `lines` hold, as soon as it is known."""
-    reader, transcriber = FrameReader(), Transcriber(registry)
+    reader, transcriber = FrameReader(), Transcriber(registry, cipher)
     for line in lines:
         try:
             data = bytes.fromhex(HEX_NOISE.sub("", line))

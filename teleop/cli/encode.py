@@ -13,8 +13,9 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
+from teleop.cli.drone_options import KeyFile, Model, cipher_of
 from teleop.dji.frame import pieces
-from teleop.dji.record import RecordError, restore
+from teleop.dji.record import MakeCipher, RecordError, restore
 from teleop.dji.registry import Registry
 from teleop.ports import TeleopError
 
@@ -33,7 +34,22 @@ def r_sdk(
         print(line, flush=True)
 
 
-def encode_lines(lines: Iterable[str], registry: Registry, can: bool = False) -> Iterator[str]:
+@app.command
+def onboard(
+    *text: Annotated[str, Parameter(help="JSON lines; without any, standard input.")],
+    model: Model = "m100",
+    key_file: KeyFile = None,
+) -> None:
+    """Encode frames of the drone's Onboard SDK."""
+    from teleop.dji.onboard import MODELS
+
+    for line in encode_lines(text or sys.stdin, MODELS[model], cipher=cipher_of(key_file)):
+        print(line, flush=True)
+
+
+def encode_lines(
+    lines: Iterable[str], registry: Registry, can: bool = False, cipher: MakeCipher | None = None
+) -> Iterator[str]:
     """The bytes of each JSON line in hexadecimal; with `can`, a line for each piece.
 
     Raises RecordError naming the line that cannot be encoded.
@@ -42,7 +58,7 @@ def encode_lines(lines: Iterable[str], registry: Registry, can: bool = False) ->
         if not line.strip():
             continue
         try:
-            data = restore(registry, json.loads(line))
+            data = restore(registry, json.loads(line), cipher)
         except json.JSONDecodeError as error:
             raise RecordError(f"line {number}: not JSON: {error.msg} at column {error.colno}") from None
         except TeleopError as error:

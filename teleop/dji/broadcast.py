@@ -1,8 +1,8 @@
 """Push 02 00, what the drone says of itself: a u16 of flags, and the parts that they name, packed in the flags' order.
 
 The M100 and the A3 (and M600) put different parts under the same flags, and a frame does not say whose it is; so there
-is a class for each, and whoever decodes has to know. A part that was not sent is None. Flags that a layout does not
-know are kept as `reserved` and what they stand for as `extra`: their parts come last, so those before them are right.
+is a class for each, and whoever decodes has to know. A part that was not sent is None. A flag that a layout does not
+have means that the frame is of another, and so that no part of it is what it seems: it is Opaque.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from teleop.dji.telemetry import (
     Time,
     Velocity,
 )
-from teleop.dji.wire import U8, U16, Number
+from teleop.dji.wire import U8, Number
 
 _FLAGS: Final = struct.Struct("<H")
 
@@ -36,7 +36,7 @@ flight_status = Annotated[int, U8(words=FlightStatus)]
 percent = Annotated[int, U8(unit="%", low=0, high=100)]
 
 
-class _Single:
+class Single:
     """A part that is one byte, with what a part that is a message class offers."""
 
     size = 1
@@ -66,7 +66,7 @@ class _Single:
             raise FieldError(f"drone.broadcast: {self.name} must be {self.wire.requirement()}, not {value!r}") from None
 
 
-class _Several:
+class Several:
     """A part that is a message class."""
 
     def __init__(self, name: str, cls: type[Message]) -> None:
@@ -92,15 +92,15 @@ class _Several:
         return self.cls.from_fields(value)
 
 
-def _parts(cls: type[Broadcast]) -> dict[str, _Single | _Several]:
+def _parts(cls: type[Broadcast]) -> dict[str, Single | Several]:
     """What each field that a flag can name is, by its annotation."""
-    parts: dict[str, _Single | _Several] = {}
+    parts: dict[str, Single | Several] = {}
     for name, hint in get_type_hints(cls, include_extras=True).items():
         kind = next(iter(get_args(hint)), None)
         if wires := getattr(kind, "__metadata__", ()):
-            parts[name] = _Single(name, wires[0])
+            parts[name] = Single(name, wires[0])
         elif isinstance(kind, type) and issubclass(kind, Message):
-            parts[name] = _Several(name, kind)
+            parts[name] = Several(name, kind)
     return parts
 
 
@@ -127,48 +127,38 @@ class Broadcast(Message):
     status: flight_status | None = None
     battery: percent | None = None
     control: ControlSource | None = None
-    reserved: int = 0
 
     @property
     def flags(self) -> int:
-        """The u16 that names the parts, without `reserved`."""
+        """The u16 that names the parts."""
         return sum(1 << bit for bit, name in enumerate(self.order) if getattr(self, name) is not None)
 
     def encode(self) -> bytes:
-        known = (1 << len(self.order)) - 1
         if strange := [name for name in PARTS if name not in self.order and getattr(self, name) is not None]:
             raise FieldError(f"{self.name}: there is no {', '.join(strange)} in this drone's layout")
-        if not isinstance(self.reserved, int) or self.reserved & (known | ~0xFFFF):
-            raise FieldError(f"{self.name}: reserved must leave the other parts' flags alone")
-        head = _FLAGS.pack(self.flags | self.reserved)
-        return head + b"".join(part.encode(value) for part, value in self._present()) + self.extra
+        return _FLAGS.pack(self.flags) + b"".join(part.encode(value) for part, value in self._present()) + self.extra
 
     @classmethod
     def decode(cls, value: bytes) -> Self | Opaque:
         if len(value) < _FLAGS.size:
             return Opaque(cls.set_and_id, value)
         (flags,) = _FLAGS.unpack_from(value)
-        at, values = _FLAGS.size, dict.fromkeys(PARTS)
-        for bit, name in enumerate(cls.order):
-            if flags >> bit & 1:
-                part = PARTS[name]
-                if len(value) < at + part.size:
-                    return Opaque(cls.set_and_id, value)
-                values[name] = part.decode(value[at : at + part.size])
-                at += part.size
-        return cls(**values, reserved=flags >> len(cls.order) << len(cls.order), extra=value[at:])
+        parts = [PARTS[name] for bit, name in enumerate(cls.order) if flags >> bit & 1]
+        if flags >> len(cls.order) or len(value) < _FLAGS.size + sum(part.size for part in parts):
+            return Opaque(cls.set_and_id, value)
+        at, values = _FLAGS.size, {}
+        for part in parts:
+            values[part.name] = part.decode(value[at : at + part.size])
+            at += part.size
+        return cls(**values, extra=value[at:])
 
     def check(self) -> None:
         for part, value in self._present():
             part.check(value)
-        if self.reserved:
-            raise FieldError(f"{self.name}: reserved must be 0, not {self.reserved}")
 
     def fields(self) -> dict[str, Any]:
         """The parts that were sent, by name: an object each, but for `status` and `battery`."""
         values: dict[str, Any] = {part.name: part.to_json(value) for part, value in self._present()}
-        if self.reserved:
-            values["reserved"] = self.reserved
         if self.extra:
             values["extra"] = self.extra.hex()
         return values
@@ -179,15 +169,13 @@ class Broadcast(Message):
         for name, value in fields.items():
             if name == "extra":
                 values[name] = bytes_from_json(cls.name, name, value)
-            elif name == "reserved":
-                values[name] = _Single(name, U16()).from_json(value)
             elif name in cls.order:
                 values[name] = PARTS[name].from_json(value)
             else:
                 raise FieldError(f"{cls.name}: no field {name!r}{suggestion(name, cls.order)}")
         return cls(**values)
 
-    def _present(self) -> Iterator[tuple[_Single | _Several, Any]]:
+    def _present(self) -> Iterator[tuple[Single | Several, Any]]:
         for name in self.order:
             value = getattr(self, name)
             if value is not None:

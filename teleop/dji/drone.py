@@ -20,6 +20,7 @@ from teleop.dji.drone_words import (
     ControlOrder,
     Event,
     Rate,
+    ShortArmCode,
     TaskKind,
 )
 from teleop.dji.message import STREAM, Message, message
@@ -171,7 +172,7 @@ class ArmAck(Message):
 class ShortArmAck(Message):
     """ArmAck in a single byte."""
 
-    code: Annotated[int, U8(words=ArmCode)]
+    code: Annotated[int, U8(words=ShortArmCode)]
 
 
 @message("drone.gimbal_speed", CONTROL, 0x1A, cmd_type=STREAM)

@@ -60,6 +60,15 @@ class ArmCode(IntEnum):
     NO_RIGHTS = 0xFF02
 
 
+class ShortArmCode(IntEnum):
+    """ArmCode where there is a byte for it."""
+
+    OK = 0
+    NEED_CONTROL = 1
+    ALREADY = 2
+    IN_THE_AIR = 3
+
+
 class Rate(IntEnum):
     """How often a part of the broadcast comes; HOLD leaves it as it is (00 10)."""
 

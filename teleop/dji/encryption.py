@@ -47,7 +47,7 @@ class Cipher:
 
         Raises CipherError for a `filling` that does not make whole blocks; without one it is zeros.
         """
-        if not data:
+        if not data and not filling:
             return b"", 0
         if filling is None:
             filling = bytes(BLOCK - len(data) % BLOCK)

@@ -22,7 +22,7 @@ _QUIET: Final = {"I": 0x7FC00000, "Q": 0x7FF8000000000000}  # the NaN that every
 
 
 class Nan(float):
-    """A NaN that remembers its bits."""
+    """A NaN that remembers its bits, and is equal to another with the same: so messages can be compared."""
 
     bits: int
 
@@ -30,6 +30,12 @@ class Nan(float):
         made = super().__new__(cls, nan)
         made.bits = bits
         return made
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Nan) and other.bits == self.bits
+
+    def __hash__(self) -> int:
+        return hash(self.bits)
 
 
 @dataclass(frozen=True, slots=True)

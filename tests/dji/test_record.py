@@ -10,7 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from teleop.dji import drone
+from teleop.dji.drone_words import ControlOrder
+from teleop.dji.encryption import Cipher, CipherError
 from teleop.dji.frame import Damage, Frame
+from teleop.dji.onboard import M100
 from teleop.dji.r_sdk import R_SDK
 from teleop.dji.record import RecordError, Transcriber, restore
 from teleop.ports import TeleopError
@@ -33,7 +37,7 @@ WRITTEN = {
     },
 }
 
-prefixes = st.sampled_from([cls.set_and_id for cls in R_SDK.messages]) | st.binary(max_size=2)
+prefixes = st.sampled_from([cls.set_and_id for cls in (*R_SDK.messages, *M100.messages)]) | st.binary(max_size=2)
 frames = st.builds(
     Frame,
     data=st.builds(bytes.__add__, prefixes, st.binary(max_size=40)),
@@ -81,6 +85,84 @@ def test_replies_of_old_firmware_are_named_by_the_request_before_them() -> None:
     assert record["fields"] == {"return_code": "ok", "kind": "attitude", "yaw": 1.0, "roll": 2.0, "pitch": 3.0}
     assert restore(R_SDK, record) == reply.encode()
     assert Transcriber(R_SDK).record(reply)["message"] == "raw"
+
+
+KEY = Cipher(bytes(range(32)))
+
+
+def key() -> Cipher:
+    return KEY
+
+
+def asked(session: int, sequence: int) -> Frame:
+    return Frame(drone.Control(ControlOrder.OBTAIN).data(), session, sequence)
+
+
+def acknowledged(session: int, sequence: int) -> Frame:
+    return Frame(b"\2\0", 0x20 | session, sequence)
+
+
+@given(st.lists(frames, max_size=12), st.booleans())
+def test_restoring_the_drones_frames_gives_the_same_bytes(bus: list[Frame], with_key: bool) -> None:
+    cipher = key if with_key else None
+    transcriber = Transcriber(M100, cipher)
+    for frame in bus:
+        record = json.loads(json.dumps(transcriber.record(frame), allow_nan=False))
+        assert restore(M100, record, cipher) == frame.encode()
+
+
+def test_an_acknowledgement_is_named_by_its_command_in_the_same_session_with_the_same_number() -> None:
+    transcriber = Transcriber(M100)
+    for frame in (asked(2, 5), asked(1, 7), asked(0, 9)):
+        transcriber.record(frame)
+    named = [
+        transcriber.record(acknowledged(session, sequence))
+        for session, sequence in ((2, 5), (1, 7), (2, 7), (3, 5), (0, 9))
+    ]
+    assert [record["message"] for record in named] == ["drone.control", "drone.control", "raw", "raw", "raw"]
+    assert named[0] == {
+        "message": "drone.control",
+        "reply": True,
+        "cmd_type": 0x22,
+        "sequence": 5,
+        "fields": {"code": "obtained"},
+    }
+    assert named[2]["fields"] == {"value": "0200"}
+    assert restore(M100, named[0]) == acknowledged(2, 5).encode()
+
+
+def test_what_was_encrypted_is_decoded_with_the_key_and_encrypted_again() -> None:
+    data, encryption = KEY.encrypt(asked(2, 5).data, b"any 13 bytes.")
+    frame = Frame(data, 2, 5, encryption)
+    transcriber = Transcriber(M100, key)
+    record = transcriber.record(frame)
+    assert record == {
+        "message": "drone.control",
+        "reply": False,
+        "cmd_type": 2,
+        "sequence": 5,
+        "encryption": 0x2D,
+        "filling": b"any 13 bytes.".hex(),
+        "fields": {"order": "obtain"},
+    }
+    assert transcriber.record(acknowledged(2, 5))["message"] == "drone.control"
+    assert restore(M100, record, key) == frame.encode()
+    with pytest.raises(RecordError, match="'filling' says that it was encrypted: give the key"):
+        restore(M100, record)
+    with pytest.raises(RecordError, match="'encryption' is 64, and 45 with this 'filling'"):
+        restore(M100, record | {"encryption": 64}, key)
+    with pytest.raises(CipherError, match="1 bytes do not fill 3 up to blocks of 16"):
+        restore(M100, record | {"filling": "00"}, key)
+
+
+def test_the_key_is_not_asked_for_until_something_is_encrypted() -> None:
+    def missing() -> Cipher:
+        raise CipherError("no library")
+
+    transcriber = Transcriber(M100, missing)
+    assert transcriber.record(asked(2, 5))["message"] == "drone.control"
+    with pytest.raises(CipherError):
+        transcriber.record(Frame(bytes(16), 0, 0, 0x2D))
 
 
 def test_damage_keeps_its_bytes() -> None:
