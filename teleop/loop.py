@@ -19,7 +19,7 @@ from typing import Any, Protocol
 
 from teleop.motion import Act, Axis, Demand, Halt, Limits, Motion, Reading, State, Tick, Wish
 from teleop.planner.stop import stop_phases, stop_state
-from teleop.ports import Clock, DeviceError, Reporter, Sink, Source, TeleopError
+from teleop.ports import Clock, DeviceError, Interrupted, Reporter, Sink, Source, TeleopError
 from teleop.supervisor import Event, Run, Supervisor
 from teleop.whereabouts import Whereabouts
 
@@ -250,7 +250,7 @@ class Loop:
         except Exception:  # noqa: BLE001 - an error that cannot say what it is still ends the run
             reason = type(fault).__name__
         log.debug("fault: %s", reason, exc_info=fault)
-        self.supervisor.happened(Event.FAULT, reason)
+        self.supervisor.happened(Event.INTERRUPT if isinstance(fault, Interrupted) else Event.FAULT, reason)
 
 
 def _finite(motion: Mapping[Axis, State]) -> Motion:

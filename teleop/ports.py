@@ -27,6 +27,10 @@ class DeviceError(TeleopError):
     """The device answers, and what it says is that it cannot do this."""
 
 
+class Interrupted(TeleopError):  # noqa: N818 - the user's word for it, as in Ctrl-C
+    """The operator wants the run to end: it stops as smoothly as for a fault, and nothing has failed."""
+
+
 class Source(Protocol):
     """Says what the axes should do. Times are the loop's clock, in seconds."""
 

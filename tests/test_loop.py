@@ -11,7 +11,7 @@ from teleop.clock import VirtualClock
 from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, RELEASE_LONGEST, RELEASE_PATIENCE, STALL, Loop
 from teleop.motion import Action, Axis, Cruise, Halt, Limits, Reading, State
 from teleop.planner.live import Live
-from teleop.ports import Clock, LinkError
+from teleop.ports import Clock, Interrupted, LinkError
 from teleop.supervisor import Result, Run
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-56, 146, 60, 120, 600)}
@@ -150,6 +150,15 @@ def test_an_interrupt_ramps_to_rest_however_often_it_comes() -> None:
     ended = loop.run()
     assert (ended.result, ended.reasons) == (Result.INTERRUPTED, ["SIGINT received"])
     assert clock.now() < 3
+    assert_smooth_to_rest(sink)
+
+
+def test_an_operator_who_has_had_enough_ends_it_as_an_interrupt() -> None:
+    clock, sink = VirtualClock(), RecordingSink()
+    watcher = RecordingSink()
+    watcher.write = failing(1.0, clock, watcher.write, Interrupted("stopped by keys"))
+    ended = loop_of([cruising(Axis.PAN, 30, 60)], [sink, watcher], clock=clock).run()
+    assert (ended.result, ended.reasons) == (Result.INTERRUPTED, ["stopped by keys"])
     assert_smooth_to_rest(sink)
 
 

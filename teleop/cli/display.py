@@ -28,7 +28,8 @@ _REDRAWS = 10  # a second
 class Display:
     """A sink that only shows. `begin` is when the run's own time is zero, `duration` its length in s, inf for none.
 
-    `elapsed` is the run's own time at a time of the loop's, where it may go faster or slower; `note` is a line below.
+    `elapsed` is the run's own time at a time of the loop's, where it may go faster or slower, and `said` is what it is
+    doing then, in place of that time; `note` is a line below.
     """
 
     def __init__(
@@ -39,8 +40,10 @@ class Display:
         silent: bool = False,
         elapsed: Callable[[float], float] | None = None,
         note: Callable[[], str] | None = None,
+        said: Callable[[float], str] | None = None,
     ) -> None:
         self._title, self._duration, self._silent, self._note = title, duration, silent, note
+        self._doing = said
         self._elapsed = lambda now: elapsed(now) if elapsed and now >= begin() else now - begin()
         self._latest: Tick | None = None
         self._said = -math.inf
@@ -74,6 +77,8 @@ class Display:
         return None
 
     def _time(self, tick: Tick) -> str:
+        if self._doing:
+            return self._doing(tick.time)
         elapsed = self._elapsed(tick.time)
         if elapsed < 0:
             return f"to the start {-elapsed:4.1f} s"

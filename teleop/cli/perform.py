@@ -6,10 +6,10 @@ import gc
 import json
 import signal
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from types import FrameType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from teleop.cli.display import Display, error_table
 from teleop.motion import Axis
@@ -30,6 +30,16 @@ STOPPING = ("SIGINT", "SIGTERM")
 LEAVING = ("SIGHUP", "SIGQUIT")  # these stop it too, unless whoever started it had them ignored: nohup
 
 
+class Extra(Protocol):
+    """What a command has to say at the end of a run, beside how well the rig followed."""
+
+    def facts(self) -> Iterable[tuple[str, object]]:
+        """For the JSON report: names and values."""
+        ...
+
+    def print(self) -> None: ...
+
+
 def perform(
     rig: Rig,
     axes: Sequence[Axis],
@@ -39,8 +49,9 @@ def perform(
     as_json: bool,
     take: Recorder | None = None,
     watchers: Sequence[Sink] = (),
+    extras: Sequence[Extra] = (),
 ) -> int:
-    """Run the sources on the rig, show it, record it if asked to, print the report; the exit code."""
+    """Run the sources on the rig, show it, record it if asked to, print the report and `extras`; the exit code."""
     loop = rig.loop(axes, sources, [tally, *watchers, *([] if take is None else [take]), display])
     sys.setswitchinterval(SWITCH_INTERVAL)
     gc.collect()
@@ -52,13 +63,15 @@ def perform(
         links = {name: dict(connection.counts) for name, connection in rig.connections.items()}
         take.finish(ended.result, ended.reasons, links)
     if as_json:
-        report = _report(ended, tally, rig)
+        report = {**_report(ended, tally, rig), **{name: value for extra in extras for name, value in extra.facts()}}
         print(json.dumps(report if take is None else {**report, "take": take.facts}))
     else:
         for reason in ended.reasons:
             print(f"teleop: stopped: {reason}", file=sys.stderr)
         if tally.scores:
             error_table(tally)
+        for extra in extras:
+            extra.print()
         for name, connection in rig.connections.items():
             if troubles := _troubles(connection.counts):
                 print(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")

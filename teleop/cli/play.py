@@ -12,15 +12,19 @@ from cyclopts import Parameter
 
 from teleop.cli.display import Display
 from teleop.cli.options import DEFAULTS, Options, is_take, warn
-from teleop.cli.perform import commands, perform
+from teleop.cli.passes import PassesReport
+from teleop.cli.perform import Extra, commands, perform
+from teleop.cli.staging_options import NO_STAGING, StagingOptions
 from teleop.clock import SystemClock, VirtualClock
 from teleop.document import DocumentError
 from teleop.links import parse
 from teleop.planner.findings import PlanError
-from teleop.ports import UsageError
+from teleop.planner.warp import NoRunUp
+from teleop.ports import Sink, UsageError
 from teleop.profile import Profile
 from teleop.rig import open_rig
 from teleop.sinks.recorder import recording
+from teleop.sinks.repeatability import Repeatability
 from teleop.sinks.tally import Tally
 from teleop.sources.conductor import Conductor, PlayKeys
 from teleop.sources.keyboard import Keyboard, terminal
@@ -40,6 +44,7 @@ def play(
     speed: Annotated[
         str, Parameter(help="How fast, as a percentage: up to 200, as far as `check` says the move allows.")
     ] = "100%",
+    staging: StagingOptions = NO_STAGING,
     rehearse: Annotated[
         bool, Parameter(help="A timelapse's move at its clip's speed, no shutter.", negative=(), show_default=False)
     ] = False,
@@ -60,8 +65,11 @@ def play(
         profile = followable(profile)
     clock = the_clock(fast, profile)
     rate = _rate(speed)
+    stage = staging.staging(performance)
     try:
-        source = SequenceSource(performance, profile.limits, speed=rate)
+        source = SequenceSource(performance, profile.limits, rate, staging=stage)
+    except NoRunUp as error:
+        raise DocumentError([f"--start-at {staging.start_at}: {error}"]) from None
     except PlanError as error:
         raise DocumentError([f"--speed {speed}: {error}"]) from None
     descriptor = None if fast else terminal()
@@ -74,15 +82,24 @@ def play(
         options.json,
         source.playback.time,
         conductor and (lambda: conductor.note),
+        source.said,
     )
     with ExitStack() as stack:
         recorder = stack.enter_context(recording(take, profile.name, title, limits, patient=fast))
         rig = stack.enter_context(open_rig(profile, clock))
         said: list[str] = []
         stack.callback(lambda: print(*said, sep="\n", end="\n" if said else "", file=sys.stderr))
-        watchers = [*commands(rig, said.append), *([] if keys is None else [stack.enter_context(keys)])]
+        watchers: list[Sink] = [*commands(rig, said.append)]
+        if keys is not None and conductor is not None:
+            watchers += [stack.enter_context(keys), conductor]
         tally = Tally(lambda: source.begin)
-        return perform(rig, list(limits), [conductor or source], tally, display, options.json, recorder, watchers)
+        extras: list[Extra] = []
+        if stage.compared:
+            repeatability = Repeatability(source.place)
+            watchers.append(repeatability)
+            extras.append(PassesReport(repeatability))
+        axes, sources = list(limits), [conductor or source]
+        return perform(rig, axes, sources, tally, display, options.json, recorder, watchers, extras)
 
 
 def _rate(speed: str) -> float:

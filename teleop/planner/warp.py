@@ -1,4 +1,4 @@
-"""Speed override, pause, resume and stepping back: the move's own path, at another pace.
+"""Speed override, pause, resume, stepping back and starting in mid move: the move's own path, at another pace.
 
 The move is read at its own time s instead of the clock's, so it never leaves its path; v = p' s',
 a = p'' s'^2 + p' s'', j = p''' s'^3 + 3 p'' s' s'' + p' s'''. A steady rate is legal up to what the move's peaks
@@ -9,6 +9,7 @@ search takes milliseconds, so it happens outside the tick: ask for a moment a li
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
@@ -20,9 +21,14 @@ from teleop.planner.move import Move
 
 HEADROOM = 0.97  # of V, A and J: what checking at instants can miss, and every sample must still be a single step
 SHORTEST = 0.25  # s, of a change of rate
+RUN_UP = 1.0  # s, the shortest: nobody waits for it as for a pause
 LONGER = 1.25  # factor from one trial to the next
 TRIALS = 40  # the last is half an hour long
 SAMPLES = 2000  # instants at which a change is checked
+
+
+class NoRunUp(PlanError):  # noqa: N818 - what there is not
+    """A move cannot be joined at that time."""
 
 
 @dataclass(frozen=True)
@@ -118,6 +124,25 @@ def go_to(move: Move, limits: Mapping[Axis, Limits], pace: Pace, time: float, no
 
     shortest = 15 / 8 * abs(distance) / max(at_most(move, limits), 1.0)
     return _first_legal(move, limits, attempt, max(SHORTEST, shortest / LONGER))
+
+
+def run_up(move: Move, limits: Mapping[Axis, Limits], time: float, rate: float) -> Pace:
+    """From rest on the move's path, beginning at 0 s, to `rate` just where the move's `time` is: to start in mid move.
+
+    It lasts whole hundredths of a second, so that on the loop's grid `time` is met by a tick. Raises NoRunUp.
+    """
+    if all(state[1:] == (0.0, 0.0) for state in move.at(time).values()):
+        return steady(time, rate, 0.0)
+
+    def attempt(duration: float) -> Pace:
+        duration = math.ceil(duration * 100 - 1e-6) / 100
+        begin = time - rate * duration / 2
+        return Pace(0.0, duration, (begin, 0.0, 0.0, rate / duration**2, -rate / (2 * duration**3)), rate)
+
+    try:
+        return _first_legal(move, limits, attempt, RUN_UP)
+    except PlanError:
+        raise NoRunUp(f"no run-up, however long, keeps the limits where the move is at {time:g} s") from None
 
 
 def _first_legal(

@@ -1,7 +1,8 @@
-"""A sequence with a hand on it: pause, resume, faster, slower, from key to key, while it plays.
+"""A sequence with a hand on it: pause, resume, faster, slower, from key to key, go, and stop, while it plays.
 
-The keys only ask; what becomes of it, and when, is the playback's. Leaving is not among them: Ctrl-C stops a sequence
-as it stops everything.
+The keys only ask; what becomes of it, and when, is the playback's. A stop ends the run, as fast as the axes may: off
+the path there is nothing to go on with. The conductor also looks on as a sink, because only what is raised there ends
+a run without losing a tick.
 """
 
 from __future__ import annotations
@@ -9,15 +10,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from teleop.motion import Act, Demand, Motion
+from teleop.motion import Act, Demand, Halt, Motion, Tick
+from teleop.ports import Interrupted
 from teleop.sources.inputs import Command, Input, Press
-from teleop.sources.sequence import SequenceSource
+from teleop.sources.sequence import Phase, SequenceSource
 
 PACE = 0.1  # of the written speed, by which a key changes it
 LOOK = 0.05  # s between two looks at the keys while nothing moves
-PAUSE, SLOWER, FASTER = Press(Command.STOP), Press(Command.SLOWER), Press(Command.FASTER)
-NEXT, PREVIOUS = Press(Command.RECALL, 1), Press(Command.RECALL, -1)  # the keyframes are the presets of a sequence
-HELP = "space pause  - + speed  < > key  Ctrl-C stop"
+HELP = "space pause  - + speed  < > key  q stop"
+ARMED_HELP = "enter starts it now  q stop"
 
 
 class Conductor:
@@ -25,18 +26,21 @@ class Conductor:
 
     def __init__(self, sequence: SequenceSource, keys: Input) -> None:
         self._sequence, self._keys = sequence, keys
-        self._note = ""
-        self._asked: Mapping[Press, Callable[[float], None]] = {
-            PAUSE: self._pause,
-            SLOWER: lambda now: self._change_speed(-PACE, now),
-            FASTER: lambda now: self._change_speed(PACE, now),
-            NEXT: lambda now: sequence.playback.step(1, now),
-            PREVIOUS: lambda now: sequence.playback.step(-1, now),
+        self._note = self._stopped = ""
+        playback = sequence.playback
+        self._asked: Mapping[Command, Callable[[float], None]] = {
+            Command.PAUSE: self._pause,
+            Command.SLOWER: lambda now: self._change_speed(-PACE, now),
+            Command.FASTER: lambda now: self._change_speed(PACE, now),
+            Command.NEXT: lambda now: playback.step(1, now),
+            Command.PREVIOUS: lambda now: playback.step(-1, now),
         }
 
     @property
     def note(self) -> str:
         """What the operator is to know now, in a line."""
+        if self._sequence.phase is Phase.ARMED:
+            return ARMED_HELP
         playback = self._sequence.playback
         pace = "paused" if playback.paused else f"{playback.chosen:.0%}"
         return playback.refusal or self._note or f"{pace}  {HELP}"
@@ -46,14 +50,32 @@ class Conductor:
 
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         for press in self._keys.read(now).presses:
-            self._note = "" if now >= self._sequence.begin else "the move has not begun"
-            if not self._note:
-                self._asked[press](now)
-        return self._sequence.read(now)
+            self._obey(press, now)
+        demand, acts = self._sequence.read(now)
+        return (dict.fromkeys(demand, Halt()), ()) if self._stopped else (demand, acts)
 
     def next_change(self, now: float) -> float:
         change = self._sequence.next_change(now)
         return change if math.isinf(change) else min(change, now + LOOK)
+
+    def write(self, tick: Tick) -> None:  # noqa: ARG002 - only whether the run is to end
+        """Raises Interrupted once it has been stopped."""
+        if self._stopped:
+            raise Interrupted(self._stopped)
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
+        return None
+
+    def _obey(self, press: Press, now: float) -> None:
+        self._note = ""
+        if press.command is Command.QUIT:
+            self._stopped = f"stopped by {self._keys.name}"
+        elif press.command is Command.GO:
+            self._sequence.go()
+        elif self._sequence.phase is not Phase.PLAYING:
+            self._note = "the move has not begun"
+        elif press.command in self._asked:
+            self._asked[press.command](now)
 
     def _pause(self, now: float) -> None:
         playback = self._sequence.playback
@@ -95,15 +117,13 @@ class PlayKeys:
 
 
 KEYS: Mapping[str, Press] = {
-    " ": PAUSE,
-    "p": PAUSE,
-    "-": SLOWER,
-    "+": FASTER,
-    "=": FASTER,
-    ">": NEXT,
-    "<": PREVIOUS,
-    "\x1b[C": NEXT,
-    "\x1b[D": PREVIOUS,
-    "\x1bOC": NEXT,
-    "\x1bOD": PREVIOUS,
+    " ": Press(Command.PAUSE),
+    "p": Press(Command.PAUSE),
+    "-": Press(Command.SLOWER),
+    "+": Press(Command.FASTER),
+    "=": Press(Command.FASTER),
+    **dict.fromkeys((">", "\x1b[C", "\x1bOC"), Press(Command.NEXT)),
+    **dict.fromkeys(("<", "\x1b[D", "\x1bOD"), Press(Command.PREVIOUS)),
+    **dict.fromkeys(("\n", "\r", "g"), Press(Command.GO)),
+    "q": Press(Command.QUIT),
 }

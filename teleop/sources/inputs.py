@@ -32,6 +32,11 @@ class Command(StrEnum):
     SHUTTER = "shutter"
     TELL = "tell"  # a device's own command: `gimbal follow lock`
     QUIT = "quit"
+    PAUSE = "pause"  # of a sequence, and on again
+    NEXT = "next"  # keyframe
+    PREVIOUS = "previous"
+    GO = "go"  # for a sequence that waits for it
+    KEEP = "keep"  # the trim of a sequence, in a file
 
 
 class Press(NamedTuple):

@@ -89,7 +89,7 @@ class Operator:
         for text in (*self._log.changes(self._hands, self._driving.drivers), *notes, *self._presets.heard()):
             self.say(text)
         for hand, press in sorted(presses, key=_last_word):
-            self._commands[press.command](hand, press)
+            self._commands.get(press.command, self._refuse)(hand, press)
         beneath = self._read_beneath(now)
         if self._stopped or self._done:
             demand: dict[Axis, Wish] = {axis: Halt() for axis in self._motion}
@@ -202,6 +202,9 @@ class Operator:
             self.say(f"{press.words} refused: an axis moves")
         else:
             self._actions.append(Told(press.words))
+
+    def _refuse(self, _hand: Arming, press: Press) -> None:
+        self.say(f"{press.command}: only while a sequence is played")
 
     def _quit(self, _hand: Arming, _press: Press) -> None:
         self._done = True

@@ -12,11 +12,12 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from dataclasses import replace
 
 from teleop.motion import Axis, Limits, State
 from teleop.planner.findings import PlanError
 from teleop.planner.move import Move
-from teleop.planner.warp import Pace, at_most, change_rate, go_to, state_at, steady
+from teleop.planner.warp import Pace, at_most, change_rate, go_to, run_up, state_at, steady
 
 AHEAD = 0.08  # s from asking for a change to its beginning; the search takes 9 ms in the median (planning.md, C)
 LATER = 2.0  # times further ahead when it was found too late
@@ -31,7 +32,8 @@ Search = Callable[[Pace, float], Pace]  # from the present pace, for a change at
 class Playback:
     """A move's own time over the clock's, at `rate` from `begin` on; 1 is the speed that it was written for.
 
-    `keys` are the move's times to step to, in s, rising. Changes are searched for by `executor`, a thread unless given.
+    `keys` are the move's times to step to, in s, rising. `start_at` is where in the move to begin (s): with a run-up,
+    so that it is there with the speed that it has there. Changes are searched for by `executor`, a thread unless given.
     Raises PlanError where `rate` is more than the move allows. The speed that it was written for it always allows: a
     recording at the limits themselves leaves no headroom, and whoever made the move has checked every step of it.
     """
@@ -43,12 +45,14 @@ class Playback:
         rate: float = 1.0,
         keys: Sequence[float] = (),
         executor: Executor | None = None,
+        start_at: float = 0.0,
     ) -> None:
-        self._move, self._limits, self._keys = move, limits, keys
+        self._move, self._limits, self._keys, self._start_at = move, limits, keys, start_at
         self.at_most = min(at_most(move, limits), FASTEST)
         if rate != WRITTEN:
             allowed(rate, self.at_most)
-        self._pace = steady(0.0, rate, math.inf)
+        self._opened = self._opening(rate)
+        self._pace = replace(self._opened, start=math.inf)
         self._resumed = rate  # what a pause ends with
         self._executor = executor or ThreadPoolExecutor(1, thread_name_prefix="warp")
         self._search: Search | None = None
@@ -58,8 +62,25 @@ class Playback:
         self.refusal = ""  # of the last thing asked for, in a line
 
     def begin(self, now: float) -> None:
-        """The move's own time is 0 at `now`."""
-        self._pace, self._read = steady(0.0, self._pace.rate, now), now
+        """It starts at `now`; until then everything rests where `opening` is."""
+        self._pace, self._read = replace(self._opened, start=now), now
+
+    def rewind(self) -> None:
+        """Get ready to begin again, at the speed that was chosen last; everything has to rest meanwhile."""
+        self._search = self._found = None
+        if self._resumed != self._opened.rate:
+            self._opened = self._opening(self._resumed)
+
+    @property
+    def opening(self) -> float:
+        """The move's time to stand at before it begins, in s."""
+        return self._opened.coefficients[0]
+
+    def _opening(self, rate: float) -> Pace:
+        """From the move's beginning, or in mid move with a run-up, which takes milliseconds to find."""
+        if not self._start_at:
+            return steady(0.0, rate, 0.0)
+        return run_up(self._move, self._limits, self._start_at, rate)
 
     def at(self, now: float) -> tuple[float, dict[Axis, State]]:
         """The move's time and where its axes are, at `now`; the control thread calls it every tick."""

@@ -1,8 +1,8 @@
-"""Plays a compiled performance: eases to its first keyframe, waits the preroll, then follows it on the loop's clock.
+"""Performs a compiled move: eases to its start, waits the preroll and the trigger, follows it on the loop's clock.
 
-Nothing is decided on the way. Where the axes stand is known when the run starts, so the ease is compiled then, and from
-there on the source only looks up where the axes have to be, at the pace that `Playback` keeps. The start is put on a
-whole hundredth of a second, which is a tick, so that keyframes are met and not just passed between two ticks.
+Nothing is decided on the way: each ease is compiled when the axes rest where it begins, and from there on the source
+only looks up where the axes have to be, at the pace that `Playback` keeps. Everything begins on a whole hundredth of a
+second, which is a tick, so that keyframes are met and not just passed between two ticks.
 """
 
 from __future__ import annotations
@@ -10,23 +10,38 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
+from enum import Enum, auto
 
-from teleop.motion import Act, Axis, Demand, Follow, Limits, Motion
+from teleop.loop import KEEP_ALIVE
+from teleop.motion import Act, Action, Axis, Demand, Follow, Limits, Motion, Told
 from teleop.planner.ease import ease
 from teleop.planner.move import Move
+from teleop.sources.cues import Cue
 from teleop.sources.playback import Playback
 from teleop.sources.sequence_file import Performance
+from teleop.sources.staging import Staging
 
+LASTING = ((Action.RECORD, Action.STOP), (Action.FOCUS, Action.END_FOCUS))  # what begins it, and ends it
 EASE_SHARE = 0.5  # of each axis's velocity, acceleration and jerk: on the way to the start nothing is in a hurry
 _INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 
 
+class Phase(Enum):
+    EASING = auto()  # to where the move begins
+    PREROLL = auto()
+    ARMED = auto()  # for the trigger
+    PLAYING = auto()
+    RETURNING = auto()  # back to one
+    OVER = auto()
+
+
 class SequenceSource:
-    """`limits` are the axes', for the ease to the start and for changes of speed.
+    """`limits` are the axes', for the eases and for changes of speed.
 
     `speed` is the share of the speed that the sequence was written for; PlanError says when the move does not allow it.
-    `executor` searches for changes of it, a thread unless given.
-    `begin` is when the performance's own time is zero, on the loop's clock; inf until the run has started.
+    `executor` searches for changes of it, a thread unless given. Without a `staging` it is the performance's own.
+    `begin` is when the first pass starts, on the loop's clock, and inf until that is known; `number` is that of the
+    pass, from 1.
     """
 
     def __init__(
@@ -35,40 +50,146 @@ class SequenceSource:
         limits: Mapping[Axis, Limits],
         speed: float = 1.0,
         executor: Executor | None = None,
+        staging: Staging | None = None,
     ) -> None:
-        self._move, self._limits, self._preroll = performance.move, limits, performance.preroll
+        self.staging = staging or Staging(performance.preroll, back_to_one=performance.back_to_one)
+        self.duration = performance.duration
+        self._move = performance.move
+        self._limits = {axis: limits[axis] for axis in self._move.tracks}
         keys = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
-        self.playback = Playback(performance.move, limits, speed, keys, executor)
-        self._cues = list(performance.cues)
-        self._approach: Move | None = None
-        self._approach_begin = self._approach_end = math.inf
+        self.playback = Playback(self._move, limits, speed, keys, executor, self.staging.start_at)
+        self._settings, self._score = cues_from(performance.cues, self.staging.start_at)
+        self._cues: list[Cue] = []  # still to come in this pass
+        self._way = Move({})  # what is eased along
+        self._way_begin = self._until = math.inf  # and when the phase is over, unless that is not known
+        self._gone = False  # the operator said go
+        self._began = math.inf  # when this pass did
+        self.phase = Phase.EASING
         self.begin = math.inf
+        self.number = 1
 
     def start(self, now: float, motion: Motion) -> None:
-        targets = {axis: state.position for axis, state in self._move.start.items()}
-        here = {axis: motion[axis] for axis in targets}
-        self._approach = ease(here, targets, {axis: self._limits[axis] for axis in targets}, EASE_SHARE)
-        self._approach_begin = now
-        self._approach_end = now + math.ceil(self._approach.duration * 100) / 100
-        self.begin = self._approach_end + math.ceil(self._preroll * 100 - _INSTANT) / 100
-        self.playback.begin(self.begin)
+        self._ease(Phase.EASING, now, motion, self.playback.opening)
+        if self.staging.trigger is None:
+            self.begin = self._after_preroll(self._until)
 
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
-        elapsed = -math.inf
-        if self._approach is not None and now < self.begin - _INSTANT:
-            motion = self._approach.at(now - self._approach_begin)
-        else:
+        due: list[Act] = self._turn(now)
+        if self.phase is Phase.PLAYING or (self.phase is Phase.OVER and not self.staging.back_to_one):
             elapsed, motion = self.playback.at(now)
-        due = [cue.action for cue in self._cues if cue.at <= elapsed + _INSTANT]
-        del self._cues[: len(due)]
+            while self._cues and self._cues[0].at <= elapsed + _INSTANT:
+                due.append(self._cues.pop(0).action)
+            if self.phase is Phase.PLAYING and elapsed > self.duration - _INSTANT and not self.playback.paused:
+                self._played(now, motion)
+        else:
+            motion = self._way.at(now - self._way_begin)
         return {axis: Follow(*state) for axis, state in motion.items()}, due
 
     def next_change(self, now: float) -> float:
-        if now < self._approach_end - _INSTANT:
+        if self.phase is Phase.OVER:
+            return math.inf
+        if self.phase is Phase.PREROLL:
+            hush = self._until - KEEP_ALIVE
+            return hush if self.staging.compared and now < hush - _INSTANT else self._until
+        if self.phase is not Phase.PLAYING or self.playback.changing(now):
             return now
-        if now < self.begin - _INSTANT:
-            return self.begin
-        if self.playback.changing(now):
-            return now
-        cue = self._cues[0].at if self._cues else math.inf
-        return self.playback.when(min(self._move.next_motion(self.playback.time(now)), cue), now)
+        coming = min(self._move.next_motion(self.playback.time(now)), self._cues[0].at if self._cues else math.inf)
+        return self.playback.when(min(coming, self.duration), now)
+
+    def place(self, time: float) -> tuple[int, float] | None:
+        """Which pass it is in, and where in the move, at a time of the pass that is played; None while none is."""
+        if self.phase is not Phase.PLAYING or time < self._began - _INSTANT:
+            return None
+        return self.number, self.playback.time(time)
+
+    def go(self) -> None:
+        """The operator's word, for a move that waits for its trigger."""
+        self._gone = self.phase is Phase.ARMED
+
+    def said(self, now: float) -> str:
+        """What it is doing at `now`, in a few words, and how far that is."""
+        left = max(0.0, self._until - now)
+        match self.phase:
+            case Phase.EASING:
+                return f"to the start {left:4.1f} s"
+            case Phase.PREROLL:
+                return f"starts in {left:4.1f} s"
+            case Phase.ARMED:
+                return f"waits for {self.staging.trigger.said(now)}" if self.staging.trigger else ""
+            case Phase.RETURNING:
+                return f"back to one {left:4.1f} s"
+        elapsed = self.playback.time(now)
+        if elapsed < self.staging.start_at and self.playback.opening < self.staging.start_at:
+            return f"run-up to {self.staging.start_at:.1f} s"
+        time = f"{min(elapsed, self.duration):6.1f} / {self.duration:.1f} s"
+        if not self.staging.repeats:
+            return time
+        return f"{time}  pass {self.number}{'' if self.staging.endless else f' of {self.staging.passes:.0f}'}"
+
+    def _turn(self, now: float) -> list[Act]:
+        """Go on to the phases that are due by `now`; what is to be done on the way."""
+        trigger, due = self.staging.trigger, []
+        if self.phase is Phase.EASING and now > self._until - _INSTANT:
+            self.phase, self._until = Phase.PREROLL, self._after_preroll(self._until)
+            due += self._settings
+        if self.phase is Phase.PREROLL and now > self._until - _INSTANT:
+            if trigger is None or (self.number > 1 and (self.staging.endless or not trigger.again)):
+                self._begin(self._until)
+            else:
+                trigger.arm(now)
+                self.phase, self._gone = Phase.ARMED, False
+        if self.phase is Phase.ARMED and trigger is not None and (trigger.fired(now) or self._gone):
+            self._begin(now)
+        if self.phase is Phase.RETURNING and now > self._until - _INSTANT:
+            self.phase = Phase.OVER
+        return due
+
+    def _begin(self, now: float) -> None:
+        self.phase, self._cues = Phase.PLAYING, list(self._score)
+        self.playback.begin(now)
+        self._began = now
+        if self.number == 1:
+            self.begin = now
+
+    def _played(self, now: float, motion: Motion) -> None:
+        """A pass is over: another one, back to one, or the end."""
+        if self.number < self.staging.passes:
+            self.number += 1
+            self.playback.rewind()
+            self._ease(Phase.EASING, now, motion, self.playback.opening)
+        elif self.staging.back_to_one:
+            self._ease(Phase.RETURNING, now, motion, 0.0)
+        else:
+            self.phase = Phase.OVER
+
+    def _ease(self, phase: Phase, now: float, motion: Motion, time: float) -> None:
+        """To where the move is at its own `time`, from rest where the axes are."""
+        targets = {axis: state.position for axis, state in self._move.at(time).items()}
+        self._way = ease({axis: motion[axis] for axis in targets}, targets, self._limits, EASE_SHARE)
+        self.phase, self._way_begin, self._until = phase, now, now + whole_ticks(self._way.duration)
+
+    def _after_preroll(self, arrival: float) -> float:
+        """When a pass may begin, that arrives then where it begins."""
+        if self.number > 1 and self.staging.endless:
+            return arrival
+        return arrival + max(whole_ticks(self.staging.preroll), KEEP_ALIVE if self.staging.compared else 0.0)
+
+
+def whole_ticks(seconds: float) -> float:
+    """At least as long, and so many hundredths."""
+    return math.ceil(seconds * 100 - _INSTANT) / 100
+
+
+def cues_from(cues: Sequence[Cue], start_at: float) -> tuple[list[Act], list[Cue]]:
+    """What to do in place, and in a pass that begins at `start_at` (s), in mid move.
+
+    What came before is not made up for, but for what would be going on by then: the camera records, or focuses, as the
+    run-up begins, and the gimbal has been told how to follow.
+    """
+    before = [cue.action for cue in cues if cue.at < start_at - _INSTANT]
+    follows = [act for act in before if isinstance(act, Told) and act.words.startswith("gimbal follow")]
+    going_on = []
+    for on, off in LASTING:
+        switches = [act for act in before if act in (on, off)]
+        going_on += [Cue(-math.inf, on)] if switches[-1:] == [on] else []
+    return [*follows[-1:]], [*going_on, *cues[len(before) :]]

@@ -32,7 +32,7 @@ class Performance:
     """A sequence compiled for a rig: everything that will happen, checked. `warnings` are lines for the user.
 
     `preroll` is how long to rest on the first keyframe before the start, in s; `back_to_one`: whether to go back to
-    it after the end.
+    it after the end. `fps` is what the file counts frames by, if it does.
     """
 
     title: str
@@ -42,6 +42,7 @@ class Performance:
     keys: Mapping[Axis, Sequence[Key]]
     preroll: float = PREROLL
     back_to_one: bool = False
+    fps: float | None = None
 
     @property
     def duration(self) -> float:
@@ -81,7 +82,7 @@ def load_performance(
         if sticks := [axis for axis in move.tracks if axis in STICKS]:
             warnings.append(document.problem(("fit",), f"does so to {', '.join(sticks)} too: the drone flies further"))
     title, preroll = sheet.title or Path(document.name).stem, seconds(sheet.preroll, sheet.fps)
-    return Performance(title, move, cues, warnings, keys, preroll, sheet.back_to_one)
+    return Performance(title, move, cues, warnings, keys, preroll, sheet.back_to_one, sheet.fps)
 
 
 def _keys(document: Document, sheet: SequenceSection, limits: Mapping[Axis, Limits]) -> Mapping[Axis, Sequence[Key]]:

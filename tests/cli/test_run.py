@@ -63,6 +63,12 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
         (["play", "reveal", "--speed", "500%"], 2, "--speed 500%: the move allows at most 200 % of its speed"),
         (["play", "reveal", "--speed", "fast"], 2, "--speed fast: must be a percentage above 0"),
         (["play", "revel"], 2, "did you mean reveal?"),
+        (["play", "reveal", "--start-at", "key9"], 2, "--start-at key9: there is key1..key5"),
+        (["play", "reveal", "--start-at", "20s"], 2, "--start-at 20s: the move is over at 15 s"),
+        (["play", "reveal", "--start-at", "96f"], 2, "--start-at 96f: is 96f, in frames, which needs fps"),
+        (["play", "reveal", "--preroll", "soon"], 2, "--preroll soon: must be a time"),
+        (["play", "reveal", "--passes", "0"], 2, "--passes: must be at least 1"),
+        (["play", "reveal", "--passes", "3", "--loop"], 2, "--passes: goes without --loop"),
         (["play", "./nothing.yaml"], 2, "no such file"),
         (["play", "reveal", "--rig", "smi"], 2, "did you mean sim?"),
         (["play", "reveal", "--link", "gimbal"], 2, "write it as NAME=URL"),
@@ -114,6 +120,27 @@ def test_what_a_sequence_tells_the_gimbal_is_told_and_its_answer_said(tmp_path: 
     assert done.returncode == 0, done.stderr
     for words in ("gimbal follow lock: done", "gimbal stiffness: done", "gimbal version: "):
         assert words in done.stderr
+
+
+def test_passes_say_how_far_each_lay_from_the_first() -> None:
+    played = teleop("play", "reveal", "--fast", "--passes", "3", "--preroll", "1s")
+    assert played.returncode == 0, played.stderr
+    assert "starts in" in played.stderr
+    assert "pass 3 of 3" in played.stderr
+    assert "Each pass against the first" in played.stdout
+    report = json.loads(teleop("play", "reveal", "--fast", "--passes", "2", "--json").stdout)
+    (second,) = report["passes"]
+    assert second["pass"] == 2
+    for axis in ("pan", "tilt", "focus"):
+        assert second["axes"][axis]["commanded"]["peak"] < 1e-9
+        assert second["axes"][axis]["measured"]["peak"] <= 0.1
+
+
+def test_a_move_is_started_in_its_middle_and_goes_back_to_one() -> None:
+    played = teleop("play", "reveal", "--fast", "--start-at", "key3", "--back-to-one")
+    assert "run-up to 8.0 s" in played.stderr
+    assert "back to one" in played.stderr
+    assert [row for row in played.stdout.splitlines() if "pan" in row and "-30.000" in row]
 
 
 def test_debug_shows_where_an_error_came_from() -> None:

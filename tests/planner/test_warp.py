@@ -10,7 +10,7 @@ from teleop.planner.findings import PlanError
 from teleop.planner.keyframes import Key, plan
 from teleop.planner.live import Live
 from teleop.planner.move import Move
-from teleop.planner.warp import at_most, change_rate, go_to, state_at, steady
+from teleop.planner.warp import NoRunUp, at_most, change_rate, go_to, run_up, state_at, steady
 
 PAN, TILT = Axis.PAN, Axis.TILT
 LIMITS = {PAN: Limits(-170, 170, 60, 120, 600), TILT: Limits(-30, 40, 40, 90, 480)}
@@ -128,3 +128,21 @@ def test_a_pace_is_its_own_derivative(move):
         behind, here, ahead = (pace.at(now + k * step) for k in (-1, 0, 1))
         assert (ahead[0] - behind[0]) / (2 * step) == pytest.approx(here[1], abs=1e-6)
         assert (ahead[1] - behind[1]) / (2 * step) == pytest.approx(here[2], abs=1e-6)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.floats(0.0, 10.9), st.floats(0.3, 1.0))
+def test_a_run_up_from_rest_is_on_the_path_and_at_speed_when_the_time_comes(move, time, rate):
+    pace = run_up(move, LIMITS, time, rate)
+    assert pace.at(0.0)[1:] == (0.0, 0.0) or pace.duration == 0.0
+    assert pace.at(pace.duration) == pytest.approx((time, rate, 0.0), abs=1e-9)
+    assert pace.duration * 100 == pytest.approx(round(pace.duration * 100), abs=1e-9)
+    assert_on_the_path_within_limits(move, pace, 0.0, pace.duration + 0.3)
+
+
+def test_a_move_at_rest_needs_no_run_up_and_one_at_its_limits_has_none(move):
+    dwelling = plan({PAN: [Key(0, 0), Key(2, 20, hold=2), Key(6, 0)]}, LIMITS)
+    assert run_up(dwelling, LIMITS, 3.0, 1.0) == steady(3.0, 1.0, 0.0)
+    tight = {axis: Limits(s.minimum, s.maximum, s.velocity * 0.6, 9, 9) for axis, s in LIMITS.items()}
+    with pytest.raises(NoRunUp, match="where the move is at 3 s"):
+        run_up(move, tight, 3.0, 1.0)

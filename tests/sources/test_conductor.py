@@ -3,16 +3,29 @@
 import pytest
 from at_once import AtOnce
 
-from teleop.motion import Axis, Follow, Limits, State
+from teleop.motion import Axis, Follow, Halt, Limits, State, Tick
 from teleop.planner.keyframes import Key, plan
-from teleop.sources.conductor import FASTER, HELP, NEXT, PAUSE, PREVIOUS, SLOWER, Conductor, PlayKeys
-from teleop.sources.inputs import Held
+from teleop.ports import Interrupted
+from teleop.sources.conductor import HELP, Conductor, PlayKeys
+from teleop.sources.inputs import Command, Held, Press
 from teleop.sources.sequence import SequenceSource
 from teleop.sources.sequence_file import Performance
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600)}
 KEYS = {Axis.PAN: [Key(0, 0), Key(4, 30), Key(10, 60)]}
 DT = 0.01
+PAUSE, FASTER, SLOWER, NEXT, PREVIOUS, QUIT, GO = (
+    Press(each)
+    for each in (
+        Command.PAUSE,
+        Command.FASTER,
+        Command.SLOWER,
+        Command.NEXT,
+        Command.PREVIOUS,
+        Command.QUIT,
+        Command.GO,
+    )
+)
 
 
 class Keys:
@@ -107,8 +120,27 @@ def test_it_is_over_when_the_sequence_is():
     assert show.conductor.next_change(show.now) == float("inf")
 
 
+def test_stop_halts_at_once_and_ends_the_run_without_losing_a_tick():
+    show = Show()
+    show.run(2)
+    show.keys.pressed.append(QUIT)
+    show.now += DT
+    demand, acts = show.conductor.read(show.now)
+    assert (demand, acts) == ({Axis.PAN: Halt()}, ())
+    with pytest.raises(Interrupted, match="stopped by keys"):
+        show.conductor.write(Tick(show.now, {}, demand, (), {}))
+
+
+def test_go_is_for_a_move_that_waits_and_means_nothing_else():
+    show = Show()
+    show.run(1)
+    show.press(GO)
+    assert show.conductor.note == f"100%  {HELP}"
+
+
 def test_keys_as_a_terminal_sends_them_whole_and_in_pieces():
     reader = PlayKeys()
+    assert list(reader.feed("q\ng\r")) == [QUIT, GO, GO, GO]
     assert list(reader.feed("x +\x1b[C<")) == [PAUSE, FASTER, NEXT, PREVIOUS]
     assert list(reader.feed("\x1b[")) == []
     assert reader.is_waiting

@@ -39,6 +39,7 @@ def test_the_move_runs_on_its_own_clock_and_rests_are_slept_over() -> None:
     assert source.read(source.begin + 4)[0][Axis.PAN] == Follow(30, 0, 0)
     assert source.next_change(source.begin + 4) == source.begin + 104
     assert source.next_change(source.begin + 105) == source.begin + 105
+    source.read(source.begin + 110)
     assert math.isinf(source.next_change(source.begin + 110))
     assert source.read(source.begin + 1000)[0][Axis.PAN] == Follow(0, 0, 0)
 

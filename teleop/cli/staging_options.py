@@ -1,0 +1,81 @@
+"""The options of `teleop play` that say how a move is begun, how often it is played and what follows it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from teleop.ports import UsageError
+from teleop.sources.times import seconds
+
+if TYPE_CHECKING:
+    from teleop.sources.sequence_file import Performance
+    from teleop.sources.staging import Staging
+
+KEY = "key"  # as in key3, the third keyframe
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class StagingOptions:
+    """What stands around the move; where nothing is said, the sequence's own."""
+
+    preroll: Annotated[
+        str | None, Parameter(help="The rest in place before the start, as in 3s.", show_default=False)
+    ] = None
+    back_to_one: Annotated[
+        bool | None, Parameter(help="At the end, go back to the first keyframe.", show_default=False)
+    ] = None
+    start_at: Annotated[
+        str | None,
+        Parameter(help="Begin in mid move, at a time or a key (key1 is the first), with a run-up.", show_default=False),
+    ] = None
+    loop: Annotated[bool, Parameter(help="Over and over, until stopped.", negative=(), show_default=False)] = False
+    passes: Annotated[
+        int | None, Parameter(help="So often, and say how far each pass lay from the first.", show_default=False)
+    ] = None
+
+    def staging(self, performance: Performance) -> Staging:
+        """The staging asked for; raises UsageError for what this performance has not."""
+        from teleop.sources.staging import Staging
+
+        if self.passes is not None and (self.loop or self.passes < 1):
+            raise UsageError("--passes: goes without --loop" if self.loop else "--passes: must be at least 1")
+        back = performance.back_to_one if self.back_to_one is None else self.back_to_one
+        preroll = performance.preroll if self.preroll is None else _time("preroll", self.preroll, performance.fps)
+        passes = math.inf if self.loop else self.passes or 1
+        return Staging(preroll, self._start_at(performance), passes, self.passes is not None, back)
+
+    def _start_at(self, performance: Performance) -> float:
+        text = self.start_at
+        if text is None:
+            return 0.0
+        keys = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
+        time = _key(text, keys) if text.startswith(KEY) else _time("start-at", text, performance.fps)
+        if time >= performance.duration:
+            raise UsageError(f"--start-at {text}: the move is over at {performance.duration:g} s")
+        return time
+
+
+def _key(text: str, keys: Sequence[float]) -> float:
+    number = text.removeprefix(KEY)
+    if not number.isdecimal() or not 1 <= int(number) <= len(keys):
+        last = f"{KEY}1..{KEY}{len(keys)}" if keys else "no keys: it is a take"
+        raise UsageError(f"--start-at {text}: there is {last}")
+    return keys[int(number) - 1]
+
+
+def _time(option: str, text: str, fps: float | None) -> float:
+    """`3`, `3s`, `1m30s`, `72f` or timecode in seconds."""
+    number = float(text) if text.replace(".", "", 1).isdecimal() else text
+    try:
+        return seconds(number, fps)
+    except ValueError as error:
+        raise UsageError(f"--{option} {text}: {error}") from None
+
+
+NO_STAGING = StagingOptions()
