@@ -69,12 +69,18 @@ class UnplayableError(DocumentError):
 
 @dataclass
 class Document:
-    """A YAML file as plain values, which knows where each of them stands."""
+    """A YAML file as plain values, which knows where each of them stands. `note` ends every line about it."""
 
     name: str
     data: Any = None
     places: dict[Location, Place] = field(default_factory=dict)
     keys: dict[Location, Place] = field(default_factory=dict)
+    note: str = ""
+
+    def line(self, path: Location, text: str) -> str:
+        """One line for what is said elsewhere of something that stands at `path`."""
+        line, column = self.places[path]
+        return f"{self.name}:{line}:{column}: {text}{self.note}"
 
     def problem(self, path: Location, text: str, *, key: bool = False) -> str:
         """One line for something wrong at `path`: at its value, at its `key`, or at the nearest thing around it."""
@@ -84,7 +90,7 @@ class Document:
             around = around[:-1]
         line, column = next((known[around] for known in places if around in known), (1, 1))
         said = f"{path_text(path)} {text}" if path else text
-        return f"{self.name}:{line}:{column}: {said}"
+        return f"{self.name}:{line}:{column}: {said}{self.note}"
 
     def check(self, model: type[Checked], wrong: Iterable[Wrong] = ()) -> Checked:
         """The document as a `model`; raises DocumentError with a line for everything wrong with it.
@@ -110,7 +116,8 @@ class Document:
         path = self._path(detail["loc"][:-1] if is_key else detail["loc"])
         kind = detail["type"]
         if kind == "extra_forbidden":
-            return self.problem(path, "is not known here" + nearest(str(path[-1]), known), key=True)
+            others = [name for name in known if name != path[-1]]  # it is known, but elsewhere
+            return self.problem(path, "is not known here" + nearest(str(path[-1]), others), key=True)
         phrase = PHRASES.get(kind)
         text = phrase(context, detail["input"]) if phrase else f"is wrong: {detail['msg']}"
         return self.problem(path, text, key=is_key)
@@ -160,8 +167,20 @@ def _place_in(problem: str) -> Place:
     return (int(found[1]), int(found[2])) if found else (0, 0)
 
 
-def read_document(file: Path, name: str | None = None) -> Document:
-    """The file as a Document, called `name` in errors; raises DocumentError when it is not YAML of a sane size."""
+def read_document(file: Path, name: str | None = None, note: str = "") -> Document:
+    """The file as a Document, called `name` in errors, which end with `note`.
+
+    Raises DocumentError when it is not YAML of a sane size.
+    """
+    try:
+        document = _read(file, name)
+    except DocumentError as error:
+        raise DocumentError([problem + note for problem in error.problems]) from None
+    document.note = note
+    return document
+
+
+def _read(file: Path, name: str | None) -> Document:
     name = name or str(file)
     try:
         with file.open("rb") as stream:

@@ -20,12 +20,20 @@ def folder(kind: str) -> Path:
     return installed if installed.is_dir() else _PACKAGE.parent / kind
 
 
-def find(name: str, kind: str, word: str) -> tuple[Path, str]:
-    """The file for a bare name or a path, and what to call it in errors; raises DocumentError when there is none."""
-    if Path(name).name != name or Path(name).suffix:
-        path = Path(name).expanduser()
+def is_bare(name: str) -> bool:
+    """Whether it is a shipped file's name, and no path."""
+    return Path(name).name == name and not Path(name).suffix
+
+
+def find(name: str, kind: str, word: str, beside: Path | None = None) -> tuple[Path, str]:
+    """The file for a bare name or a path, and what to call it in errors; raises DocumentError when there is none.
+
+    A relative path begins at the folder `beside`, the current one unless given.
+    """
+    if not is_bare(name):
+        path = (beside or Path()) / Path(name).expanduser()
         if not path.is_file():
-            raise DocumentError([f"{name}: no such file"])
+            raise DocumentError([f"{name}: {'is no file' if path.exists() else 'no such file'}"])
         return path, name
     names = sorted(file.stem for file in folder(kind).glob("*.yaml"))
     if name not in names:

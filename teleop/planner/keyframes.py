@@ -146,9 +146,10 @@ def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: float) 
             outcome.too_long.append(RampsTooLong(axis, wheres[0], wheres[-1], *asked, duration))
             continue
         leg = leg_between(stretch, asked, limits)
-        pieces = _directed(leg, limits, tension)
+        evenness = tension if stretch[0].tension is None else stretch[0].tension
+        pieces = _directed(leg, limits, evenness)
         if pieces is None:
-            pieces = _undirected(leg, limits, tension)
+            pieces = _undirected(leg, limits, evenness)
             if pieces is None:
                 outcome.unsolved.append((leg, wheres))
                 continue

@@ -21,7 +21,8 @@ class Key:
     """Be at `position` (units) at `at` (s); `stop` there, for `hold` s. `where` names it in its file.
 
     `arrive` and `leave` are the ramps to rest there and away from it; where neither end of a way between rests has
-    one, all of that way is used to be as smooth as can be, and where one end has one, so has the other.
+    one, all of that way is used to be as smooth as can be, and where one end has one, so has the other. `tension` is
+    that of the way from this key to the next rest, where it differs from the plan's.
     """
 
     at: float
@@ -31,6 +32,7 @@ class Key:
     where: str = ""
     arrive: Ramp | None = None
     leave: Ramp | None = None
+    tension: float | None = None
 
     def later(self, factor: float) -> Key:
         """With all its times multiplied."""
@@ -47,6 +49,7 @@ class Waypoint(NamedTuple):
     where: str
     arrive: Ramp | None = None
     leave: Ramp | None = None
+    tension: float | None = None
 
 
 def waypoints(axis: Axis, keys: Sequence[Key]) -> list[Waypoint]:
@@ -60,12 +63,12 @@ def waypoints(axis: Axis, keys: Sequence[Key]) -> list[Waypoint]:
                 raise PlanError(
                     f"{axis}, {key.where}: at {key.at:.6g} s is not after {last.where}, which ends at {last.time:.6g} s"
                 )
-            points[-1] = last._replace(rest=True, leave=key.leave)
+            points[-1] = last._replace(rest=True, leave=key.leave, tension=key.tension)
         else:
-            points.append(Waypoint(key.at, key.position, rest, key.where, key.arrive, key.leave))
+            points.append(Waypoint(key.at, key.position, rest, key.where, key.arrive, key.leave, key.tension))
         if key.hold > 0:
             points[-1] = points[-1]._replace(leave=None)
-            points.append(Waypoint(key.at + key.hold, key.position, True, key.where, None, key.leave))
+            points.append(Waypoint(key.at + key.hold, key.position, True, key.where, None, key.leave, key.tension))
     return points
 
 

@@ -86,19 +86,30 @@ class Cue(NamedTuple):
                 return str(getattr(self.action, "value", self.action))
 
 
-def cue_rules(cue: Any, here: Location, moved: Collection[str]) -> Iterator[Wrong]:
-    """What is wrong with one cue but for its times; `moved` are the axes that the sequence moves."""
+def cue_rules(cue: Any, here: Location) -> Iterator[Wrong]:
+    """What is wrong with one cue, whatever moves beside it, but for its times."""
     given = [kind for kind in KINDS if mapping(cue).get(kind) is not None]
     if isinstance(cue, dict) and len(given) != 1 and cue.keys() <= {"at", *KINDS}:
         yield here, f"must have one of {', '.join(KINDS)}{', not ' + ' and '.join(given) if given else ''}"
     words = mapping(cue).get("send")
-    if isinstance(words, str) and (wrong := _unsendable(words, moved)):
+    if isinstance(words, str) and (wrong := _unsendable(words)):
         yield (*here, "send"), wrong
-    if "recenter" in given and not any(axis in moved for axis in CENTRED):
+
+
+def moved_rules(cue: Any, here: Location, moved: Collection[str]) -> Iterator[Wrong]:
+    """What is wrong with one cue, which has passed `cue_rules`, in a sequence that moves the axes `moved`."""
+    turns = any(axis in moved for axis in CENTRED)
+    if mapping(cue).get("recenter") is not None and not turns:
         yield (*here, "recenter"), "moves pan, tilt and roll, and no keyframe has one of them"
+    words = mapping(cue).get("send")
+    message = find(words.split()) if words else None
+    if isinstance(message, _BY_ITSELF) and turns:
+        yield (*here, "send"), "would have the gimbal move by itself, against the keyframes"
+    if isinstance(message, focus.Calibrate) and Axis.FOCUS in moved:
+        yield (*here, "send"), "would have the focus motor move by itself, against the keyframes"
 
 
-def _unsendable(words: str, moved: Collection[str]) -> str:
+def _unsendable(words: str) -> str:
     try:
         message = find(words.split())
         message.check()
@@ -108,10 +119,6 @@ def _unsendable(words: str, moved: Collection[str]) -> str:
         return f"must be written as camera: {_CAMERA[camera.CameraCommand(message.command)].value}"
     if is_taken_back(message):
         return f"would be taken back by what is streamed: {_instead(message)}"
-    if isinstance(message, _BY_ITSELF) and any(axis in moved for axis in CENTRED):
-        return "would have the gimbal move by itself, against the keyframes"
-    if isinstance(message, focus.Calibrate) and Axis.FOCUS in moved:
-        return "would have the focus motor move by itself, against the keyframes"
     return ""
 
 

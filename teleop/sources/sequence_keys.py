@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from teleop.document import Document
 from teleop.motion import Axis, Limits
 from teleop.planner.waypoints import Key
 from teleop.sources.cues import CENTRED
@@ -38,6 +39,12 @@ def keys_of(sheet: SequenceSection) -> Keys:
                 stop = frame.pass_ == "stop"
                 of_axis.append(Key(at, position, stop, hold, f"keyframes[{index}]", *eases))
     return keys
+
+
+def line_at(document: Document, where: str, text: str) -> str:
+    """A line for something the planner says of the keyframe that it calls `where`."""
+    index = int(where.removeprefix("keyframes[").removesuffix("]"))
+    return document.line(("keyframes", index), text)
 
 
 def recentred(keys: Keys, limits: Mapping[Axis, Limits], at: float, duration: float, where: str) -> Keys:

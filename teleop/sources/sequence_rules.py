@@ -6,16 +6,18 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from typing import Any
 
-from teleop.document import Wrong, mapping, number, sequence
+from teleop.document import Location, Wrong, mapping, number, sequence
 from teleop.motion import Axis, Limits
 from teleop.sources.cues import cue_rules
 from teleop.sources.easing import ease_rules
+from teleop.sources.panorama import panorama_limits, panorama_rules
 from teleop.sources.timelapse_section import is_timelapse, timelapse_rules
-from teleop.sources.times import frames, seconds
+from teleop.sources.times import frames, percentage, seconds
 
 AXES = tuple(axis.value for axis in Axis)
 When = Callable[[Any], float]  # a time as written -> seconds, or output frames
 STICKS = tuple(axis for axis in Axis if axis.value.startswith("stick_"))
+SLOWEST, FASTEST = 0.01, 10.0  # of an included move
 DEVICES = {"camera": "camera", "follow": "gimbal", "send": "gimbal"}  # what performs a cue
 
 
@@ -43,6 +45,8 @@ def file_rules(data: Any) -> Iterator[Wrong]:
         before = (index, at)
         free.update({axis: (index, at + (hold or 0)) for axis in AXES if axis in frame})
     yield from _stick_rules(data)
+    if isinstance(data, dict) and not data.keys() & {"keyframes", "include", "panorama"}:
+        yield ("keyframes",), "is missing"
     if is_timelapse(data):
         yield from ease_rules(data, 1.0)  # a ramp of 24f takes 24 frames
         yield from timelapse_rules(data)
@@ -50,12 +54,24 @@ def file_rules(data: Any) -> Iterator[Wrong]:
     yield from ease_rules(data, fps)
     if wrong := _time(mapping(data), "preroll", partial(seconds, fps=fps))[1]:
         yield ("preroll",), wrong
-    moved = {axis for frame in sequence(data, "keyframes") for axis in AXES if axis in mapping(frame)}
+    yield from panorama_rules(data, fps)
     for index, cue in enumerate(sequence(data, "cues")):
-        yield from cue_rules(cue, ("cues", index), moved)
+        yield from cue_rules(cue, ("cues", index))
         for key in ("at", "recenter"):
             if mapping(cue).get(key) is not None and (wrong := _time(mapping(cue), key, when)[1]):
                 yield ("cues", index, key), wrong
+    for index, entry in enumerate(sequence(data, "include")):
+        yield from _include_rules(mapping(entry), ("include", index), when)
+
+
+def _include_rules(entry: Mapping[str, Any], here: Location, when: When) -> Iterator[Wrong]:
+    if wrong := _time(entry, "at", when)[1]:
+        yield (*here, "at"), wrong
+    try:
+        if "speed" in entry and not SLOWEST <= percentage(entry["speed"]) <= FASTEST:
+            yield (*here, "speed"), f"must be {SLOWEST:.0%} to {FASTEST:.0%}"
+    except ValueError as error:
+        yield (*here, "speed"), str(error)
 
 
 def _stick_rules(data: Any) -> Iterator[Wrong]:
@@ -105,6 +121,9 @@ def rig_rules(
             if devices is not None and kind in mapping(cue) and device not in devices:
                 yield ("cues", index, kind), f"cannot be: {rig} has no {device}; its sinks are {', '.join(devices)}"
     by_name = {axis.value: axis_limits for axis, axis_limits in limits.items()}
+    yield from panorama_limits(data, by_name, rig)
+    if devices is not None and "camera" not in devices and mapping(data, "panorama"):
+        yield ("panorama",), f"cannot be: {rig} has no camera; its sinks are {', '.join(devices)}"
     for index, frame in enumerate(sequence(data, "keyframes")):
         for axis in AXES:
             position = number(mapping(frame).get(axis))

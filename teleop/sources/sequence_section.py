@@ -9,6 +9,7 @@ from pydantic import Field
 from teleop.planner.repeat import Repeat
 from teleop.section import Finite, PositionsSection, Section
 from teleop.sources.cues import CueSection
+from teleop.sources.panorama import PanoramaSection
 from teleop.sources.timelapse_section import TimelapseSection
 
 PREROLL = 0.5  # s at rest on the first keyframe before the start, unless the file says otherwise
@@ -28,6 +29,14 @@ class Keyframe(PositionsSection):
     stick_yaw: Deflection | None = None
     pass_: Literal["through", "stop"] = Field("through", alias="pass")
     ease: Any = None
+
+
+class IncludeSection(Section):
+    """Another sequence, from `at` on; `move` is a shipped name, or a file beside this one. `speed`: how fast, 150%."""
+
+    move: Annotated[str, Field(min_length=1)]
+    at: Any
+    speed: Any = "100%"
 
 
 class RepeatSection(Section):
@@ -53,5 +62,7 @@ class SequenceSection(Section):
     back_to_one: bool = False
     repeat: RepeatSection | None = None
     timelapse: TimelapseSection | None = None
-    keyframes: Annotated[list[Keyframe], Field(min_length=1)]
+    keyframes: Annotated[list[Keyframe], Field(min_length=1)] = Field(default_factory=list)
+    panorama: PanoramaSection | None = None
+    include: list[IncludeSection] = Field(default_factory=list)
     cues: list[CueSection] = Field(default_factory=list)

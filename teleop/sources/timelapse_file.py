@@ -23,8 +23,8 @@ from teleop.planner.move import Move, Track
 from teleop.planner.polynomial import Array
 from teleop.planner.warp import at_most
 from teleop.shipped import find
-from teleop.sources.sequence_file import Performance, at_keyframe
-from teleop.sources.sequence_keys import axes_of, keys_of
+from teleop.sources.sequence_file import Performance
+from teleop.sources.sequence_keys import axes_of, keys_of, line_at
 from teleop.sources.sequence_rules import file_rules, rig_rules
 from teleop.sources.sequence_section import SequenceSection
 from teleop.sources.slots import Slots
@@ -147,15 +147,13 @@ def _compiled(
     try:
         move, factor = stretch(timed, limits, sheet.tension)
     except Infeasible as error:
-        raise UnplayableError(
-            [at_keyframe(document, finding.last, str(finding)) for finding in error.findings]
-        ) from None
+        raise UnplayableError([line_at(document, finding.last, str(finding)) for finding in error.findings]) from None
     path = FramePath(move, step * factor, section.lead_in)
     continuous = section.mode == "continuous"
     problems, warnings = budget(phases, slots, path, limits, continuous)
     if problems:
         raise UnplayableError([document.problem(("timelapse", "interval"), text) for text in problems])
-    remarks = [at_keyframe(document, remark.last, str(remark)) for remark in [*move.overshoots, *move.long_ramps]]
+    remarks = [line_at(document, remark.last, str(remark)) for remark in [*move.overshoots, *move.long_ramps]]
     remarks += [document.problem(("timelapse", "interval"), text) for text in warnings]
     return Timelapse(
         sheet.title or Path(document.name).stem,

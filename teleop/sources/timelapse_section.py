@@ -18,6 +18,8 @@ from teleop.sources.times import frames, seconds
 MOST = 100_000  # frames: more than an hour of clip
 UNUSED = {
     "cues": "the shutter is its only cue",
+    "include": "an included move's times are seconds, not frames",
+    "panorama": "that has frames of its own",
     "repeat": "its frames are counted once",
     "preroll": "delay is what it waits for",
     "back_to_one": "it stays where its last frame was shot",

@@ -11,6 +11,7 @@ from typing import Any
 _PARTS = re.compile(r"(?:(\d+(?:\.\d+)?)h)?(?:(\d+(?:\.\d+)?)m)?(?:(\d+(?:\.\d+)?)s)?")
 _FRAMES = re.compile(r"(\d+)f")
 _TIMECODE = re.compile(r"(\d+):([0-5]\d):([0-5]\d):(\d+)")
+_PERCENT = re.compile(r"(\d{1,6}(?:\.\d{1,6})?)\s*%")
 _WRITTEN = "4, 4s, 1m30s, 96f or 00:00:04:00"
 
 
@@ -45,6 +46,14 @@ def frames(value: Any) -> float:
     if isinstance(value, str) and (match := _FRAMES.fullmatch(value.strip())):
         return float(match[1])
     raise ValueError(f"must be in output frames (240 or 240f), not {value!r}")
+
+
+def percentage(value: Any) -> float:
+    """`30%` as 0.3. Raises ValueError with what would be right."""
+    match = _PERCENT.fullmatch(value.strip()) if isinstance(value, str) else None
+    if not match:
+        raise ValueError(f"must be a percentage (30%), not {value!r}")
+    return float(match[1]) / 100
 
 
 def _needed(fps: float | None, text: str) -> float:
