@@ -64,7 +64,7 @@ def play(
 
         profile = followable(profile)
     clock = the_clock(fast, profile)
-    rate = _rate(speed)
+    rate = percentage("--speed", speed)
     stage = staging.staging(performance)
     try:
         source = SequenceSource(performance, profile.limits, rate, staging=stage)
@@ -102,14 +102,14 @@ def play(
         return perform(rig, axes, sources, tally, display, options.json, recorder, watchers, extras)
 
 
-def _rate(speed: str) -> float:
+def percentage(option: str, text: str) -> float:
     """`150%` or `150` as 1.5; raises DocumentError."""
     try:
-        percent = float(speed.strip().removesuffix("%"))
+        percent = float(text.strip().removesuffix("%"))
     except ValueError:
         percent = math.nan
     if not 0 < percent < math.inf:
-        raise DocumentError([f"--speed {speed}: must be a percentage above 0, as in 50%"])
+        raise DocumentError([f"{option} {text}: must be a percentage above 0, as in 50%"])
     return percent / 100
 
 

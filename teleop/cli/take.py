@@ -9,6 +9,7 @@ from cyclopts import App
 COMMANDS: Mapping[str, tuple[str, str]] = {
     "list": ("teleop.cli.take_list:take_list", "List the takes of a folder."),
     "info": ("teleop.cli.take_list:take_info", "Say what is in a take."),
+    "keyframes": ("teleop.cli.take_keyframes:take_keyframes", "Fit sparse, editable keyframes to a take."),
     "recover": ("teleop.cli.take_files:take_recover", "Save what is whole of a take that was never closed."),
 }
 

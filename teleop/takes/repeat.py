@@ -73,7 +73,7 @@ def take_performance(path: Path, limits: Mapping[Axis, Limits], rig: str) -> Per
     problems = [f"{path}: {wrong} ({rig})" for wrong in _excesses(move, limits)]
     if problems:
         raise UnplayableError(problems)
-    return Performance(take.about.title, move, _cues(take), _warnings(take), {axis: [] for axis in take.axes})
+    return Performance(take.about.title, move, cues(take), warnings(take), {axis: [] for axis in take.axes})
 
 
 def followable(profile: Profile) -> Profile:
@@ -166,22 +166,23 @@ def _said(axis: Axis, wrong: Excess) -> str:
     return f"at {wrong.time:.2f} s {axis} needs {wrong.size:.3g} x the {wrong.limit} it may have"
 
 
-def _cues(take: Take) -> Sequence[Cue]:
-    """What the camera was told, at the tick at which it was."""
+def cues(take: Take) -> Sequence[Cue]:
+    """What the camera was told, at the tick at which it was; times are those of `recorded_move`."""
     known = {action.value: action for action in Action}
     told = [(time, known[said["action"]]) for time, said in take.actions if said["action"] in known]
     return [Cue(max(0.0, time + lead(take)), action) for time, action in told]
 
 
-def _warnings(take: Take) -> list[str]:
-    warnings = []
+def warnings(take: Take) -> list[str]:
+    """What a take has lost or has more than a performance, in lines for the user."""
+    found = []
     told = [said["words"] for _, said in take.actions if said["action"] == "told"]
     if told:
-        warnings.append(f"{take.path}: is not told again: {'; '.join(dict.fromkeys(told))}")
+        found.append(f"{take.path}: is not told again: {'; '.join(dict.fromkeys(told))}")
     if take.remark:
-        warnings.append(take.remark)
+        found.append(take.remark)
     if take.cut:
-        warnings.append(f"{take.path}: was cut at {take.duration:.2f} s; what was moving is brought to rest there")
+        found.append(f"{take.path}: was cut at {take.duration:.2f} s; what was moving is brought to rest there")
     elif take.ending and take.ending.dropped:
-        warnings.append(f"{take.path}: {take.ending.dropped} ticks were not recorded; the way between is made up")
-    return warnings
+        found.append(f"{take.path}: {take.ending.dropped} ticks were not recorded; the way between is made up")
+    return found

@@ -1,0 +1,66 @@
+"""`teleop take keyframes FILE -o OUT.yaml`: a recorded run as a sequence file that a person can edit."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from teleop.cli.play import percentage
+from teleop.cli.take_options import Json, Overwrite, TakeFile, place, problems_said, say
+from teleop.ports import UsageError
+from teleop.preview.look import UNITS
+from teleop.preview.output import replacing
+
+ENDINGS = (".yaml", ".yml")
+
+
+def take_keyframes(
+    file: TakeFile,
+    /,
+    *,
+    output: Annotated[Path, Parameter(name=("--output", "-o"), help="The sequence file to write (.yaml).")],
+    tolerance: Annotated[
+        float, Parameter(help="How far off it may be at any time: degrees; for focus and sticks per cent of their way.")
+    ] = 0.2,
+    measured: Annotated[
+        bool, Parameter(help="Follow where the axes were measured, not commanded.", negative=(), show_default=False)
+    ] = False,
+    speed: Annotated[str, Parameter(help="The take's own pace, as a percentage.")] = "100%",
+    overwrite: Overwrite = False,
+    as_json: Json = False,
+) -> int:
+    """Fit sparse keyframes to a take, and write them as a sequence file.
+
+    The file is planned and compared with the take at every hundredth of a second before it is written. The way to the
+    start that `play` made is a part of its takes.
+    """
+    if not (math.isfinite(tolerance) and tolerance > 0):
+        raise UsageError(f"--tolerance {tolerance:g}: must be more than 0 degrees")
+    if output.suffix.lower() not in ENDINGS:
+        raise UsageError(f"-o {output}: its ending must be {' or '.join(ENDINGS)}")
+    place("-o", output, overwrite, file)
+    from teleop.takes.keyframes import keyframes
+    from teleop.takes.repeat import warnings
+    from teleop.takes.take import read_take
+
+    with problems_said(as_json):
+        rate = percentage("--speed", speed)
+        take = read_take(file)
+        for warning in warnings(take):
+            say(warning)
+        fitted = keyframes(take, tolerance, rate, measured=measured)
+    with replacing(output) as stream:
+        stream.write(fitted.text.encode())
+    if as_json:
+        errors = {axis.value: {"error": round(e.size, 6), "time": e.time} for axis, e in fitted.errors.items()}
+        said = {"ok": True, "written": str(output), "keyframes": len(fitted.frames), "tolerance": tolerance}
+        print(json.dumps({**said, "largest_errors": errors}))
+    else:
+        errors = [f"{axis} {e.size:.3g}{UNITS[axis]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
+        count = len(fitted.frames)
+        print(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
+    return 0
