@@ -29,6 +29,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "monitor": ("teleop.cli.monitor:monitor", "Show what host and gimbal say to each other on a CAN bus."),
     "calibrate": ("teleop.cli.calibrate:app", "Measure what a profile has to know about a gimbal."),
     "take": ("teleop.cli.take:app", "List, judge, export and repair recorded runs."),
+    "schema": ("teleop.cli.schema:schema", "Print the JSON Schema of a kind of file, for editors."),
     "doctor": ("teleop.cli.doctor:doctor", "Say what this machine can do, and what is in the way."),
     "devices": ("teleop.cli.devices:devices", "List CAN interfaces, serial ports and HID devices."),
     "decode": ("teleop.cli.decode:app", "Bytes of a protocol as JSON lines."),

@@ -10,12 +10,15 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, Literal, NamedTuple
 
+from pydantic import ConfigDict
+
 from teleop.dji import camera, focus, gimbal
 from teleop.dji.catalogue import find, is_taken_back
 from teleop.dji.message import FieldError, Message
 from teleop.document import Location, Wrong, mapping
 from teleop.motion import Act, Action, Axis, Told
 from teleop.section import Section
+from teleop.sources.written import Time
 
 KINDS = ("camera", "follow", "recenter", "send")
 FOLLOW: Mapping[str, str] = {
@@ -37,17 +40,19 @@ _CAMERA = {
 
 
 class CueSection(Section):
-    """Something done once, `at` a time of the sequence; one of these.
+    """Something done once: one of these.
 
-    `camera`: what the camera is told; a focus on the centre holds until end_focus. `follow`: what the gimbal does
-    when its handle is turned. `recenter`: pan, tilt and roll go to 0 within this time. `send`: a command in the words
-    of `teleop send`.
+    `at`: when, from the start. `camera`: what the camera is told; a focus on the centre holds until end_focus.
+    `follow`: what the gimbal does when its handle is turned. `recenter`: pan, tilt and roll go to 0 within this time.
+    `send`: a command in the words of teleop send.
     """
 
-    at: Any
+    model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [kind]} for kind in KINDS]})
+
+    at: Time
     camera: Literal["record", "stop", "shutter", "focus", "end_focus"] | None = None
     follow: Literal["lock", "pan", "sport"] | None = None
-    recenter: Any = None
+    recenter: Time = None
     send: str | None = None
 
     @property

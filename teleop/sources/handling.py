@@ -12,6 +12,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from teleop.section import Section
 from teleop.sources.times import seconds
+from teleop.sources.written import Time
 
 DEAD_ZONE = 0.06  # of a stick in a hand, when the profile has none
 EXPO = 0.4
@@ -59,4 +60,4 @@ def _positive_time(value: Any) -> float:
 class PresetsSection(Section):
     """`recall`: how long it takes to a preset, as a time is written (`3s`)."""
 
-    recall: Annotated[Any, AfterValidator(_positive_time)] = 3.0
+    recall: Annotated[Time, AfterValidator(_positive_time)] = 3.0

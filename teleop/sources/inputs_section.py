@@ -112,7 +112,7 @@ class InputSection(_MappedSection):
     pad: str | None = None
     enable: str | None = None
 
-    @field_validator("device", mode="before")
+    @field_validator("device", mode="before", json_schema_input_type=DeviceSection | Literal["any"])
     @classmethod
     def _any(cls, value: Any) -> Any:
         return {} if value == "any" else value

@@ -19,6 +19,7 @@ from teleop.motion import Axis, Limits
 from teleop.planner.waypoints import Key
 from teleop.section import Finite, Section
 from teleop.sources.times import percentage, seconds
+from teleop.sources.written import Percentage, Time
 
 WHERE = "panorama"
 MOST = 2000  # frames
@@ -40,13 +41,13 @@ class PanoramaSection(Section):
     """
 
     fov: Angles
-    overlap: Any = "30%"
+    overlap: Percentage = "30%"
     pan: Pair
     tilt: Pair
-    every: Any
-    settle: Any = 0.5
-    exposure: Any = 0.5
-    at: Any = 0
+    every: Time
+    settle: Time = 0.5
+    exposure: Time = 0.5
+    at: Time = 0
 
 
 class Grid(NamedTuple):

@@ -2,63 +2,91 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
+from teleop.motion import Axis
 from teleop.planner.repeat import Repeat
 from teleop.section import Finite, PositionsSection, Section
 from teleop.sources.cues import CueSection
 from teleop.sources.panorama import PanoramaSection
 from teleop.sources.timelapse_section import TimelapseSection
+from teleop.sources.written import Ease, Percentage, Time
 
 PREROLL = 0.5  # s at rest on the first keyframe before the start, unless the file says otherwise
 
 Deflection = Annotated[Finite, Field(ge=-1, le=1)]
 
 
-class Keyframe(PositionsSection):
-    """What stands in the file; `at`, `hold` and `ease` are as written, the axes' positions are in their units."""
+def one_of(*names: str) -> ConfigDict:
+    """For a section that needs one of these keys: what a schema is to say of it."""
+    return ConfigDict(json_schema_extra={"anyOf": [{"required": [name]} for name in names]})
 
-    at: Any
-    hold: Any = 0
+
+class Keyframe(PositionsSection):
+    """Where some axes are at a time; an axis that is not named has no key here.
+
+    `at`: when, from the start. `hold`: how long the axes stay. `pass`: through, or stop there. `ease`: the ramps to a
+    stop here and away from it. `pan`: deg, + is right. `tilt`: deg, + is up. `roll`: deg, + is clockwise seen from
+    behind the camera. `focus`: 0 (near) .. 1 (far). `stick_roll`, `stick_pitch`, `stick_throttle`, `stick_yaw`: a
+    drone's, -1..1, beginning and ending at 0.
+    """
+
+    model_config = one_of(*(axis.value for axis in Axis))
+
+    at: Time
+    hold: Time = 0
     focus: Annotated[Finite, Field(ge=0, le=1)] | None = None
     stick_roll: Deflection | None = None
     stick_pitch: Deflection | None = None
     stick_throttle: Deflection | None = None
     stick_yaw: Deflection | None = None
     pass_: Literal["through", "stop"] = Field("through", alias="pass")
-    ease: Any = None
+    ease: Ease = None
 
 
 class IncludeSection(Section):
-    """Another sequence, from `at` on; `move` is a shipped name, or a file beside this one. `speed`: how fast, 150%."""
+    """Another sequence within this one.
+
+    `move`: a shipped name, or a file beside this one. `at`: when it begins here. `speed`: how fast, 150%.
+    """
 
     move: Annotated[str, Field(min_length=1)]
-    at: Any
-    speed: Any = "100%"
+    at: Time
+    speed: Percentage = "100%"
 
 
 class RepeatSection(Section):
-    """`times` passes; a bounce counts the way there and the way back as two."""
+    """The keyframes over and over.
+
+    `times`: passes; a bounce counts the way there and the way back as two. `mode`: loop begins again where it ended,
+    bounce goes back.
+    """
 
     times: Annotated[int, Field(ge=1, le=10_000)]
     mode: Annotated[Repeat, Field(strict=False)]
 
 
 class SequenceSection(Section):
-    """`tension`: 0 is smoothest, 1 closest to constant speed between keys. `fit`: what is too fast is stretched.
+    """A camera move.
 
-    `ease`: the ramps at every stop that has none of its own. `preroll`: the rest on the first keyframe before the
-    start. `back_to_one`: at the end the axes go back to the first keyframe.
+    `title`: what it is called on the screen. `fps`: what frames and timecode are counted by. `tension`: 0 is smoothest,
+    1 closest to constant speed between keys. `ease`: the ramps at every stop that has none of its own. `fit`: what is
+    too fast for the rig is stretched. `preroll`: the rest on the first keyframe before the start. `back_to_one`: at the
+    end the axes go back to the first keyframe. `repeat`: the keyframes over and over. `timelapse`: the keyframes are in
+    frames of a timelapse. `keyframes`: where the axes are when. `panorama`: rows and columns of stills. `include`:
+    other sequences within this one. `cues`: what happens once, beside the motion.
     """
+
+    model_config = one_of("keyframes", "panorama", "include")
 
     title: str = ""
     fps: Annotated[float, Field(gt=0, le=1000)] | None = None
     tension: Annotated[float, Field(ge=0, le=1)] = 0.0
-    ease: Any = None
+    ease: Ease = None
     fit: Literal["stretch"] | None = None
-    preroll: Any = PREROLL
+    preroll: Time = PREROLL
     back_to_one: bool = False
     repeat: RepeatSection | None = None
     timelapse: TimelapseSection | None = None

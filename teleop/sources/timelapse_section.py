@@ -14,6 +14,7 @@ from pydantic import Field
 from teleop.document import Location, Wrong, mapping, number, sequence
 from teleop.section import Section
 from teleop.sources.times import frames, seconds
+from teleop.sources.written import Interval, Settle, Time
 
 MOST = 100_000  # frames: more than an hour of clip
 UNUSED = {
@@ -46,19 +47,21 @@ class TimelapseSection(Section):
     """`frames` are those of the move; `lead_in` and `lead_out` are still frames before and after it.
 
     `interval` is from one shutter to the next. `exposure` is how long the camera is really exposing, `post` how long it
-    must be left in peace after that. `camera_fault` is what a camera that refuses or does not answer is.
+    must be left in peace after that. `camera_fault` is what a camera that refuses or does not answer is. `mode` says
+    whether it stands still for each frame. `prefocus` is how long the focus gets before the shutter, `settle` how long
+    the gimbal gets to be still. `delay` is waited before the first frame.
     """
 
     frames: Annotated[int, Field(ge=1, le=MOST)]
-    interval: Any
+    interval: Interval
     mode: Literal["shoot-move-shoot", "continuous"] = "shoot-move-shoot"
-    exposure: Any
-    prefocus: Any = 0
-    post: Any = 0
-    settle: Any = 0.3
+    exposure: Time
+    prefocus: Time = 0
+    post: Time = 0
+    settle: Settle = 0.3
     lead_in: Count = 0
     lead_out: Count = 0
-    delay: Any = 0
+    delay: Time = 0
     camera_fault: Literal["stop", "go-on"] = "stop"
 
 

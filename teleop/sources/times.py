@@ -12,6 +12,11 @@ _PARTS = re.compile(r"(?:(\d+(?:\.\d+)?)h)?(?:(\d+(?:\.\d+)?)m)?(?:(\d+(?:\.\d+)
 _FRAMES = re.compile(r"(\d+)f")
 _TIMECODE = re.compile(r"(\d+):([0-5]\d):([0-5]\d):(\d+)")
 _PERCENT = re.compile(r"(\d{1,6}(?:\.\d{1,6})?)\s*%")
+TIME_WRITTEN = rf"^\s*(?=\S)({_PARTS.pattern}|{_FRAMES.pattern}|{_TIMECODE.pattern})\s*$"
+FRAMES_WRITTEN = rf"^\s*({_FRAMES.pattern})\s*$"
+PERCENTAGE_WRITTEN = rf"^\s*({_PERCENT.pattern})\s*$"
+"""What a schema calls a time, frames, a percentage."""
+
 _WRITTEN = "4, 4s, 1m30s, 96f or 00:00:04:00"
 
 

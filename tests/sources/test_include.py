@@ -61,7 +61,7 @@ def test_an_error_is_said_where_it_stands_and_where_that_was_included(tmp_path: 
     assert sorted(problems_of(tmp_path, text)) == sorted(
         [
             "shoot.yaml:3:12: include[1].move cannot be: none.yaml: no such file",
-            "shoot.yaml:4:36: include[2].speed must be 1% to 1000%",
+            "shoot.yaml:4:34: include[2].speed must be 1% to 1000%",
         ]
         + ["a.yaml:4:1: zoom is not known here" + by_a % line for line in (2, 4)]
         + ["b.yaml:3:10: keyframes[1].at must be after keyframes[0].at (1 s)" + by_b % line for line in (2, 4)]
