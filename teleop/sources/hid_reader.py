@@ -8,7 +8,7 @@ not take the same device.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from teleop.hid.descriptor import parse_descriptor
 from teleop.sources.hid_backend import DeviceInfo, HidBackend, HidDevice, described
@@ -87,7 +87,8 @@ class HidReader:
     ) -> None:
         self._section, self._backend, self._now, self._claims, self._mapped = section, backend, now, claims, mapped
         self.plugged: Plugged | None = None
-        self.last: DeviceInfo | None = None  # the device that was there, which alone is taken again
+        self.last: DeviceInfo | None = None  # the device that was there, which is taken again before any other
+        self._stayed: frozenset[bytes] | None = None  # what was plugged in when it was unplugged, and still is
         self.refused = ""
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"hid {section.device}", daemon=True)
@@ -119,7 +120,10 @@ class HidReader:
             self.refused = f"devices cannot be listed: {error}"
             return False
         self.refused = ""
-        return any(self._try(info) for info in wanted(self._section.device, found, self.last))
+        if self.last is not None:
+            there = frozenset(info.path for info in found)
+            self._stayed = there if self._stayed is None else self._stayed & there
+        return any(self._try(info) for info in wanted(self._section.device, found, self.last, self._stayed or ()))
 
     def _try(self, info: DeviceInfo) -> bool:
         """Read this device until it is gone, unless another reader has it; whether it could be read."""
@@ -143,7 +147,7 @@ class HidReader:
                 self.refused = f"{described(info)} cannot be used: {chosen.unreadable}"
                 return False
             plugged = Plugged(info, state, chosen, self._mapped(chosen, state))
-            self.plugged, self.last, self.refused = plugged, info, ""
+            self.plugged, self.last, self._stayed, self.refused = plugged, info, None, ""
             self._read(device, plugged)
         except OSError:  # unplugged
             return self.plugged is not None
@@ -161,22 +165,30 @@ class HidReader:
                 plugged.ask(device, self._now)
 
 
-def wanted(device: DeviceSection, found: Sequence[DeviceInfo], last: DeviceInfo | None) -> Sequence[DeviceInfo]:
-    """The devices that `device` may stand for, the best first; after an unplugging only those like the `last` one.
+def wanted(
+    device: DeviceSection, found: Sequence[DeviceInfo], last: DeviceInfo | None, stayed: Collection[bytes] = ()
+) -> Sequence[DeviceInfo]:
+    """The devices that `device` may stand for, the best first.
 
-    A keyboard or a mouse is taken only where its ids are asked for, anything else that is no joystick and no known pad
-    where its name is.
+    After an unplugging that is the `last` one, then its like, then a spare that somebody has plugged in since: another
+    model that had been there all along (`stayed`, by path) was not meant. A keyboard or a mouse is taken only where its
+    ids are asked for, anything else that is no joystick and no known pad where its name is.
     """
     fitting = [info for info in found if fits(device, info) and (device.vendor is not None or _for_hands(device, info))]
     if last is not None:
-        fitting = [info for info in fitting if (info.vendor_id, info.product_id) == (last.vendor_id, last.product_id)]
-    serial = last.serial if last is not None else ""
+        fitting = [info for info in fitting if _alike(info, last) or info.path not in stayed]
 
-    def rank(info: DeviceInfo) -> tuple[bool, bool, bool, bytes]:
+    def rank(info: DeviceInfo) -> tuple[bool, bool, bool, bool, bytes]:
         usage = (info.usage_page, info.usage)
-        return info.serial != serial, usage not in STICKS, usage in _OTHER_HANDS, info.path
+        other = last is not None and not _alike(info, last)
+        serial = last.serial if last is not None else ""
+        return other, info.serial != serial, usage not in STICKS, usage in _OTHER_HANDS, info.path
 
     return sorted(fitting, key=rank)
+
+
+def _alike(one: DeviceInfo, two: DeviceInfo) -> bool:
+    return (one.vendor_id, one.product_id) == (two.vendor_id, two.product_id)
 
 
 def _for_hands(device: DeviceSection, info: DeviceInfo) -> bool:

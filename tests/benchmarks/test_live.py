@@ -21,12 +21,12 @@ import pytest
 from live_bench import REST, RIGHT, Bench, Hand, bench, percentile, rss
 from waiting import wait_until
 
-from teleop.cli.doctor import sleep_late
+from teleop.cli.doctor_timing import sleep_late
 from teleop.clock import SystemClock, VirtualClock
 from teleop.loop import PERIOD
 from teleop.motion import Tick
 
-_BARE = "import sys; from teleop.cli.doctor import sleep_late; print(*sleep_late(int(sys.argv[1])))"
+_BARE = "import sys; from teleop.cli.doctor_timing import sleep_late; print(*sleep_late(int(sys.argv[1])))"
 
 
 @pytest.fixture

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from command import teleop
 
-from teleop.cli import devices, doctor, run
-from teleop.cli.doctor import Finding, State
+from teleop.cli import devices, doctor, doctor_devices, doctor_machine, doctor_timing, run
+from teleop.cli.doctor_finding import Finding, State
 
 PAD = "DRIVER=xpadneo\nHID_ID=0005:0000045E:00000B13\nHID_NAME=Xbox Wireless Controller\n"
 PAD_DESCRIPTOR = b"\x05\x01\x09\x05\xa1\x01"
@@ -53,9 +53,9 @@ def test_a_pad_that_may_not_be_opened_gets_its_udev_rule_exactly(
     plugged(tmp_path, "hidraw0", PAD, PAD_DESCRIPTOR)
     plugged(tmp_path, "hidraw1", PAD.replace("0B13", "0001"), KEYBOARD_DESCRIPTOR)
     plugged(tmp_path, "hidraw2", "nonsense", PAD_DESCRIPTOR)
-    monkeypatch.setattr(doctor, "HIDRAW", tmp_path)
+    monkeypatch.setattr(doctor_devices, "HIDRAW", tmp_path)
     forbid(monkeypatch, "/dev/hidraw0", "/dev/hidraw1", "/dev/hidraw2")
-    [finding] = doctor.hid()
+    [finding] = doctor_devices.hid()
     assert (finding.state, finding.found) == (State.PROBLEM, "no permission to open /dev/hidraw0")
     doctor._print([finding])
     assert capsys.readouterr().out.splitlines() == [
@@ -72,9 +72,9 @@ def test_a_serial_port_that_may_not_be_opened_gets_a_rule_and_one_on_the_board_d
     for name in ("ttyACM0", "ttyS0"):
         (tmp_path / name / "device/driver").mkdir(parents=True)
     (tmp_path / "ttyUSB7").mkdir()
-    monkeypatch.setattr(doctor, "SERIAL", tmp_path)
+    monkeypatch.setattr(doctor_devices, "SERIAL", tmp_path)
     forbid(monkeypatch, "/dev/ttyACM0", "/dev/ttyS0")
-    [finding] = doctor.serial()
+    [finding] = doctor_devices.serial()
     assert (finding.state, finding.found) == (State.PROBLEM, "no permission to open /dev/ttyACM0")
     assert finding.rules == [
         'SUBSYSTEM=="tty", KERNEL=="ttyACM*|ttyUSB*", MODE="0660", GROUP="dialout", TAG+="uaccess"'
@@ -84,9 +84,9 @@ def test_a_serial_port_that_may_not_be_opened_gets_a_rule_and_one_on_the_board_d
 def test_a_can_interface_that_is_down_says_how_to_start_it(monkeypatch: pytest.MonkeyPatch) -> None:
     down = devices.Device("can", ("socketcan:can0",), "down: sudo ip link set can0 up type can bitrate 1000000")
     up = devices.Device("can", ("socketcan:can1",), "up")
-    monkeypatch.setattr(doctor, "kernel_can", lambda: devices.Listing([down, up]))
-    monkeypatch.setattr(doctor, "vendor_can", lambda: devices.Listing(notes=["CAN: no answer"]))
-    assert [(each.state, each.found, each.todo) for each in doctor.can_adapters()] == [
+    monkeypatch.setattr(doctor_devices, "kernel_can", lambda: devices.Listing([down, up]))
+    monkeypatch.setattr(doctor_devices, "vendor_can", lambda: devices.Listing(notes=["CAN: no answer"]))
+    assert [(each.state, each.found, each.todo) for each in doctor_devices.can_adapters()] == [
         (State.PROBLEM, "socketcan:can0 is down", "sudo ip link set can0 up type can bitrate 1000000"),
         (State.OK, "socketcan:can1 (up)", ""),
         (State.NOTE, "CAN: no answer", ""),
@@ -101,15 +101,15 @@ def test_lateness_is_judged_by_the_tick(late: float, state: State, monkeypatch: 
         asked.append(ticks)
         return [0.0001] * (ticks - 5) + [late] * 5
 
-    monkeypatch.setattr(doctor, "sleep_late", slept)
-    [finding] = doctor.lateness()
+    monkeypatch.setattr(doctor_timing, "sleep_late", slept)
+    [finding] = doctor_timing.lateness()
     assert asked == [200]
     assert finding.state is state
     assert f"0.10 / {1000 * late:.2f} / {1000 * late:.2f} ms late" in finding.found
 
 
 def test_lateness_is_measured_against_a_grid() -> None:
-    late = doctor.sleep_late(5)
+    late = doctor_timing.sleep_late(5)
     assert len(late) == 5
     assert all(0 <= each < 5 for each in late)
 
@@ -120,10 +120,10 @@ def test_real_time_that_is_not_permitted_is_left_as_it_was_and_said(monkeypatch:
     def refuse(*_arguments: object) -> None:
         raise PermissionError
 
-    list(doctor.scheduling())
+    list(doctor_timing.scheduling())
     assert os.sched_getscheduler(0) == before
     monkeypatch.setattr(os, "sched_setscheduler", refuse)
-    first, *_ = doctor.scheduling()
+    first, *_ = doctor_timing.scheduling()
     assert first.state is State.NOTE
     assert "rtprio 50' | sudo tee /etc/security/limits.d/teleop.conf" in first.todo
 
@@ -131,7 +131,7 @@ def test_real_time_that_is_not_permitted_is_left_as_it_was_and_said(monkeypatch:
 def test_a_full_disk_is_a_problem_but_stops_no_run(monkeypatch: pytest.MonkeyPatch) -> None:
     usage = type(shutil.disk_usage("."))(total=10**12, used=10**12, free=10**6)
     monkeypatch.setattr(shutil, "disk_usage", lambda _path: usage)
-    [finding] = doctor.disk()
+    [finding] = doctor_machine.disk()
     assert (finding.state, finding.found.split(" for")[0]) == (State.PROBLEM, "0.0 GB free")
 
 
@@ -139,8 +139,8 @@ def test_a_full_disk_is_a_problem_but_stops_no_run(monkeypatch: pytest.MonkeyPat
 def test_only_what_makes_every_run_impossible_is_a_failure(
     package: str, code: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setitem(doctor.PACKAGES, package, "no_such_module")
-    monkeypatch.setattr(doctor, "CHECKS", (doctor.packages,))
+    monkeypatch.setitem(doctor_machine.PACKAGES, package, "no_such_module")
+    monkeypatch.setattr(doctor, "CHECKS", (doctor_machine.packages,))
     assert run(["doctor"]) == code
     said = capsys.readouterr().out
     assert f"packages   {package}: No module named 'no_such_module': pip install" in said
@@ -151,6 +151,8 @@ def test_only_what_makes_every_run_impossible_is_a_failure(
 
 def test_a_problem_is_one_line() -> None:
     assert all(
-        "\n" not in each.found + each.todo for check in (doctor.hid, doctor.serial, doctor.disk) for each in check()
+        "\n" not in each.found + each.todo
+        for check in (doctor_devices.hid, doctor_devices.serial, doctor_machine.disk)
+        for each in check()
     )
-    assert isinstance(next(doctor.python()), Finding)
+    assert isinstance(next(doctor_machine.python()), Finding)

@@ -129,17 +129,42 @@ def test_unplugged_in_mid_pan_it_says_so_and_when_it_is_back_its_centre_is_found
         hand.until(lambda held: pan(held) == 1)
 
 
-def test_after_an_unplugging_the_same_is_wanted_then_its_like_and_no_other() -> None:
+def test_after_an_unplugging_the_same_is_wanted_then_its_like_then_what_was_plugged_in_since() -> None:
     was = f310(serial="A").info
     like = f310(serial="B", path=b"1").info
     same = f310(serial="A", path=b"2").info
     other = f310(ids=(0x046D, 0xC219), path=b"0").info
     found = [other, like, same]
     assert list(hid_reader.wanted(DeviceSection(), found, None)) == [other, like, same]
-    assert list(hid_reader.wanted(DeviceSection(), found, was)) == [same, like]
+    assert list(hid_reader.wanted(DeviceSection(), found, was)) == [same, like, other]
+    assert list(hid_reader.wanted(DeviceSection(), found, was, {b"0"})) == [same, like]
+    named = DeviceSection.model_validate({"vendor": 0x046D, "product": F310["product_id"]})
+    assert list(hid_reader.wanted(named, found, was)) == [same, like]
 
 
-def test_another_model_does_not_take_its_place() -> None:
+def test_a_spare_of_another_model_that_is_plugged_in_afterwards_takes_its_place_and_is_centred_first() -> None:
+    pad, spare = f310(), f310(ids=(0x046D, 0xC219), name="Spare", path=b"/dev/hidraw1")
+    backend = FakeBackend(pad)
+    with in_hand(backend, {"device": "any", "enable": "Button 5"}) as hand:
+        hand.settle(pad)
+        backend.unplug(pad)
+        hand.until_trouble("Logitech Dual Action: unplugged")
+        looks = backend.looks
+        wait_until(lambda: backend.looks > looks + 3)
+        backend.plug(spare)
+        spare.told(RIGHT)
+        hand.until_trouble("Spare: is finding its centre: let it go")
+        hand.settle(spare)
+        assert hand.read().enabled is False
+        spare.told(RIGHT)
+        hand.until(lambda held: pan(held) == 1)
+        backend.plug(again := f310())
+        backend.unplug(spare)
+        hand.until_trouble("Spare: unplugged")
+        assert again.opened == 0
+
+
+def test_another_model_that_had_been_there_all_along_does_not_take_its_place() -> None:
     pad, other = f310(), f310(ids=(0x046D, 0xC219), path=b"/dev/hidraw1")
     backend = FakeBackend(pad)
     with in_hand(backend) as hand:
