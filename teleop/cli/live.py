@@ -6,7 +6,6 @@ goes through the `Operator`; what is recorded then drives the axes that no hand 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
@@ -14,21 +13,17 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from teleop.cli.display import Display
+from teleop.cli.hands import open_devices
 from teleop.cli.live_view import LiveView
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.perform import commands, perform
 from teleop.cli.play import Fast, Take, the_clock
 from teleop.motion import Axis
-from teleop.ports import Clock, DeviceError, Sink, UsageError
+from teleop.ports import Sink, UsageError
 from teleop.profile import Profile
 from teleop.rig import open_rig
 from teleop.sinks.recorder import recording
 from teleop.sinks.tally import Tally
-from teleop.sources.hid_backend import Hidapi
-from teleop.sources.hid_input import open_inputs
-from teleop.sources.hid_reader import wanted
-from teleop.sources.inputs import Input
-from teleop.sources.inputs_section import DeviceSection
 from teleop.sources.keyboard import Keyboard, terminal
 from teleop.sources.operator import Operator
 from teleop.sources.presets import default_file, read_presets
@@ -66,7 +61,7 @@ def live(
         with recording(take, profile.name, title, limits, patient=fast) as recorder, open_rig(profile, clock) as rig:
             return perform(rig, axes, [replay], tally, display, options.json, recorder)
     with ExitStack() as stack:
-        inputs, note = _open_devices(stack, profile, clock, keyboard is not None)
+        inputs, note = open_devices(stack, profile, clock, keyboard is not None, NOBODY)
         shelf = read_presets(presets or default_file(profile.name), limits, profile.name)
         stack.callback(shelf.close)
         hands = [*inputs, *([] if keyboard is None else [keyboard])]
@@ -97,24 +92,6 @@ def _keyboard() -> Keyboard | None:
     """The keys of the terminal that this was started on, if there is one."""
     descriptor = terminal()
     return None if descriptor is None else Keyboard(descriptor)
-
-
-def _open_devices(stack: ExitStack, profile: Profile, clock: Clock, keys: bool) -> tuple[Sequence[Input], str]:
-    """The joysticks and dials of the profile, open until the stack is left, and what is to be said of them.
-
-    Raises UsageError when nothing is there that could move anything, DeviceError when what the profile names cannot be.
-    """
-    try:
-        backend = Hidapi()
-    except DeviceError as error:
-        if profile.inputs or not keys:
-            raise
-        return [], str(error)
-    if not keys and not profile.inputs and not wanted(DeviceSection(), backend.enumerate(), None):
-        raise UsageError(NOBODY)
-    shaping = profile.sticks
-    opened = open_inputs(profile.inputs, clock.now, backend, dead_zone=shaping.dead_zone, expo=shaping.expo)
-    return stack.enter_context(opened), ""
 
 
 def _learn(profile: Profile) -> int:

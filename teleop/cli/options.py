@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from teleop.document import DocumentError
+from teleop.document import DocumentError, UnplayableError
 from teleop.profile import Profile, load_profile
 from teleop.sinks.recorder import ENDING
 
@@ -42,11 +42,12 @@ class Options:
             links[name] = url
         return load_profile(self.rig, links)
 
-    def compiled(self, file: str) -> tuple[Profile, Performance, Timelapse | None]:
+    def compiled(self, file: str, share: float = 1.0) -> tuple[Profile, Performance, Timelapse | None]:
         """The sequence or take called `file`, compiled for the rig, its warnings said.
 
-        Of a timelapse, which is handed out too, it is the rehearsal, whose warnings are left to whoever rehearses.
-        Raises DocumentError, and with --json prints it.
+        `share` is what it may have of the rig's velocity, acceleration and jerk. Of a timelapse, which is handed out
+        too, it is the rehearsal, whose warnings are left to whoever rehearses. Raises DocumentError, and with --json
+        prints it.
         """
         from teleop.sources.sequence_file import load_performance  # the planner's solver takes 0.3 s to load
         from teleop.sources.timelapse_file import load_timelapse
@@ -54,19 +55,22 @@ class Options:
         timelapse = None
         try:
             profile = self.profile()
+            limits = {axis: of_axis.scaled(share) for axis, of_axis in profile.limits.items()}
             if is_take(file):
                 from teleop.takes.repeat import take_performance
 
-                performance = take_performance(Path(file), profile.limits, profile.name)
-            elif timelapse := load_timelapse(file, profile.limits, profile.name):
+                performance = take_performance(Path(file), limits, profile.name)
+            elif timelapse := load_timelapse(file, limits, profile.name):
                 performance = timelapse.rehearsal()
             else:
                 devices = [sink.type for sink in profile.sinks]
-                performance = load_performance(file, profile.limits, profile.name, devices)
+                performance = load_performance(file, limits, profile.name, devices)
         except DocumentError as error:
+            if share < 1 and isinstance(error, UnplayableError):
+                error = UnplayableError([*error.problems, f"{file}: was planned with {share:.0%} of the rig's limits"])
             if self.json:
                 print(json.dumps({"ok": False, "problems": error.problems}))
-            raise
+            raise error from None
         warn(performance if timelapse is None else timelapse)
         return profile, performance, timelapse
 

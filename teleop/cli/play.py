@@ -3,32 +3,29 @@
 from __future__ import annotations
 
 import math
-import sys
-from contextlib import ExitStack
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.display import Display
 from teleop.cli.options import DEFAULTS, Options, is_take, warn
-from teleop.cli.passes import PassesReport
-from teleop.cli.perform import Extra, commands, perform
+from teleop.cli.sequence_run import SequenceRun
 from teleop.cli.staging_options import NO_STAGING, StagingOptions
+from teleop.cli.trim_options import NO_TRIM, TrimOptions
 from teleop.clock import SystemClock, VirtualClock
 from teleop.document import DocumentError
 from teleop.links import parse
+from teleop.motion import Axis
 from teleop.planner.findings import PlanError
+from teleop.planner.trim import sequence_limits
 from teleop.planner.warp import NoRunUp
-from teleop.ports import Sink, UsageError
+from teleop.ports import UsageError
 from teleop.profile import Profile
-from teleop.rig import open_rig
-from teleop.sinks.recorder import recording
-from teleop.sinks.repeatability import Repeatability
-from teleop.sinks.tally import Tally
-from teleop.sources.conductor import Conductor, PlayKeys
 from teleop.sources.keyboard import Keyboard, terminal
+from teleop.sources.play_keys import KEYS, TRIM_KEYS, PlayKeys
 from teleop.sources.sequence import SequenceSource
+from teleop.sources.trimmed_file import TrimmedFile
 
 Fast = Annotated[
     bool,
@@ -48,58 +45,44 @@ def play(
     rehearse: Annotated[
         bool, Parameter(help="A timelapse's move at its clip's speed, no shutter.", negative=(), show_default=False)
     ] = False,
+    trim: TrimOptions = NO_TRIM,
     fast: Fast = False,
     take: Take = None,
     options: Options = DEFAULTS,
 ) -> int:
     """Play a sequence: ease to its first keyframe, then the move, then say how well the rig followed."""
-    profile, performance, timelapse = options.compiled(file)
+    left = trim.left
+    profile, performance, timelapse = options.compiled(file, left)
     if timelapse is not None:
         if not rehearse:
             raise UsageError(f"{file} is a timelapse: --rehearse plays its move")
         warn(performance)
-    title, limits = performance.title, {axis: profile.limits[axis] for axis in performance.move.tracks}
+    axes = list(performance.move.tracks)
+    trimmed = None if trim.trim_out is None else _trimmed(file, trim.trim_out, axes, profile)
     if is_take(file):
         from teleop.takes.repeat import followable
 
         profile = followable(profile)
     clock = the_clock(fast, profile)
-    rate = percentage("--speed", speed)
-    stage = staging.staging(performance)
+    if trim.trim and fast:
+        raise UsageError("--trim: a hand keeps its own time; leave out --fast")
+    rate, stage = percentage("--speed", speed), staging.staging(performance)
     try:
-        source = SequenceSource(performance, profile.limits, rate, staging=stage)
+        source = SequenceSource(performance, sequence_limits(profile.limits, left), rate, staging=stage)
     except NoRunUp as error:
         raise DocumentError([f"--start-at {staging.start_at}: {error}"]) from None
     except PlanError as error:
         raise DocumentError([f"--speed {speed}: {error}"]) from None
     descriptor = None if fast else terminal()
-    keys = None if descriptor is None else Keyboard(descriptor, PlayKeys())
-    conductor = None if keys is None else Conductor(source, keys)
-    display = Display(
-        title,
-        lambda: source.begin,
-        performance.duration,
-        options.json,
-        source.playback.time,
-        conductor and (lambda: conductor.note),
-        source.said,
-    )
-    with ExitStack() as stack:
-        recorder = stack.enter_context(recording(take, profile.name, title, limits, patient=fast))
-        rig = stack.enter_context(open_rig(profile, clock))
-        said: list[str] = []
-        stack.callback(lambda: print(*said, sep="\n", end="\n" if said else "", file=sys.stderr))
-        watchers: list[Sink] = [*commands(rig, said.append)]
-        if keys is not None and conductor is not None:
-            watchers += [stack.enter_context(keys), conductor]
-        tally = Tally(lambda: source.begin)
-        extras: list[Extra] = []
-        if stage.compared:
-            repeatability = Repeatability(source.place)
-            watchers.append(repeatability)
-            extras.append(PassesReport(repeatability))
-        axes, sources = list(limits), [conductor or source]
-        return perform(rig, axes, sources, tally, display, options.json, recorder, watchers, extras)
+    keys = None if descriptor is None else Keyboard(descriptor, PlayKeys(TRIM_KEYS if trim.trim else KEYS))
+    run = SequenceRun(profile, performance, source, clock, keys, left, trimmed, take, options.json, patient=fast)
+    return run.perform()
+
+
+def _trimmed(file: str, target: Path, axes: Sequence[Axis], profile: Profile) -> TrimmedFile:
+    if is_take(file):
+        raise UsageError("--trim-out: a take has no keys to move")
+    return TrimmedFile(file, target, axes, profile.limits)
 
 
 def percentage(option: str, text: str) -> float:

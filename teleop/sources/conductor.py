@@ -1,31 +1,42 @@
-"""A sequence with a hand on it: pause, resume, faster, slower, from key to key, go, and stop, while it plays.
+"""A sequence with a hand on it: pause, resume, faster, slower, from key to key, go, stop and trim, while it plays.
 
-The keys only ask; what becomes of it, and when, is the playback's. A stop ends the run, as fast as the axes may: off
-the path there is nothing to go on with. The conductor also looks on as a sink, because only what is raised there ends
-a run without losing a tick.
+The keys only ask; what becomes of it, and when, is the playback's, and where an axis is trimmed to, `Trimming`'s. A
+stop, and the e-stop of any device, ends the run as fast as the axes may: off the path there is nothing to go on with.
+The conductor also looks on as a sink, because only what is raised there ends a run without losing a tick.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
-from teleop.motion import Act, Demand, Halt, Motion, Tick
+from teleop.motion import Act, Demand, Follow, Halt, Motion, State, Tick
 from teleop.ports import Interrupted
 from teleop.sources.inputs import Command, Input, Press
 from teleop.sources.sequence import Phase, SequenceSource
+from teleop.sources.trimming import Trimming
 
 PACE = 0.1  # of the written speed, by which a key changes it
 LOOK = 0.05  # s between two looks at the keys while nothing moves
 HELP = "space pause  - + speed  < > key  q stop"
 ARMED_HELP = "enter starts it now  q stop"
+TRIM_HELP = "arrows hjkl [ ] ( ) trim  v its speed  z to 0  w write"
 
 
 class Conductor:
-    """`sequence` under `keys`, an input whose presses count and nothing else of it."""
+    """`sequence` under `keys`, None for no terminal, and the hands of `trimming`, of which the keys are one.
 
-    def __init__(self, sequence: SequenceSource, keys: Input) -> None:
-        self._sequence, self._keys = sequence, keys
+    `keep` is called for the trim to be written as it is now, and answers what is to be said of that.
+    """
+
+    def __init__(
+        self,
+        sequence: SequenceSource,
+        keys: Input | None,
+        trimming: Trimming | None = None,
+        keep: Callable[[], str] | None = None,
+    ) -> None:
+        self._sequence, self._keys, self._trimming, self._keep = sequence, keys, trimming, keep
         self._note = self._stopped = ""
         playback = sequence.playback
         self._asked: Mapping[Command, Callable[[float], None]] = {
@@ -38,25 +49,28 @@ class Conductor:
 
     @property
     def note(self) -> str:
-        """What the operator is to know now, in a line."""
-        if self._sequence.phase is Phase.ARMED:
-            return ARMED_HELP
+        """What the operator is to know now, in a line or two."""
         playback = self._sequence.playback
         pace = "paused" if playback.paused else f"{playback.chosen:.0%}"
-        return playback.refusal or self._note or f"{pace}  {HELP}"
+        line = f"{pace}  {HELP}" if self._sequence.phase is not Phase.ARMED else ARMED_HELP
+        line = playback.refusal or self._note or (line if self._keys else "no terminal: Ctrl-C stops")
+        return line if self._trimming is None else f"{line}\n{self._trim_note(self._trimming)}"
 
     def start(self, now: float, motion: Motion) -> None:
         self._sequence.start(now, motion)
 
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
-        for press in self._keys.read(now).presses:
-            self._obey(press, now)
+        self._hear(now)
         demand, acts = self._sequence.read(now)
+        if self._trimming:
+            demand = self._trimmed(self._trimming, demand)
         return (dict.fromkeys(demand, Halt()), ()) if self._stopped else (demand, acts)
 
     def next_change(self, now: float) -> float:
         change = self._sequence.next_change(now)
-        return change if math.isinf(change) else min(change, now + LOOK)
+        if math.isinf(change):
+            return change
+        return now if self._trimming else min(change, now + LOOK)
 
     def write(self, tick: Tick) -> None:  # noqa: ARG002 - only whether the run is to end
         """Raises Interrupted once it has been stopped."""
@@ -66,16 +80,62 @@ class Conductor:
     def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
         return None
 
+    def _hear(self, now: float) -> None:
+        if self._trimming is None:
+            for press in self._keys.read(now).presses if self._keys else ():
+                self._obey(press, now)
+            return
+        for name, press in self._trimming.read(now):
+            if not self._turn_trim(self._trimming, name, press):
+                self._obey(press, now)
+
     def _obey(self, press: Press, now: float) -> None:
         self._note = ""
         if press.command is Command.QUIT:
-            self._stopped = f"stopped by {self._keys.name}"
+            self._stopped = self._stopped or f"stopped by {self._keys.name if self._keys else 'hand'}"
         elif press.command is Command.GO:
             self._sequence.go()
+        elif press.command not in self._asked:
+            self._note = f"{press.command}: not while a sequence is played"
         elif self._sequence.phase is not Phase.PLAYING:
             self._note = "the move has not begun"
-        elif press.command in self._asked:
+        else:
             self._asked[press.command](now)
+
+    def _turn_trim(self, trimming: Trimming, name: str, press: Press) -> bool:
+        """Whether it was for the trim. On a device, slower and faster are; the keys have them for the move."""
+        by_keys = self._keys is not None and name == self._keys.name
+        match press.command:
+            case Command.STOP:
+                self._stopped = f"E-STOP by {name}"
+            case Command.RECENTER:
+                trimming.release(name)
+            case Command.RANGE:
+                trimming.change_range(1, around=True)
+            case Command.SLOWER | Command.FASTER if not by_keys:
+                trimming.change_range(1 if press.command is Command.FASTER else -1)
+            case Command.KEEP:
+                self._note = self._keep() if self._keep else "there is no --trim-out to write the trim to"
+            case _:
+                return False
+        return True
+
+    def _trimmed(self, trimming: Trimming, demand: Demand) -> Demand:
+        states = {axis: State(*wish) for axis, wish in demand.items() if isinstance(wish, Follow)}
+        return {axis: Follow(*state) for axis, state in trimming.step(states, self._trims).items()}
+
+    @property
+    def _trims(self) -> bool:
+        """Not on the way to the first start, nor once all is over."""
+        phase = self._sequence.phase
+        return phase is not Phase.OVER and not (phase is Phase.EASING and self._sequence.number == 1)
+
+    def _trim_note(self, trimming: Trimming) -> str:
+        said = f"  {trimming.messages[0].text}" if trimming.messages else ""
+        if not self._trims:
+            return f"the trim waits until the rig is in place{said}\n{TRIM_HELP}"
+        offsets = "  ".join(f"{axis} {round(o.position, 3) + 0.0:+.3f}" for axis, o in trimming.offsets.items())
+        return f"trim at {trimming.share:.0%}  {offsets}{said}\n{TRIM_HELP}"
 
     def _pause(self, now: float) -> None:
         playback = self._sequence.playback
@@ -85,45 +145,3 @@ class Conductor:
         playback = self._sequence.playback
         faster = max(PACE, round(playback.chosen / PACE) * PACE + share)
         playback.speed(min(faster, playback.at_most) if faster > playback.chosen else faster, now)
-
-
-class PlayKeys:
-    """From what a terminal sends to what is asked of a sequence; the shape that `Keyboard` wants of its reader."""
-
-    question = ""
-    helping = False
-
-    def __init__(self) -> None:
-        self._begun = ""
-
-    @property
-    def is_waiting(self) -> bool:
-        return bool(self._begun)
-
-    def settle(self) -> None:
-        self._begun = ""
-
-    def feed(self, text: str) -> Iterator[Press]:
-        text = self._begun + text
-        self._begun = ""
-        while text:
-            key = next((key for key in KEYS if text.startswith(key)), "")
-            if not key and any(known.startswith(text) for known in KEYS):
-                self._begun = text
-                return
-            if key:
-                yield KEYS[key]
-            text = text[len(key) or 1 :]
-
-
-KEYS: Mapping[str, Press] = {
-    " ": Press(Command.PAUSE),
-    "p": Press(Command.PAUSE),
-    "-": Press(Command.SLOWER),
-    "+": Press(Command.FASTER),
-    "=": Press(Command.FASTER),
-    **dict.fromkeys((">", "\x1b[C", "\x1bOC"), Press(Command.NEXT)),
-    **dict.fromkeys(("<", "\x1b[D", "\x1bOD"), Press(Command.PREVIOUS)),
-    **dict.fromkeys(("\n", "\r", "g"), Press(Command.GO)),
-    "q": Press(Command.QUIT),
-}

@@ -26,8 +26,8 @@ class Step(NamedTuple):
 
 Act = Press | Step
 
-_ARROWS = {"A": (Axis.TILT, 1), "B": (Axis.TILT, -1), "C": (Axis.PAN, 1), "D": (Axis.PAN, -1)}
-_MODIFIED = {2: 10.0, 5: 0.1}  # xterm's shift and control: deg
+ARROWS = {"A": (Axis.TILT, 1), "B": (Axis.TILT, -1), "C": (Axis.PAN, 1), "D": (Axis.PAN, -1)}
+MODIFIED = {2: 10.0, 5: 0.1}  # xterm's shift and control: deg
 _LETTERS = {"k": "A", "j": "B", "l": "C", "h": "D"}  # fine, or with shift coarse, where a terminal keeps such arrows
 FOLLOW_MODES: Mapping[str, str] = {"l": "lock", "y": "yaw", "s": "sport"}
 
@@ -50,8 +50,8 @@ KEYS: Mapping[str, Act] = {
     "<": Step(Axis.ROLL, -1.0),
     ">": Step(Axis.ROLL, 1.0),
     **{str(digit): Press(Command.RECALL, digit) for digit in range(10)},
-    **{key: Step(_ARROWS[arrow][0], 0.1 * _ARROWS[arrow][1]) for key, arrow in _LETTERS.items()},
-    **{key.upper(): Step(_ARROWS[arrow][0], 10.0 * _ARROWS[arrow][1]) for key, arrow in _LETTERS.items()},
+    **{key: Step(ARROWS[arrow][0], 0.1 * ARROWS[arrow][1]) for key, arrow in _LETTERS.items()},
+    **{key.upper(): Step(ARROWS[arrow][0], 10.0 * ARROWS[arrow][1]) for key, arrow in _LETTERS.items()},
 }
 
 PREFIXES: Mapping[str, tuple[str, Mapping[str, Act]]] = {
@@ -141,8 +141,8 @@ class KeyReader:
 
 def _arrow(match: re.Match[str]) -> Iterator[Act]:
     """What an arrow asks for: xterm says its modifier as the second parameter."""
-    if match["final"] not in _ARROWS:
+    if match["final"] not in ARROWS:
         return
-    axis, sign = _ARROWS[match["final"]]
+    axis, sign = ARROWS[match["final"]]
     modifier = (match["parameters"] or "").partition(";")[2]
-    yield Step(axis, sign * _MODIFIED.get(int(modifier), 1.0) if modifier.isdecimal() else float(sign))
+    yield Step(axis, sign * MODIFIED.get(int(modifier), 1.0) if modifier.isdecimal() else float(sign))

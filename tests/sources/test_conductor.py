@@ -6,7 +6,7 @@ from at_once import AtOnce
 from teleop.motion import Axis, Follow, Halt, Limits, State, Tick
 from teleop.planner.keyframes import Key, plan
 from teleop.ports import Interrupted
-from teleop.sources.conductor import HELP, Conductor, PlayKeys
+from teleop.sources.conductor import HELP, Conductor
 from teleop.sources.inputs import Command, Held, Press
 from teleop.sources.sequence import SequenceSource
 from teleop.sources.sequence_file import Performance
@@ -136,15 +136,3 @@ def test_go_is_for_a_move_that_waits_and_means_nothing_else():
     show.run(1)
     show.press(GO)
     assert show.conductor.note == f"100%  {HELP}"
-
-
-def test_keys_as_a_terminal_sends_them_whole_and_in_pieces():
-    reader = PlayKeys()
-    assert list(reader.feed("q\ng\r")) == [QUIT, GO, GO, GO]
-    assert list(reader.feed("x +\x1b[C<")) == [PAUSE, FASTER, NEXT, PREVIOUS]
-    assert list(reader.feed("\x1b[")) == []
-    assert reader.is_waiting
-    assert list(reader.feed("D-")) == [PREVIOUS, SLOWER]
-    assert list(reader.feed("\x1b")) == []
-    reader.settle()
-    assert list(reader.feed("p")) == [PAUSE]

@@ -1,0 +1,99 @@
+"""A performance on a rig: under the keys and the hands that there are, shown, recorded and reported."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+from teleop.cli.display import Display
+from teleop.cli.hands import open_devices
+from teleop.cli.passes import PassesReport
+from teleop.cli.perform import Extra, commands, perform
+from teleop.cli.trim_options import TrimReport
+from teleop.motion import Axis
+from teleop.planner.trim import trim_limits
+from teleop.ports import Clock, Sink
+from teleop.profile import Profile
+from teleop.rig import Rig, open_rig
+from teleop.sinks.recorder import recording
+from teleop.sinks.repeatability import Repeatability
+from teleop.sinks.tally import Tally
+from teleop.sources.conductor import Conductor
+from teleop.sources.inputs import Input
+from teleop.sources.keyboard import Keyboard
+from teleop.sources.sequence import SequenceSource
+from teleop.sources.sequence_file import Performance
+from teleop.sources.trimmed_file import TrimmedFile
+from teleop.sources.trimming import Trimming
+
+NOBODY = "play --trim: there is no joystick, and no terminal for its keys: plug one in, or run it on a terminal"
+
+
+@dataclass(frozen=True)
+class SequenceRun:
+    """`left` is the share of the rig's limits that the source keeps to: less than 1 leaves the rest to a trim."""
+
+    profile: Profile
+    performance: Performance
+    source: SequenceSource
+    clock: Clock
+    keys: Keyboard | None
+    left: float = 1.0
+    trimmed: TrimmedFile | None = None
+    take: Path | None = None
+    as_json: bool = False
+    patient: bool = False
+
+    def perform(self) -> int:
+        """The exit code."""
+        source, profile, axes = self.source, self.profile, list(self.performance.move.tracks)
+        limits = {axis: profile.limits[axis] for axis in axes}
+        extras: list[Extra] = []
+        with ExitStack() as stack:
+            conductor = self._conductor(stack, axes, extras)
+            title = self.performance.title
+            recorder = stack.enter_context(recording(self.take, profile.name, title, limits, patient=self.patient))
+            rig = stack.enter_context(open_rig(profile, self.clock))
+            watchers = self._watchers(stack, rig, conductor, extras)
+            display = Display(
+                title,
+                lambda: source.begin,
+                source.duration,
+                self.as_json,
+                source.playback.time,
+                conductor and (lambda: conductor.note),
+                source.said,
+            )
+            tally, sources = Tally(lambda: source.begin), [conductor or source]
+            return perform(rig, axes, sources, tally, display, self.as_json, recorder, watchers, extras)
+
+    def _conductor(self, stack: ExitStack, axes: Sequence[Axis], extras: list[Extra]) -> Conductor | None:
+        """Whoever has a hand on it, if anybody has; with a trim also what is reported of that."""
+        if self.left == 1.0:
+            return None if self.keys is None else Conductor(self.source, self.keys)
+        devices, note = open_devices(stack, self.profile, self.clock, self.keys is not None, NOBODY)
+        inputs: list[Input] = [*devices, *([] if self.keys is None else [self.keys])]
+        limits = {axis: self.profile.limits[axis] for axis in axes}
+        trimming = Trimming(trim_limits(self.performance.move, limits, self.left), inputs, self.profile.sticks)
+        if note:
+            trimming.say(note)
+        report = TrimReport(trimming, self.trimmed)
+        extras.append(report)
+        return Conductor(self.source, self.keys, trimming, report.keep)
+
+    def _watchers(self, stack: ExitStack, rig: Rig, conductor: Conductor | None, extras: list[Extra]) -> list[Sink]:
+        said: list[str] = []
+        stack.callback(lambda: print(*said, sep="\n", end="\n" if said else "", file=sys.stderr))
+        watchers: list[Sink] = [*commands(rig, said.append)]
+        if self.keys is not None:
+            watchers.append(stack.enter_context(self.keys))
+        if conductor is not None:
+            watchers.append(conductor)
+        if self.source.staging.compared:
+            repeatability = Repeatability(self.source.place)
+            watchers.append(repeatability)
+            extras.insert(0, PassesReport(repeatability))
+        return watchers

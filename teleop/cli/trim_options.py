@@ -1,0 +1,95 @@
+"""The options of `teleop play` for a hand on the running sequence, and what is said of it at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from teleop.cli.display import UNITS
+from teleop.ports import TeleopError, UsageError
+
+if TYPE_CHECKING:
+    from teleop.sources.trimmed_file import TrimmedFile
+    from teleop.sources.trimming import Trimming
+
+SHARE = "25%"
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class TrimOptions:
+    """`left` is the share of V, A and J that is left for the sequence."""
+
+    trim: Annotated[
+        bool, Parameter(help="Sticks, dials and keys move the playing sequence aside.", negative=(), show_default=False)
+    ] = False
+    trim_share: Annotated[str, Parameter(help="Of velocity, acceleration and jerk, for the trim.")] = SHARE
+    trim_out: Annotated[
+        Path | None, Parameter(help="Write the sequence with the trim in its keys: at w, or at the end.")
+    ] = None
+
+    @property
+    def left(self) -> float:
+        """Raises UsageError for options that mean nothing."""
+        if not self.trim:
+            if self.trim_out or self.trim_share != SHARE:
+                raise UsageError(f"--trim-{'out' if self.trim_out else 'share'}: goes with --trim")
+            return 1.0
+        text = self.trim_share.strip().removesuffix("%")
+        try:
+            percent = float(text)
+        except ValueError:
+            percent = 0.0
+        if not 0 < percent < 100:
+            raise UsageError(f"--trim-share {self.trim_share}: must be a percentage between 0 and 100, as in {SHARE}")
+        return 1 - percent / 100
+
+
+class TrimReport:
+    """What the trim came to, and its file: written when the operator says so, else at the end."""
+
+    def __init__(self, trimming: Trimming, file: TrimmedFile | None) -> None:
+        self._trimming, self._file = trimming, file
+        self._writer = ThreadPoolExecutor(1, thread_name_prefix="trim")
+        self._written: Future[None] | None = None
+
+    @property
+    def keep(self) -> Callable[[], str] | None:
+        """For the operator's key; None without a file."""
+        return self._write if self._file else None
+
+    def facts(self) -> Iterator[tuple[str, object]]:
+        offsets = {axis.value: round(state.position, 6) for axis, state in self._trimming.offsets.items()}
+        yield "trim", {"offsets": offsets, "file": self._finished()}
+
+    def print(self) -> None:
+        offsets = self._trimming.offsets.items()
+        words = [f"{axis} {o.position + 0.0:+.3f} {UNITS.get(axis, '')}".rstrip() for axis, o in offsets]
+        file = self._finished()
+        print(f"trim: {', '.join(words)}{f'; written to {file}' if file else ''}")
+
+    def _write(self) -> str:
+        """Begin to write the trim as it is now; the control thread does not wait for a disk."""
+        assert self._file is not None
+        self._written = self._writer.submit(self._file.write, dict(self._trimming.offsets))
+        return f"the trim is written to {self._file.target}"
+
+    def _finished(self) -> str | None:
+        """The file, once it is written; raises TeleopError when it could not be."""
+        if self._file is None:
+            return None
+        if self._written is None:
+            self._write()
+        assert self._written is not None
+        error = self._written.exception()
+        if isinstance(error, TeleopError):
+            raise error
+        return str(self._file.target)
+
+
+NO_TRIM = TrimOptions()

@@ -1,0 +1,72 @@
+"""Which key asks what of a sequence that plays, and how the bytes of a terminal become keys.
+
+The space bar pauses here: the move stays on its path, from where it can go on. Where a sequence may be trimmed, the
+keys that move an axis on are those of `teleop live`, and only `<` and `>` go from key to key.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from teleop.motion import Axis
+from teleop.sources.inputs import Command, Press
+from teleop.sources.keys import ARROWS, MODIFIED, Act, Step
+from teleop.sources.keys import KEYS as LIVE_KEYS
+
+RIGHT, LEFT = ("\x1b[C", "\x1bOC"), ("\x1b[D", "\x1bOD")
+KEYS: Mapping[str, Act] = {
+    " ": Press(Command.PAUSE),
+    "p": Press(Command.PAUSE),
+    "-": Press(Command.SLOWER),
+    "+": Press(Command.FASTER),
+    "=": Press(Command.FASTER),
+    **dict.fromkeys((">", *RIGHT), Press(Command.NEXT)),
+    **dict.fromkeys(("<", *LEFT), Press(Command.PREVIOUS)),
+    **dict.fromkeys(("\n", "\r", "g"), Press(Command.GO)),
+    "q": Press(Command.QUIT),
+}
+TRIM_KEYS: Mapping[str, Act] = {
+    **{key: act for key, act in KEYS.items() if key not in (*RIGHT, *LEFT)},
+    **{key: act for key, act in LIVE_KEYS.items() if isinstance(act, Step) and key not in ("<", ">")},
+    **{f"\x1b{begin}{final}": Step(axis, sign) for final, (axis, sign) in ARROWS.items() for begin in "[O"},
+    **{
+        f"\x1b[1;{modifier}{final}": Step(axis, sign * units)
+        for final, (axis, sign) in ARROWS.items()
+        for modifier, units in MODIFIED.items()
+    },
+    "(": Step(Axis.ROLL, -1.0),
+    ")": Step(Axis.ROLL, 1.0),
+    "v": Press(Command.RANGE),
+    "z": Press(Command.RECENTER),
+    "w": Press(Command.KEEP),
+}
+
+
+class PlayKeys:
+    """From what a terminal sends to what is asked of a sequence; the shape that `Keyboard` wants of its reader."""
+
+    question = ""
+    helping = False
+
+    def __init__(self, keys: Mapping[str, Act] = KEYS) -> None:
+        self._keys = keys
+        self._begun = ""
+
+    @property
+    def is_waiting(self) -> bool:
+        return bool(self._begun)
+
+    def settle(self) -> None:
+        self._begun = ""
+
+    def feed(self, text: str) -> Iterator[Act]:
+        text = self._begun + text
+        self._begun = ""
+        while text:
+            key = next((key for key in self._keys if text.startswith(key)), "")
+            if not key and any(known.startswith(text) for known in self._keys):
+                self._begun = text
+                return
+            if key:
+                yield self._keys[key]
+            text = text[len(key) or 1 :]

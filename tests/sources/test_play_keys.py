@@ -1,0 +1,40 @@
+"""The keys of a sequence that plays, as a terminal sends them: whole, in pieces, and with a trim."""
+
+from teleop.motion import Axis
+from teleop.sources.inputs import Command, Press
+from teleop.sources.keys import Step
+from teleop.sources.play_keys import TRIM_KEYS, PlayKeys
+
+PAUSE, FASTER, SLOWER = Press(Command.PAUSE), Press(Command.FASTER), Press(Command.SLOWER)
+NEXT, PREVIOUS, GO, QUIT = Press(Command.NEXT), Press(Command.PREVIOUS), Press(Command.GO), Press(Command.QUIT)
+
+
+def test_keys_whole_and_in_pieces():
+    reader = PlayKeys()
+    assert list(reader.feed("q\ng\r")) == [QUIT, GO, GO, GO]
+    assert list(reader.feed("x +\x1b[C<")) == [PAUSE, FASTER, NEXT, PREVIOUS]
+    assert list(reader.feed("\x1b[")) == []
+    assert reader.is_waiting
+    assert list(reader.feed("D-")) == [PREVIOUS, SLOWER]
+    assert list(reader.feed("\x1b")) == []
+    reader.settle()
+    assert list(reader.feed("p")) == [PAUSE]
+
+
+def test_with_a_trim_arrows_and_letters_move_an_axis_on_and_the_rest_stays():
+    reader = PlayKeys(TRIM_KEYS)
+    assert list(reader.feed("\x1b[C\x1b[1;2A\x1b[1;5D\x1bOB")) == [
+        Step(Axis.PAN, 1.0),
+        Step(Axis.TILT, 10.0),
+        Step(Axis.PAN, -0.1),
+        Step(Axis.TILT, -1.0),
+    ]
+    assert list(reader.feed("hL]()")) == [
+        Step(Axis.PAN, -0.1),
+        Step(Axis.PAN, 10.0),
+        Step(Axis.FOCUS, 0.01),
+        Step(Axis.ROLL, -1.0),
+        Step(Axis.ROLL, 1.0),
+    ]
+    asked = [Press(each) for each in (Command.RECENTER, Command.KEEP, Command.RANGE)]
+    assert list(reader.feed("zwv >q")) == [*asked, PAUSE, NEXT, QUIT]
