@@ -9,7 +9,9 @@ from cyclopts import App
 COMMANDS: Mapping[str, tuple[str, str]] = {
     "list": ("teleop.cli.take_list:take_list", "List the takes of a folder."),
     "info": ("teleop.cli.take_list:take_info", "Say what is in a take."),
+    "export": ("teleop.cli.take_files:take_export", "Write a take as a table."),
     "keyframes": ("teleop.cli.take_keyframes:take_keyframes", "Fit sparse, editable keyframes to a take."),
+    "report": ("teleop.cli.take_report:take_report", "Say how well a run went, axis by axis."),
     "recover": ("teleop.cli.take_files:take_recover", "Save what is whole of a take that was never closed."),
 }
 

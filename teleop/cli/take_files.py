@@ -1,17 +1,47 @@
-"""`teleop take recover FILE`: other files made of a take."""
+"""`teleop take export FILE --csv OUT` and `take recover FILE`: other files made of a take."""
 
 from __future__ import annotations
 
 import json
+from io import TextIOWrapper
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.take_options import Json, Overwrite, TakeFile, length, place, problems_said
+from teleop.cli.take_options import Json, Overwrite, TakeFile, length, place, problems_said, say
 from teleop.ports import UsageError
 from teleop.preview.output import replacing
 from teleop.sinks.recorder import ENDING
+
+
+def take_export(
+    file: TakeFile,
+    /,
+    *,
+    csv: Annotated[Path, Parameter(help="The table to write.")],
+    overwrite: Overwrite = False,
+    as_json: Json = False,
+) -> int:
+    """Write a take as a table, a row for each tick.
+
+    The columns: time (s), then of each axis its stick (-1..1), what was asked for (wish) and its number (asked: of a
+    cruise unit/s, else units), where it was commanded to be (the axis's name, _velocity, _acceleration) and measured to
+    be since the row before (_measured, _measured_time), at last the actions. A field is empty where there was nothing.
+    """
+    from teleop.takes.table import write_table
+
+    place("--csv", csv, overwrite, file)
+    with problems_said(as_json), replacing(csv) as stream:
+        text = TextIOWrapper(stream, "utf-8", newline="", write_through=True)
+        messages, rows = write_table(file, text)
+        text.detach()
+    say(messages.remark)
+    if as_json:
+        print(json.dumps({"ok": True, "written": str(csv), "rows": rows, "problem": messages.remark}))
+    else:
+        print(f"{csv}: {rows} rows")
+    return 0
 
 
 def take_recover(

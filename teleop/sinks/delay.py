@@ -16,14 +16,20 @@ from teleop.motion import Axis, Tick
 
 EARLIEST, LATEST = -0.1, 0.6  # s, the shifts that are tried; a profile's delay is 0.5 at most
 STEPS = (0.01, 0.0005)  # s between them, first all of them, then around the best
+BEND = 0.02  # s to either side, over which it is seen how much worse a shift is
+FLAT = 1e-9  # of the square of the way, per s2: no worse, but for rounding
 
 
 class Delay(NamedTuple):
-    """`seconds` late, moving `scale` times as far as commanded; what is left unexplained is `rms` units."""
+    """`seconds` late, moving `scale` times as far as commanded; what is left unexplained is `rms` units.
+
+    `doubt` is the standard error of the seconds, inf where every shift explains as much: a steady speed says nothing.
+    """
 
     seconds: float
     scale: float
     rms: float
+    doubt: float = 0.0
 
 
 class Traces:
@@ -66,4 +72,6 @@ def estimate(
         best = float(shifts[np.argmin([fit(shift)[0] for shift in shifts])])
         low, high = best - step, best + step
     left, scale = fit(best)
-    return Delay(best, scale, float(np.sqrt(left / len(read))))
+    curvature = (fit(best - BEND)[0] + fit(best + BEND)[0] - 2 * left) / BEND**2
+    doubt = np.sqrt(2 * left / max(len(read) - 4, 1) / curvature) if curvature > FLAT * np.ptp(read) ** 2 else np.inf
+    return Delay(best, scale, float(np.sqrt(left / len(read))), float(doubt))

@@ -1,0 +1,64 @@
+"""`teleop take report FILE`: how well a run went, in a table, and as a page or a picture."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from teleop.cli.take_options import Json, TakeFile, ending_facts, length, problems_said, say
+from teleop.motion import Axis
+
+if TYPE_CHECKING:
+    from teleop.takes.report import AxisReport
+    from teleop.takes.take import Take
+
+
+def take_report(file: TakeFile, /, *, as_json: Json = False) -> int:
+    """Say how well a run went: errors, delay and limits used by axis, and why it stopped."""
+    from teleop.takes.report import report
+    from teleop.takes.take import read_take
+
+    with problems_said(as_json):
+        take = read_take(file)
+    say(take.remark)
+    found = report(take)
+    if as_json:
+        axes = {axis.value: {key: _plain(value) for key, value in asdict(of).items()} for axis, of in found.items()}
+        about = {"title": take.about.title, "rig": take.about.rig, "seconds": round(take.duration, 3)}
+        print(json.dumps({"ok": True, **about, **ending_facts(take.ending), "problem": take.remark, "axes": axes}))
+    else:
+        _print(take, found)
+    return 0
+
+
+def _print(take: Take, found: Mapping[Axis, AxisReport]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from teleop.preview.look import UNITS
+
+    table = Table(title=f"{take.about.title}: {length(take.duration)} on {take.about.rig}")
+    table.add_column("Axis")
+    for heading in ("RMS", "Peak", "at", "Late", "V", "A", "J", "Room"):
+        table.add_column(heading, justify="right")
+    for axis, of in found.items():
+        unit = UNITS[axis]
+        off = [f"{of.rms:.3f}{unit}", f"{of.peak:.3f}{unit}", f"{of.peak_at:.2f} s"] if of.readings else ["-"] * 3
+        later = "?" if of.delay is None else f"{round(1000 * of.delay)} ms"
+        used = [f"{share:.0%}" for share in (of.velocity, of.acceleration, of.jerk)]
+        table.add_row(axis.value, *off, later, *used, "endless" if of.room is None else f"{of.room:.2f}{unit}")
+    Console().print(table)
+    for axis, of in found.items():
+        if of.delay is None:
+            print(f"{axis}: how late it moved cannot be told: {of.untold}")
+    print(f"ended: {take.ended}")
+
+
+def _plain(value: object) -> object:
+    """NaN, which JSON has not, is null; floats with as many digits as mean something."""
+    if isinstance(value, float):
+        return round(value, 6) if math.isfinite(value) else None
+    return value
