@@ -9,6 +9,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.attended import attended
 from teleop.cli.options import DEFAULTS, Options, is_take, warn
 from teleop.cli.sequence_run import SequenceRun
 from teleop.cli.staging_options import NO_STAGING, StagingOptions
@@ -57,6 +58,8 @@ def play(
         if not rehearse:
             raise UsageError(f"{file} is a timelapse: --rehearse plays its move")
         warn(performance)
+    descriptor = None if fast else terminal()
+    performance = attended(file, performance, descriptor is not None, fast)
     axes = list(performance.move.tracks)
     trimmed = None if trim.trim_out is None else _trimmed(file, trim.trim_out, axes, profile)
     if is_take(file):
@@ -73,7 +76,6 @@ def play(
         raise DocumentError([f"--start-at {staging.start_at}: {error}"]) from None
     except PlanError as error:
         raise DocumentError([f"--speed {speed}: {error}"]) from None
-    descriptor = None if fast else terminal()
     keys = None if descriptor is None else Keyboard(descriptor, PlayKeys(TRIM_KEYS if trim.trim else KEYS))
     run = SequenceRun(profile, performance, source, clock, keys, left, trimmed, take, options.json, patient=fast)
     return run.perform()

@@ -19,6 +19,7 @@ from teleop.sources.trimming import Trimming
 PACE = 0.1  # of the written speed, by which a key changes it
 LOOK = 0.05  # s between two looks at the keys while nothing moves
 HELP = "space pause  - + speed  < > key  q stop"
+WAITING_HELP = "enter goes on  q stop"
 ARMED_HELP = "enter starts it now  q stop"
 TRIM_HELP = "arrows hjkl [ ] ( ) trim  v its speed  z to 0  w write"
 
@@ -52,7 +53,8 @@ class Conductor:
         """What the operator is to know now, in a line or two."""
         playback = self._sequence.playback
         pace = "paused" if playback.paused else f"{playback.chosen:.0%}"
-        line = f"{pace}  {HELP}" if self._sequence.phase is not Phase.ARMED else ARMED_HELP
+        line = ARMED_HELP if self._sequence.phase is Phase.ARMED else f"{pace}  {HELP}"
+        line = WAITING_HELP if self._sequence.waiting else line
         line = playback.refusal or self._note or (line if self._keys else "no terminal: Ctrl-C stops")
         return line if self._trimming is None else f"{line}\n{self._trim_note(self._trimming)}"
 
@@ -93,12 +95,14 @@ class Conductor:
         self._note = ""
         if press.command is Command.QUIT:
             self._stopped = self._stopped or f"stopped by {self._keys.name if self._keys else 'hand'}"
-        elif press.command is Command.GO:
+        elif press.command is Command.GO or (press.command is Command.PAUSE and self._sequence.waiting):
             self._sequence.go()
         elif press.command not in self._asked:
             self._note = f"{press.command}: not while a sequence is played"
         elif self._sequence.phase is not Phase.PLAYING:
             self._note = "the move has not begun"
+        elif self._sequence.waiting and press.command in (Command.NEXT, Command.PREVIOUS):
+            self._note = f"the move waits for you: {WAITING_HELP}"
         else:
             self._asked[press.command](now)
 
@@ -139,6 +143,9 @@ class Conductor:
 
     def _pause(self, now: float) -> None:
         playback = self._sequence.playback
+        if self._sequence.flies:
+            self._note = f"a drone goes on flying while its sticks are paused: {HELP}"
+            return
         (playback.resume if playback.paused else playback.pause)(now)
 
     def _change_speed(self, share: float, now: float) -> None:

@@ -1,4 +1,4 @@
-"""What happens once at a time of a sequence, beside the motion: the camera, the gimbal's own commands.
+"""What happens once at a time of a sequence, beside the motion: the camera, the gimbal's own commands, a wait.
 
 A command is looked up, and its ranges are checked, when the file is read. What the gimbal does by itself would be taken
 back by the stream that moves it, so that is refused with what does it instead: a recentre is planned like any other
@@ -20,7 +20,7 @@ from teleop.motion import Act, Action, Axis, Told
 from teleop.section import Section
 from teleop.sources.written import Time
 
-KINDS = ("camera", "follow", "recenter", "send")
+KINDS = ("camera", "follow", "recenter", "send", "wait")
 FOLLOW: Mapping[str, str] = {
     "lock": "gimbal follow lock",
     "pan": "gimbal follow yaw",
@@ -44,7 +44,7 @@ class CueSection(Section):
 
     `at`: when, from the start. `camera`: what the camera is told; a focus on the centre holds until end_focus.
     `follow`: what the gimbal does when its handle is turned. `recenter`: pan, tilt and roll go to 0 within this time.
-    `send`: a command in the words of teleop send.
+    `send`: a command in the words of teleop send. `wait`: everything holds until the operator says go.
     """
 
     model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [kind]} for kind in KINDS]})
@@ -54,6 +54,7 @@ class CueSection(Section):
     follow: Literal["lock", "pan", "sport"] | None = None
     recenter: Time = None
     send: str | None = None
+    wait: Literal["operator"] | None = None
 
     @property
     def kind(self) -> str:
@@ -61,25 +62,31 @@ class CueSection(Section):
         return next(kind for kind in KINDS if getattr(self, kind) is not None)
 
     @property
-    def act(self) -> Act | None:
+    def act(self) -> Act | Wait | None:
         """What is done; None where that is motion."""
         if self.camera:
             return Action(self.camera)
         if self.follow or self.send:
             return Told(FOLLOW[self.follow] if self.follow else " ".join((self.send or "").split()))
-        return None
+        return Wait() if self.wait else None
 
     @property
     def needs_rest(self) -> bool:
-        """Whether it may be only where every axis rests for a while; what the camera is told may be anywhere."""
-        return bool(self.follow) or (self.send is not None and not find(self.send.split()).name.startswith("camera."))
+        """Whether it may be only where every axis rests; what the camera is told may be anywhere."""
+        return bool(self.follow or self.wait) or (
+            self.send is not None and not find(self.send.split()).name.startswith("camera.")
+        )
+
+
+class Wait(NamedTuple):
+    """The move holds until the operator says go."""
 
 
 class Cue(NamedTuple):
     """An action `at` so many seconds after the first keyframe's zero."""
 
     at: float
-    action: Act
+    action: Act | Wait
 
     @property
     def name(self) -> str:
@@ -87,6 +94,8 @@ class Cue(NamedTuple):
         match self.action:
             case Told(words):
                 return words
+            case Wait():
+                return "wait"
             case _:
                 return str(getattr(self.action, "value", self.action))
 

@@ -134,6 +134,17 @@ class Playback:
         rate = self._resumed = min(self._resumed, self.at_most)
         self._ask(lambda pace, start: change_rate(self._move, self._limits, pace, rate, start), now)
 
+    def hold(self, time: float, now: float) -> tuple[float, dict[Axis, State]]:
+        """Stay at the move's `time`, where it rests, until `go`: as `at`. To stop at a rest takes no search."""
+        self._search = self._found = None
+        self._pace = steady(time, 0.0, now)
+        return self.at(now)
+
+    def go(self, now: float) -> None:
+        """On from where it was held, at once: from rest to rest no speed is too much of a change."""
+        self._search = self._found = None
+        self._pace = steady(self.time(now), self._resumed, now)
+
     def step(self, keys: int, now: float) -> None:
         """To the next key (1) or the one before (-1), along the path; the move has to be paused."""
         here = self._pace.at(now)[0]

@@ -16,7 +16,7 @@ from teleop.loop import KEEP_ALIVE
 from teleop.motion import Act, Action, Axis, Demand, Follow, Limits, Motion, Told
 from teleop.planner.ease import ease
 from teleop.planner.move import Move
-from teleop.sources.cues import Cue
+from teleop.sources.cues import Cue, Wait
 from teleop.sources.playback import Playback
 from teleop.sources.sequence_file import Performance
 from teleop.sources.staging import Staging
@@ -54,6 +54,7 @@ class SequenceSource:
     ) -> None:
         self.staging = staging or Staging(performance.preroll, back_to_one=performance.back_to_one)
         self.duration = performance.duration
+        self.flies = any(axis.value.startswith("stick_") for axis in performance.move.tracks)
         self._move = performance.move
         self._limits = {axis: limits[axis] for axis in self._move.tracks}
         keys = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
@@ -63,6 +64,7 @@ class SequenceSource:
         self._way = Move({})  # what is eased along
         self._way_begin = self._until = math.inf  # and when the phase is over, unless that is not known
         self._gone = False  # the operator said go
+        self.waiting = False  # for that, in the middle of the move
         self._began = math.inf  # when this pass did
         self.phase = Phase.EASING
         self.begin = math.inf
@@ -75,10 +77,18 @@ class SequenceSource:
 
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         due: list[Act] = self._turn(now)
+        if self.waiting and self._gone:
+            self.waiting = self._gone = False
+            self.playback.go(now)
         if self.phase is Phase.PLAYING or (self.phase is Phase.OVER and not self.staging.back_to_one):
             elapsed, motion = self.playback.at(now)
-            while self._cues and self._cues[0].at <= elapsed + _INSTANT:
-                due.append(self._cues.pop(0).action)
+            while self._cues and not self.waiting and self._cues[0].at <= elapsed + _INSTANT:
+                cue = self._cues.pop(0)
+                if isinstance(cue.action, Wait):
+                    self.waiting = True
+                    elapsed, motion = self.playback.hold(cue.at, now)
+                else:
+                    due.append(cue.action)
             if self.phase is Phase.PLAYING and elapsed > self.duration - _INSTANT and not self.playback.paused:
                 self._played(now, motion)
         else:
@@ -103,8 +113,8 @@ class SequenceSource:
         return self.number, self.playback.time(time)
 
     def go(self) -> None:
-        """The operator's word, for a move that waits for its trigger."""
-        self._gone = self.phase is Phase.ARMED
+        """The operator's word, for a move that waits for its trigger, or in its middle."""
+        self._gone = self.waiting or self.phase is Phase.ARMED
 
     def said(self, now: float) -> str:
         """What it is doing at `now`, in a few words, and how far that is."""
@@ -119,6 +129,8 @@ class SequenceSource:
             case Phase.RETURNING:
                 return f"back to one {left:4.1f} s"
         elapsed = self.playback.time(now)
+        if self.waiting:
+            return f"{elapsed:6.1f} / {self.duration:.1f} s  waits for you"
         if elapsed < self.staging.start_at and self.playback.opening < self.staging.start_at:
             return f"run-up to {self.staging.start_at:.1f} s"
         time = f"{min(elapsed, self.duration):6.1f} / {self.duration:.1f} s"
@@ -146,6 +158,7 @@ class SequenceSource:
 
     def _begin(self, now: float) -> None:
         self.phase, self._cues = Phase.PLAYING, list(self._score)
+        self._gone = self.waiting = False
         self.playback.begin(now)
         self._began = now
         if self.number == 1:

@@ -18,7 +18,7 @@ from teleop.planner.keyframes import Key, plan, stretch
 from teleop.planner.move import Move
 from teleop.planner.rests import SAME, Rest, rests
 from teleop.shipped import find
-from teleop.sources.cues import Cue
+from teleop.sources.cues import Cue, Wait
 from teleop.sources.sequence_keys import Keys
 from teleop.sources.sequence_reader import Reader
 from teleop.sources.sequence_rules import STICKS
@@ -93,9 +93,13 @@ def _planned(keys: Keys, sheet: SequenceSection, limits: Mapping[Axis, Limits]) 
 def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
     """A line for each cue that needs rest and has none, with what would be right."""
     places = rests(move)
-    for (at, _), needs_rest, place in cues:
+    for (at, action), needs_rest, place in cues:
+        held = [axis for axis, state in move.at(at).items() if axis in STICKS and abs(state.position) > SAME]
         if needs_rest and not any(rest.start - SAME <= at <= rest.end + SAME for rest in places):
             yield place.line(f"{path_text(place.location)} {_elsewhere(move, places, at)}")
+        elif isinstance(action, Wait) and held:
+            text = f"would hold {' and '.join(held)} deflected, and the drone would fly on: let it be 0 by then"
+            yield place.line(f"{path_text(place.location)} {text}")
 
 
 def _elsewhere(move: Move, places: Sequence[Rest], at: float) -> str:

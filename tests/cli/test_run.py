@@ -143,6 +143,18 @@ def test_a_move_is_started_in_its_middle_and_goes_back_to_one() -> None:
     assert [row for row in played.stdout.splitlines() if "pan" in row and "-30.000" in row]
 
 
+def test_a_sequence_that_waits_for_somebody_needs_somebody(tmp_path: Path) -> None:
+    (tmp_path / "wait.yaml").write_text(
+        "keyframes: [{at: 0, pan: 0}, {at: 2, pan: 5}]\ncues: [{at: 2, wait: operator}]\n"
+    )
+    alone = teleop("play", "wait.yaml", cwd=tmp_path)
+    assert alone.returncode == 2
+    assert "wait.yaml waits for the operator at 2 s: there is no terminal on which to say go on" in alone.stderr
+    fast = teleop("play", "wait.yaml", "--fast", cwd=tmp_path)
+    assert fast.returncode == 0
+    assert "--fast: nobody is waited for" in fast.stderr
+
+
 def test_debug_shows_where_an_error_came_from() -> None:
     assert "Traceback" not in teleop("play", "revel").stderr
     assert "Traceback" in teleop("play", "revel", "--debug").stderr

@@ -1,12 +1,16 @@
 """A sequence under an operator's keys: they pause, step and change the speed, and say why not."""
 
+import math
+
 import pytest
 from at_once import AtOnce
 
-from teleop.motion import Axis, Follow, Halt, Limits, State, Tick
+from teleop.motion import Action, Axis, Follow, Halt, Limits, State, Tick
 from teleop.planner.keyframes import Key, plan
+from teleop.planner.live import Live
 from teleop.ports import Interrupted
 from teleop.sources.conductor import HELP, Conductor
+from teleop.sources.cues import Cue, Wait
 from teleop.sources.inputs import Command, Held, Press
 from teleop.sources.sequence import SequenceSource
 from teleop.sources.sequence_file import Performance
@@ -136,3 +140,106 @@ def test_go_is_for_a_move_that_waits_and_means_nothing_else():
     show.run(1)
     show.press(GO)
     assert show.conductor.note == f"100%  {HELP}"
+
+
+WAITING = {Axis.PAN: [Key(0, 0), Key(4, 30, stop=True), Key(10, 60)]}
+
+
+class WaitingShow(Show):
+    """A move that waits in its middle, at 4 s, and shoots before and after that."""
+
+    def __init__(self, speed: float = 1.0) -> None:
+        self.keys = Keys()
+        cues = [Cue(4, Action.STOP), Cue(4, Wait()), Cue(4, Action.RECORD), Cue(7, Action.SHUTTER)]
+        performance = Performance("Test", plan(WAITING, LIMITS), cues, [], WAITING)
+        self.sequence = SequenceSource(performance, LIMITS, speed, executor=AtOnce())
+        self.conductor = Conductor(self.sequence, self.keys)
+        self.conductor.start(0.0, {Axis.PAN: State(0.0)})
+        self.now = 0.0
+        self.acts: list = []
+        self.motion: list[tuple[float, Follow]] = []
+        self.watch(self.sequence.begin)
+
+    def watch(self, seconds: float) -> None:
+        for _ in range(round(seconds / DT)):
+            self.now += DT
+            demand, acts = self.conductor.read(self.now)
+            self.acts += [(self.now, act) for act in acts]
+            follow = demand[Axis.PAN]
+            assert isinstance(follow, Follow)
+            self.motion.append((self.now, follow))
+
+
+@pytest.mark.parametrize("speed", [1.0, 1.37])
+@pytest.mark.parametrize("key", [GO, PAUSE])
+def test_a_wait_holds_for_the_operator_and_no_cue_drifts(speed: float, key: Press) -> None:
+    show = WaitingShow(speed)
+    begin = show.sequence.begin
+    show.watch(60)
+    held = [follow for now, follow in show.motion if now > begin + 4 / speed + DT]
+    assert len(held) > 3000
+    assert all(follow == pytest.approx((30, 0, 0), abs=1e-5) for follow in held)
+    assert [act for _, act in show.acts] == [Action.STOP]
+    assert "waits for you" in show.sequence.said(show.now)
+    assert "enter goes on" in show.conductor.note
+    assert show.now < show.conductor.next_change(show.now) <= show.now + 0.06
+    went = show.now
+    show.keys.pressed.append(key)
+    show.watch(8)
+    (_, stop), (recorded, record), (shot, shutter) = show.acts
+    assert (stop, record, shutter) == (Action.STOP, Action.RECORD, Action.SHUTTER)
+    assert recorded == pytest.approx(went + DT)
+    assert shot == pytest.approx(went + 3 / speed, abs=2 * DT)
+    assert show.motion[-1][1].position == pytest.approx(60)
+    assert math.isinf(show.conductor.next_change(show.now))
+
+
+@pytest.mark.parametrize("speed", [1.0, 1.37])
+def test_the_stream_around_a_wait_is_legal_step_by_step(speed: float) -> None:
+    show = WaitingShow(speed)
+    show.watch(10)
+    show.keys.pressed.append(GO)
+    show.watch(8)
+    live = Live(LIMITS, DT)
+    live.reset({Axis.PAN: State(0.0)})
+    for _, follow in show.motion:
+        state = live.step({Axis.PAN: follow})[Axis.PAN]
+        assert state.position == pytest.approx(follow.position, abs=1e-6)
+
+
+def test_while_it_waits_it_cannot_be_stepped_and_the_speed_counts_afterwards() -> None:
+    show = WaitingShow()
+    show.watch(6)
+    show.keys.pressed += [NEXT, SLOWER]
+    show.watch(1)
+    assert show.sequence.waiting
+    show.keys.pressed.append(NEXT)
+    show.watch(DT)
+    assert "the move waits for you" in show.conductor.note
+    show.keys.pressed.append(GO)
+    went = show.now
+    show.watch(8)
+    assert show.acts[-1][0] == pytest.approx(went + 3 / 0.9, abs=2 * DT)
+
+
+def test_a_stop_ends_it_while_it_waits() -> None:
+    show = WaitingShow()
+    show.watch(6)
+    show.keys.pressed.append(QUIT)
+    show.conductor.read(show.now + DT)
+    with pytest.raises(Interrupted):
+        show.conductor.write(Tick(show.now, {}, {}, (), {}))
+
+
+def test_a_drone_is_not_paused() -> None:
+    limits = {Axis.STICK_YAW: Limits(-1, 1, 2, 8, 40)}
+    keys = {Axis.STICK_YAW: [Key(0, 0), Key(4, 0.5), Key(8, 0)]}
+    pressed = Keys()
+    sequence = SequenceSource(Performance("Fly", plan(keys, limits), [], [], keys), limits, executor=AtOnce())
+    conductor = Conductor(sequence, pressed)
+    conductor.start(0.0, {Axis.STICK_YAW: State(0.0)})
+    conductor.read(sequence.begin + 1)
+    pressed.pressed.append(PAUSE)
+    conductor.read(sequence.begin + 1.01)
+    assert "a drone goes on flying" in conductor.note
+    assert not sequence.playback.changing(sequence.begin + 1.01)

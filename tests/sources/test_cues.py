@@ -9,7 +9,7 @@ import pytest
 from sequences import load, problems_of
 from teleop.document import DocumentError, UnplayableError
 from teleop.motion import Action, Axis, Told
-from teleop.sources.cues import Cue
+from teleop.sources.cues import Cue, Wait
 
 MOVE = "keyframes:\n  - {at: 0, pan: 20, tilt: 0}\n  - {at: 4, pan: -10, tilt: 5, hold: 1s}\n  - {at: 9, pan: 30}\n"
 
@@ -36,10 +36,10 @@ def test_each_kind_becomes_what_its_device_is_told(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("cue", "problem"),
     [
-        ("at: 0", "6:5: cues[0] must have one of camera, follow, recenter, send"),
+        ("at: 0", "6:5: cues[0] must have one of camera, follow, recenter, send, wait"),
         (
             "at: 0, camera: record, follow: lock",
-            "6:5: cues[0] must have one of camera, follow, recenter, send, not camera and follow",
+            "6:5: cues[0] must have one of camera, follow, recenter, send, wait, not camera and follow",
         ),
         ("at: 0, follow: lok", "6:21: cues[0].follow must be one of lock, pan, sport, not 'lok'; did you mean lock?"),
         (
@@ -90,6 +90,22 @@ def test_what_changes_the_gimbals_ways_needs_a_rest_and_is_told_where_one_is(tmp
     ]
     for rest in ("0", "4", "4.5", "5", "9", "100"):
         assert load(tmp_path, cued(f"at: {rest}, follow: lock")).cues[0].action == Told("gimbal follow lock")
+
+
+def test_a_wait_needs_rest_and_a_drone_that_hovers(tmp_path: Path) -> None:
+    assert load(tmp_path, cued("at: 4.5, wait: operator")).cues == [Cue(4.5, Wait())]
+    [found] = problems_of(tmp_path, cued("at: 6, wait: operator"))
+    assert found.startswith("shoot.yaml:6:5: cues[0] is at 6 s, where pan moves; all rest at 5 s, and would here with")
+    [found] = problems_of(tmp_path, cued("at: 4, wait: me"))
+    assert found == "shoot.yaml:6:19: cues[0].wait must be one of operator, not 'me'"
+    flight = (
+        "keyframes:\n  - {at: 0, stick_yaw: 0}\n  - {at: 3, stick_yaw: 0.4, hold: 2}\n  - {at: 9, stick_yaw: 0}\n"
+        "cues:\n  - {at: 4, wait: operator}\n"
+    )
+    assert problems_of(tmp_path, flight) == [
+        "shoot.yaml:6:5: cues[0] would hold stick_yaw deflected, and the drone would fly on: let it be 0 by then"
+    ]
+    assert load(tmp_path, flight.replace("at: 4, wait", "at: 9, wait")).cues == [Cue(9, Wait())]
 
 
 def test_a_stretched_move_keeps_its_cues_in_its_rests(tmp_path: Path) -> None:
