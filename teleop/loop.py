@@ -32,7 +32,13 @@ STOP_SHARE, STOP_EXTRA = 2.0, 1.0  # a planner has so many times the fastest sto
 RELEASE_PATIENCE = 0.5  # s to keep trying to give a device back over a link that fails
 RELEASE_LONGEST = 10.0  # s for all of giving back, whatever a sink still wants to do
 
+FAULTS = 8  # that are kept: one repeats every tick
+
 log = logging.getLogger(__name__)
+
+
+class StallError(TeleopError):
+    """The computer did something else for so long that nothing is where it should be."""
 
 
 class Planner(Protocol):
@@ -63,6 +69,7 @@ class Loop:
         reporters: Sequence[Reporter],
     ) -> None:
         self.supervisor = Supervisor()
+        self.faults: list[BaseException] = []  # the first few, oldest first
         self._clock, self._planner, self._limits = clock, planner, limits
         self._sources, self._sinks, self._reporters = sources, sinks, reporters
         self._origin = clock.now()
@@ -119,7 +126,7 @@ class Loop:
         elapsed = due - self._ticks + max(0, math.floor(late * RATE + 1e-6))
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (Run.RUNNING, Run.STOPPING):
-            self._fault(TeleopError(f"the computer stalled for {late:.2f} s"))
+            self._fault(StallError(f"the computer stalled for {late:.2f} s"))
             self._lost = Whereabouts(self._motion, self._time(self._ticks))
             return self._time(self._ticks), 1
         return self._time(self._ticks), 1 if self._resting else elapsed
@@ -250,6 +257,8 @@ class Loop:
         except Exception:  # noqa: BLE001 - an error that cannot say what it is still ends the run
             reason = type(fault).__name__
         log.debug("fault: %s", reason, exc_info=fault)
+        if len(self.faults) < FAULTS:
+            self.faults.append(fault)
         self.supervisor.happened(Event.INTERRUPT if isinstance(fault, Interrupted) else Event.FAULT, reason)
 
 

@@ -123,7 +123,29 @@ class Dialled(NamedTuple):
     speed: float
 
 
-Act = Action | Told | Dialled
+class Step(StrEnum):
+    """Of taking one frame of a timelapse, in this order."""
+
+    FOCUS = "prefocus"
+    PRESS = "press"
+    RELEASE = "release"
+
+
+class Exposure(NamedTuple):
+    """A step of taking the frame with this number, counted from 0, for the sink that shoots."""
+
+    frame: int
+    step: Step
+
+
+class Outcome(NamedTuple):
+    """What the camera said to the press for a frame: a return code, 0 for done, None for nothing."""
+
+    frame: int
+    code: int | None
+
+
+Act = Action | Told | Dialled | Exposure
 
 
 @dataclass(frozen=True, slots=True)

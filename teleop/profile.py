@@ -112,6 +112,12 @@ class CameraSection(Section):
     link: str
 
 
+class ShootingSection(Section):
+    """How a timelapse is shot on this rig: `wait_for_link` waits for a lost link and goes on by itself."""
+
+    wait_for_link: bool = False
+
+
 class Profile(Section):
     """A rig. `links` are URLs by the names that sinks use; sinks are served in their order."""
 
@@ -122,6 +128,7 @@ class Profile(Section):
     sticks: SticksSection = SticksSection()
     presets: PresetsSection = PresetsSection()
     inputs: list[InputSection] = Field(default_factory=list)
+    timelapse: ShootingSection = ShootingSection()
 
     @property
     def limits(self) -> Mapping[Axis, Limits]:

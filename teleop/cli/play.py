@@ -12,6 +12,7 @@ from cyclopts import Parameter
 from teleop.cli.attended import attended
 from teleop.cli.options import DEFAULTS, Options, is_take, warn
 from teleop.cli.sequence_run import SequenceRun
+from teleop.cli.shoot_options import NOTHING_ASKED, ShootOptions
 from teleop.cli.staging_options import NO_STAGING, StagingOptions
 from teleop.cli.trim_options import NO_TRIM, TrimOptions
 from teleop.clock import SystemClock, VirtualClock
@@ -43,20 +44,26 @@ def play(
         str, Parameter(help="How fast, as a percentage: up to 200, as far as `check` says the move allows.")
     ] = "100%",
     staging: StagingOptions = NO_STAGING,
-    rehearse: Annotated[
-        bool, Parameter(help="A timelapse's move at its clip's speed, no shutter.", negative=(), show_default=False)
-    ] = False,
+    shooting: ShootOptions = NOTHING_ASKED,
     trim: TrimOptions = NO_TRIM,
     fast: Fast = False,
     take: Take = None,
     options: Options = DEFAULTS,
 ) -> int:
-    """Play a sequence: ease to its first keyframe, then the move, then say how well the rig followed."""
+    """Play a sequence: ease to its first keyframe, then the move, then say how well the rig followed.
+
+    A timelapse is shot, frame by frame; its journal in this folder knows where it was left.
+    """
     left = trim.left
     profile, performance, timelapse = options.compiled(file, left)
+    shooting.check(file, timelapse is not None)
+    if timelapse is not None and not shooting.rehearse:
+        from teleop.cli.shoot import shoot
+
+        if staging != NO_STAGING or trim != NO_TRIM or speed != "100%":
+            raise DocumentError([f"{file} is shot, not played: --speed and its kin go with --rehearse only"])
+        return shoot(file, timelapse, profile, the_clock(fast, profile), shooting, take, options)
     if timelapse is not None:
-        if not rehearse:
-            raise UsageError(f"{file} is a timelapse: --rehearse plays its move")
         warn(performance)
     descriptor = None if fast else terminal()
     performance = attended(file, performance, descriptor is not None, fast)

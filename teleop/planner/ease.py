@@ -21,16 +21,20 @@ PEAK_JERK = 60.0
 NEGLIGIBLE = 1e-12  # units: already there, and too near to divide by the time it takes
 
 
-def ease(start: Motion, target: Mapping[Axis, float], limits: Mapping[Axis, Limits], share: float = 0.5) -> Move:
+def ease(
+    start: Motion, target: Mapping[Axis, float], limits: Mapping[Axis, Limits], share: float = 0.5, least: float = 0.0
+) -> Move:
     """From rest at `start` to rest at `target`, within `share` of each axis' V, A and J; 0 s long when already there.
 
-    The axes of the move are those of `target`; each needs a start and limits.
+    The axes of the move are those of `target`; each needs a start and limits. A move takes `least` s or longer.
     """
     distances = {axis: position - start[axis].position for axis, position in target.items()}
     duration = max(
         (float(shortest(np.abs(distance), limits[axis].scaled(share))) for axis, distance in distances.items()),
         default=0.0,
     )
+    if duration:
+        duration = max(duration, least)
     return Move({axis: _quintic(start[axis].position, target[axis], duration) for axis in target})
 
 

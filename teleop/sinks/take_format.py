@@ -16,7 +16,7 @@ from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from typing import Any, BinaryIO
 
-from teleop.motion import Act, Axis, Cruise, Dialled, Follow, Goto, Limits, State, Tick, Told, Wish
+from teleop.motion import Act, Axis, Cruise, Dialled, Exposure, Follow, Goto, Limits, State, Tick, Told, Wish
 
 ABOUT, END = "teleop take", "teleop end"  # the names of the metadata records
 FORMAT = "1"
@@ -57,7 +57,7 @@ SCHEMAS: Mapping[str, Mapping[str, Any]] = {
         "title": "Action",
         "description": "Something done once: a camera's action, or what a device was told.",
         "type": "object",
-        "properties": {"action": {"type": "string"}, "words": {"type": "string"}, "speed": _NUMBER},
+        "properties": {"action": {"type": "string"}, "words": {"type": "string"}, "speed": _NUMBER, "frame": _NUMBER},
     },
     "/status": _schema(
         "Status", "What held for the operator, on change: stops, recalls, inputs and their trouble.", None
@@ -204,6 +204,8 @@ def _act(act: Act) -> dict[str, Any]:
             return {"action": "told", "words": words}
         case Dialled(speed):
             return {"action": "dialled", "speed": speed}
+        case Exposure(frame, step):
+            return {"action": step.value, "frame": frame}
         case _:
             return {"action": act.value}
 

@@ -1,0 +1,146 @@
+"""A timelapse as `teleop play` shoots it: its journal in this folder, a view of it, and a report at the end."""
+
+from __future__ import annotations
+
+import gc
+import json
+import sys
+from collections.abc import Mapping
+from contextlib import ExitStack
+from pathlib import Path
+
+from teleop.cli.display import error_table
+from teleop.cli.options import Options
+from teleop.cli.perform import EXIT_CODES, SWITCH_INTERVAL, signals_to
+from teleop.cli.shoot_options import ShootOptions
+from teleop.cli.shoot_view import ShootView, free
+from teleop.cli.timelapse_words import clock, summary
+from teleop.clock import VirtualClock
+from teleop.journal import ENDING, Journal, Shoot, open_journal
+from teleop.ports import Clock, Sink
+from teleop.profile import Profile
+from teleop.shooting import Ended, Shooting
+from teleop.sinks.recorder import recording
+from teleop.sinks.tally import Tally
+from teleop.sources.inputs import Command, Press
+from teleop.sources.keyboard import Keyboard, terminal
+from teleop.sources.play_keys import KEYS, PlayKeys
+from teleop.sources.timelapse_file import Timelapse
+from teleop.supervisor import Result
+
+SHOOT_KEYS = {key: act for key, act in KEYS.items() if act in (Press(Command.PAUSE), Press(Command.QUIT))}
+
+
+def shoot(
+    file: str,
+    timelapse: Timelapse,
+    profile: Profile,
+    time: Clock,
+    asked: ShootOptions,
+    take: Path | None,
+    options: Options,
+) -> int:
+    """Shoot it on the rig, from the first frame or from where it was left; the exit code."""
+    virtual = isinstance(time, VirtualClock)
+    path = Path(Path(file).stem + ENDING)
+    belongs = Shoot(Path(file).name, timelapse.identity, timelapse.frames)
+    descriptor = None if virtual else terminal()
+    with ExitStack() as stack:
+        journal = stack.enter_context(
+            open_journal(path, belongs, resume=asked.resume, restart=asked.restart, patient=virtual)
+        )
+        recorder = stack.enter_context(
+            recording(take, profile.name, timelapse.title, timelapse.limits, patient=virtual)
+        )
+        keys = None if descriptor is None else stack.enter_context(Keyboard(descriptor, PlayKeys(SHOOT_KEYS)))
+        tally = Tally(lambda: shooting.begin)
+        view = ShootView(timelapse.title, path.absolute().parent, lambda: shooting.progress, options.json, bool(keys))
+        watchers: list[Sink] = [tally, *([] if recorder is None else [recorder]), *([] if keys is None else [keys])]
+        shooting = Shooting(timelapse, profile, time, journal, view.say, [*watchers, view], keys, asked.in_doubt)
+        if not options.json:
+            print(f"{summary(timelapse)}; journal {path}", file=sys.stderr)
+        sys.setswitchinterval(SWITCH_INTERVAL)
+        gc.collect()
+        gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
+        with signals_to(shooting.interrupt), view:
+            ended = shooting.run()
+        gc.unfreeze()
+        if recorder is not None:
+            recorder.finish(ended.result, ended.reasons)
+        journal.catch_up()
+        if options.json:
+            facts = {} if recorder is None else {"take": recorder.facts}
+            print(json.dumps({**_report(ended, shooting, journal, tally), **facts}))
+        else:
+            _print(ended, shooting, journal, tally)
+            if recorder is not None:
+                print(recorder)
+    return EXIT_CODES[ended.result]
+
+
+def _print(ended: Ended, shooting: Shooting, journal: Journal, tally: Tally) -> None:
+    progress = shooting.progress
+    for reason in ended.reasons:
+        print(f"teleop: stopped: {reason}", file=sys.stderr)
+    if tally.scores:
+        error_table(tally)
+    clip = f", {progress.clip:.2f} s of clip" if progress.clip is not None else ""
+    print(f"{progress.shot} of {progress.slots.frames} frames shot{clip}")
+    for line in _troubles(shooting):
+        print(line)
+    if ended.result is not Result.DONE:
+        if journal.in_doubt is not None:
+            print(f"Frame {journal.in_doubt} is in doubt: its shutter was due just when the shoot stopped.")
+        left = clock(progress.slots.at(progress.slots.frames - 1) - progress.slots.at(journal.next))
+        print(f"--resume goes on at frame {journal.next}, with {left} of shooting left ({journal.path})")
+
+
+def _troubles(shooting: Shooting) -> list[str]:
+    """What did not go as it should, in lines."""
+    progress, lines = shooting.progress, []
+    if progress.missed:
+        lines.append(f"{progress.missed} slots were missed")
+    if progress.lost:
+        lines.append(f"No picture of frames {_numbers(progress.lost)}")
+    if progress.doubtful:
+        lines.append(f"Frames {_numbers(progress.doubtful)} may be missing: nobody can say whether they were shot")
+    if progress.late:
+        lines.append(f"{progress.late} frames were late, by {progress.latest:.2f} s at most")
+    if progress.refused:
+        lines.append(f"The camera refused {progress.refused} times")
+    if progress.unsettled:
+        lines.append(f"{progress.unsettled} frames were shot before the axes were measured to be still")
+    return lines
+
+
+def _numbers(frames: list[int]) -> str:
+    shown = ", ".join(map(str, frames[:20]))
+    return shown if len(frames) <= 20 else f"{shown} and {len(frames) - 20} more"
+
+
+def _report(ended: Ended, shooting: Shooting, journal: Journal, tally: Tally) -> Mapping[str, object]:
+    progress = shooting.progress
+    return {
+        "result": ended.result.name.lower(),
+        "reasons": list(ended.reasons),
+        "seconds": round(tally.seconds, 3),
+        "frames": progress.slots.frames,
+        "shot": progress.shot,
+        "next": None if ended.result is Result.DONE else journal.next,
+        "in_doubt": journal.in_doubt,
+        "missed": progress.missed,
+        "lost": progress.lost,
+        "doubtful": progress.doubtful,
+        "late": progress.late,
+        "latest": round(progress.latest, 6),
+        "refused": progress.refused,
+        "unsettled": progress.unsettled,
+        "clip": progress.clip,
+        "journal": str(journal.path),
+        "disk_free": free(journal.path.absolute().parent),
+        "axes": {
+            axis.value: {"readings": score.readings, "rms": round(score.rms, 6), "peak": round(score.peak, 6)}
+            for axis, score in tally.scores.items()
+        },
+        "links": shooting.links,
+    }

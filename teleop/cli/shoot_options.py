@@ -1,0 +1,42 @@
+"""What `play` is asked of a timelapse, and of nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from teleop.document import DocumentError
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class ShootOptions:
+    """Go on with a shoot, begin it anew, or try its move."""
+
+    rehearse: Annotated[
+        bool,
+        Parameter(help="A timelapse's move at its clip's speed, no shutter.", negative=(), show_default=False),
+    ] = False
+    resume: Annotated[
+        bool, Parameter(help="Go on with a timelapse where it was left.", negative=(), show_default=False)
+    ] = False
+    restart: Annotated[
+        bool, Parameter(help="Begin a timelapse anew, forgetting where it was left.", negative=(), show_default=False)
+    ] = False
+    in_doubt: Annotated[
+        Literal["shoot", "skip"],
+        Parameter(help="With --resume, a frame of which nobody can say whether it was shot: shoot it again, or not."),
+    ] = "shoot"
+
+    def check(self, file: str, timelapse: bool) -> None:
+        """Raises DocumentError where these do not go with the file or with each other."""
+        asked = [name for name in ("rehearse", "resume", "restart") if getattr(self, name)]
+        if asked and not timelapse:
+            raise DocumentError([f"--{asked[0]}: {file} is no timelapse"])
+        if len(asked) > 1:
+            raise DocumentError([f"--{asked[0]} and --{asked[1]} do not go together"])
+
+
+NOTHING_ASKED = ShootOptions()

@@ -1,0 +1,110 @@
+"""What an operator sees of a shoot: a bar and the next frame on a terminal, a line now and then elsewhere.
+
+Drawn beside the control thread, as `display` is. Both go to stderr: stdout is for the result.
+"""
+
+from __future__ import annotations
+
+import math
+import shutil
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from rich.console import Console, Group, RenderableType
+from rich.live import Live
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+from rich.text import Text
+
+from teleop.cli.timelapse_words import clock
+from teleop.motion import Tick
+from teleop.sources.progress import Progress
+
+REDRAWS = 4  # a second
+EVERY = 60.0  # s between two lines, at most, while frames are shot
+HELP = "space pause between frames  Ctrl-C stop, --resume goes on"
+
+
+class ShootView:
+    """A sink that only shows. `folder` is where the journal is written, `progress` how far the shoot is."""
+
+    def __init__(self, title: str, folder: Path, progress: Callable[[], Progress], silent: bool, keys: bool) -> None:
+        self._title, self._folder, self._progress, self._keys = title, folder, progress, keys
+        self._silent = silent
+        self._now = -math.inf
+        self._said = -math.inf, -1  # when the last line was written, and at how many hundredths
+        console = Console(stderr=True)
+        self._live = (
+            Live(console=console, get_renderable=self._draw, refresh_per_second=REDRAWS)
+            if console.is_terminal and not silent
+            else None
+        )
+
+    def __enter__(self) -> Self:
+        if self._live:
+            self._live.start()
+        elif not self._silent:
+            print(self._title, file=sys.stderr)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._live:
+            self._live.stop()
+
+    def say(self, text: str) -> None:
+        """A line that stays."""
+        if self._live:
+            self._live.console.print(Text(f"teleop: {text}"))
+        else:
+            print(f"teleop: {text}", file=sys.stderr)
+
+    def write(self, tick: Tick) -> None:
+        self._now = tick.time
+        if self._live is None and not self._silent:
+            self._line(tick.time, self._progress())
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
+        return None
+
+    def _line(self, now: float, progress: Progress) -> None:
+        last, hundredth = self._said
+        reached = 100 * progress.shot // progress.slots.frames
+        if now - last >= EVERY or reached != hundredth:
+            self._said = now, reached
+            print("  ".join(_parts(progress, now, self._folder)), file=sys.stderr)
+
+    def _draw(self) -> RenderableType:
+        progress = self._progress()
+        grid = Table.grid(padding=(0, 2))
+        bar = ProgressBar(total=progress.slots.frames, completed=progress.shot, width=30)
+        grid.add_row(self._title, bar, *_parts(progress, self._now, self._folder))
+        note = HELP if self._keys else "Ctrl-C stop, --resume goes on"
+        return Group(grid, Text(f"{_doing(progress, self._now)}  {note}", style="dim"))
+
+
+def _parts(progress: Progress, now: float, folder: Path) -> list[str]:
+    """Frames shot, time left, clip so far, what went wrong, room on the disk."""
+    parts = [f"{progress.shot} of {progress.slots.frames} frames"]
+    if math.isfinite(progress.due) and math.isfinite(now):
+        parts.append(f"{clock(max(0.0, progress.left(now)))} left")
+    if progress.clip is not None and progress.fps:
+        parts.append(f"clip {progress.clip:.2f} of {progress.slots.frames / progress.fps:.2f} s")
+    parts += [f"{count} {name}" for name, count in progress.troubles.items() if count or name == "missed slots"]
+    return [*parts, f"{free(folder) / 1e9:.1f} GB free"]
+
+
+def _doing(progress: Progress, now: float) -> str:
+    phase = "pausing after this frame" if progress.pausing and progress.phase != "paused" else progress.phase
+    soon = progress.due - now
+    wait = f", frame {progress.frame} in {clock(soon)}" if phase in ("wait", "approach") and 0 < soon < math.inf else ""
+    return f"{phase}{wait}"
+
+
+def free(folder: Path) -> int:
+    """Bytes that are free where the journal is written."""
+    return shutil.disk_usage(folder).free

@@ -1,0 +1,299 @@
+"""A timelapse being shot: one frame after the other, each when it is due.
+
+What a frame goes through is one table of phases, and a pause is only in it between two frames. When a frame is due is
+asked of a formula each time, so an hour's lateness is as small as a second's; what comes too late for its slot is not
+hurried after, it waits for the next (in steps) or is a gap (gliding), and is counted. The shutter is pressed only once
+the journal says that this frame has begun, and what the camera answers is written down before the next one begins.
+
+Nothing here waits: the journal writes in a thread of its own, the camera's answer comes by `heard`, and a tick only
+looks whether they have come.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
+
+from teleop.journal import Frame, Note
+from teleop.loop import PERIOD
+from teleop.motion import Act, Demand, Exposure, Follow, Motion, Outcome, Step, Tick
+from teleop.ports import DeviceError, Interrupted, TeleopError
+from teleop.sources.carriage import Carriage
+from teleop.sources.inputs import Command, Input
+from teleop.sources.phases import TRANSITIONS, Event, Phase
+from teleop.sources.progress import Progress
+from teleop.sources.stillness import Stillness
+from teleop.sources.timelapse_file import Timelapse
+
+LEAD = 0.1  # s before a shutter at which its frame is written down: a commit takes half a millisecond, a slow one 50
+LATE_SHARE = 0.2  # of an interval, by which a frame may be late before its slot is missed
+SILENCE = 0.7  # s after which a camera that has not answered is judged: a lost link has been found out by then
+LOOK = 0.2  # s between two looks at the keys while nothing else happens
+PATIENCE = 10  # frames in a row without a picture, after which going on is pointless
+_GRID = 100  # Hz
+_INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
+
+
+class Book(Protocol):
+    """Where frames are written down; `teleop.journal.Journal`, or a fake of it."""
+
+    trouble: str
+
+    def note(self, frame: int | None, state: Frame) -> Note: ...
+
+    def finish(self) -> Note: ...
+
+
+class TimelapseSource:
+    """Frames from `first` on; also a sink that looks on, for how still the axes are measured to be.
+
+    `progress` goes on counting where an earlier run of the same shoot left off. `keys` may pause it. `slot` is when
+    the next frame is due, on the loop's clock; a run that follows another of the same shoot is given that of the other,
+    and keeps to its rhythm.
+    """
+
+    def __init__(
+        self,
+        timelapse: Timelapse,
+        carriage: Carriage,
+        book: Book,
+        first: int,
+        progress: Progress,
+        slot: float = -math.inf,
+        keys: Input | None = None,
+    ) -> None:
+        self._timelapse, self._carriage, self._book, self._keys = timelapse, carriage, book, keys
+        self._phases, self._slots = timelapse.phases, timelapse.slots
+        self.frame, self.phase, self.progress, self.slot = first, Phase.APPROACH, progress, slot
+        self.begin = math.inf  # when the first frame of this run is due
+        self._lead = max(LEAD, self._phases.prefocus)
+        self._stillness = Stillness(self._phases.below)
+        self._asked_to_pause = False
+        self._in_a_row = 0  # frames without a picture
+        self._last: Note | None = None
+        self._note: Note | None = None
+        self._outcome: Outcome | None = None
+        self._since = math.inf  # when this phase began
+        self._pressed = math.inf
+        self._acts: list[Act] = []
+        self._turns: Mapping[Phase, Callable[[float], None]] = {
+            Phase.APPROACH: self._travel,
+            Phase.MOVE: self._travel,
+            Phase.SETTLE: self._settle,
+            Phase.WAIT: self._wait,
+            Phase.PAUSED: self._paused,
+            Phase.PREFOCUS: self._prefocus,
+            Phase.EXPOSE: self._expose,
+            Phase.POST: self._post,
+            Phase.FINISH: self._finish,
+            Phase.OVER: lambda _now: None,
+        }
+
+    def start(self, now: float, motion: Motion) -> None:
+        self._carriage.approach(now, motion, self.frame)
+        ready = self._carriage.arrival + self._phases.settle + self._lead + self._carriage.run_up
+        if self.slot == -math.inf:
+            later = self._timelapse.delay if self.frame == 0 else 0.0
+            self.slot = math.ceil(max(ready, now + later) * _GRID - _INSTANT) / _GRID
+        interval = self._slots.interval(self.frame)
+        missed = max(0, math.ceil((ready - self.slot) / interval - _INSTANT))
+        self.progress.missed += missed
+        self.slot += missed * interval
+        self.begin = self.slot
+        self._carriage.begin(self.slot, self._due)
+        self._since = now
+
+    def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
+        self._acts = []
+        self._look_at_keys(now)
+        before = None
+        while (self.phase, self.frame) != before:  # one tick may see several phases through, and one slot after another
+            before = self.phase, self.frame
+            self._turns[self.phase](now)
+        self.progress.due = self._carriage.when(self._due, now)
+        return {axis: Follow(*state) for axis, state in self._carriage.at(now).items()}, self._acts
+
+    def next_change(self, now: float) -> float:
+        if self.phase is Phase.OVER:
+            return math.inf
+        change = max(now, min(self._next_event(now), self._carriage.next_motion(now)))
+        return change if self._keys is None else min(change, now + LOOK)
+
+    def write(self, tick: Tick) -> None:
+        if self.phase is Phase.SETTLE:
+            self._stillness.see(tick.reported)
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
+        return None
+
+    def heard(self, outcome: Outcome) -> None:
+        """What the camera said; written down at once."""
+        if outcome.frame == self.frame and self._pressed < math.inf:
+            self._outcome = outcome
+            if outcome.code == 0:
+                self._book.note(self.frame, Frame.DONE)
+
+    def leave(self) -> None:
+        """The run is over: a frame that was begun and whose shutter was not pressed is no longer in doubt."""
+        if self.phase is Phase.PREFOCUS:
+            self._book.note(self.frame, Frame.UNSHOT)
+
+    def due_at(self, frame: int, now: float) -> float:
+        """When a frame is due, on the loop's clock."""
+        return self._carriage.when(self._slots.at(frame), now)
+
+    @property
+    def _due(self) -> float:
+        """When the frame is due, in the shoot's own time."""
+        return self._slots.at(self.frame)
+
+    @property
+    def _grace(self) -> float:
+        return max(2 * PERIOD, LATE_SHARE * self._slots.interval(self.frame))
+
+    def _happened(self, event: Event, now: float) -> None:
+        self.phase = TRANSITIONS[self.phase, event]
+        self._since = now
+        self.progress.phase = self.phase.name.lower()
+
+    def _next_event(self, now: float) -> float:
+        """When this phase may end by itself, inf where nothing but a motion does that."""
+        phases = self._phases
+        waiting = {
+            Phase.SETTLE: now if phases.below is not None else self._since + phases.settle,
+            Phase.WAIT: self._carriage.when(self._due - self._lead, now),
+            Phase.PREFOCUS: self._carriage.when(self._due, now) if self._note and self._note.safe else now,
+            Phase.EXPOSE: self._pressed + phases.exposure,
+            Phase.POST: max(now, self._pressed + phases.exposure + phases.post) if self._outcome else now,
+            Phase.FINISH: now,
+        }
+        return waiting.get(self.phase, math.inf)
+
+    def _look_at_keys(self, now: float) -> None:
+        presses = self._keys.read(now).presses if self._keys is not None else ()
+        if any(press.command is Command.QUIT for press in presses):
+            raise Interrupted("q pressed")
+        if sum(press.command is Command.PAUSE for press in presses) % 2:
+            self._asked_to_pause = not self._asked_to_pause
+        self.progress.pausing = self._asked_to_pause
+
+    def _travel(self, now: float) -> None:
+        if now >= self._carriage.arrival - _INSTANT:
+            self._stillness.begin()
+            self._happened(Event.ARRIVED, now)
+
+    def _settle(self, now: float) -> None:
+        over = now >= self._since + self._phases.settle - _INSTANT
+        if over or self._stillness.reached:
+            self.progress.unsettled += self._phases.below is not None and not self._stillness.reached
+            self._happened(Event.SETTLED, now)
+
+    def _wait(self, now: float) -> None:
+        if self._asked_to_pause:
+            self._carriage.pause(now)
+            self._happened(Event.PAUSE, now)
+            return
+        time = self._carriage.time(now)
+        if time > self._due + self._grace:
+            self._miss(now)
+        elif time >= self._due - self._lead - _INSTANT:
+            self._say_trouble()
+            self._note = self._book.note(self.frame, Frame.BEGUN)
+            if self._phases.prefocus:
+                self._acts.append(Exposure(self.frame, Step.FOCUS))
+            self._happened(Event.DUE, now)
+
+    def _paused(self, now: float) -> None:
+        if not self._asked_to_pause:
+            self._carriage.resume(now, self._due, self._lead)
+            self._happened(Event.RESUME, now)
+
+    def _prefocus(self, now: float) -> None:
+        self._say_trouble()
+        assert self._note is not None
+        late = self._carriage.time(now) - self._due
+        ready = self._note.safe and now >= self._since + self._phases.prefocus - _INSTANT
+        if late > self._grace:
+            if self._phases.prefocus:
+                self._acts.append(Exposure(self.frame, Step.RELEASE))
+            self._book.note(self.frame, Frame.UNSHOT)
+            self._miss(now)
+        elif ready and late >= -_INSTANT:
+            self._acts.append(Exposure(self.frame, Step.PRESS))
+            self._pressed, self._outcome = now, None
+            if late > PERIOD + _INSTANT:
+                self.progress.late += 1
+                self.progress.latest = max(self.progress.latest, late)
+            self._happened(Event.FIRE, now)
+
+    def _expose(self, now: float) -> None:
+        if now >= self._pressed + self._phases.exposure - _INSTANT:
+            self._acts.append(Exposure(self.frame, Step.RELEASE))
+            self._happened(Event.EXPOSED, now)
+
+    def _post(self, now: float) -> None:
+        phases, outcome = self._phases, self._outcome
+        if outcome is None or now < self._pressed + phases.exposure + phases.post - _INSTANT:
+            return
+        if outcome.code is None and now < self._pressed + SILENCE:
+            return
+        self._pressed, self._outcome = math.inf, None
+        if outcome.code == 0:
+            self.progress.shot += 1
+            self._in_a_row = 0
+        elif not self._without_picture(outcome):
+            self._miss(now)
+            return
+        self._go_on(now)
+
+    def _finish(self, now: float) -> None:
+        self._last = self._last or self._book.finish()
+        self._say_trouble()
+        if self._last.safe:
+            self._happened(Event.WRITTEN, now)
+
+    def _go_on(self, now: float) -> None:
+        if self.frame == self._slots.frames - 1:
+            self._happened(Event.LAST, now)
+            return
+        self.frame += 1
+        self.progress.frame = self.frame
+        spare = self._carriage.when(self._due, now) - now - self._lead - self._phases.settle
+        stepped = self._carriage.step(now, self.frame, spare)
+        self._happened(Event.STEP if stepped else Event.STAY, now)
+
+    def _miss(self, now: float) -> None:
+        """The slot has passed without a picture."""
+        self.progress.missed += 1
+        if self._carriage.skip(self._slots.interval(self.frame)):
+            self._happened(Event.MISSED, now)
+            return
+        self.progress.lost.append(self.frame)
+        self._book.note(self.frame, Frame.MISSED)
+        if self.frame == self._slots.frames - 1:
+            self._happened(Event.LAST, now)
+        else:
+            self.frame += 1
+            self.progress.frame = self.frame
+            self._happened(Event.MISSED, now)
+
+    def _without_picture(self, outcome: Outcome) -> bool:
+        """Whether the shoot is past the frame all the same. Raises DeviceError where that is to end it."""
+        self._in_a_row += 1
+        if outcome.code is None:
+            said = f"the camera did not answer at frame {self.frame}: whether it was shot is in doubt"
+        else:
+            said = f"the camera refused to shoot frame {self.frame} (return code {outcome.code:#04x})"
+            self.progress.refused += 1
+            self._book.note(self.frame, Frame.UNSHOT)
+        if not self._timelapse.go_on or self._in_a_row >= PATIENCE:
+            raise DeviceError(said)
+        if outcome.code is None:
+            self.progress.doubtful.append(self.frame)
+            self._book.note(self.frame, Frame.DOUBTFUL)
+        return outcome.code is None
+
+    def _say_trouble(self) -> None:
+        if self._book.trouble:
+            raise TeleopError(f"{self._book.trouble}; frame {self.frame} has not been shot")
