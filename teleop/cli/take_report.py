@@ -6,18 +6,42 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import TYPE_CHECKING
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
-from teleop.cli.take_options import Json, TakeFile, ending_facts, length, problems_said, say
+from cyclopts import Parameter
+
+from teleop.cli.take_options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_said, say
+from teleop.document import UnplayableError
 from teleop.motion import Axis
+from teleop.ports import UsageError
+from teleop.preview.output import replacing
 
 if TYPE_CHECKING:
     from teleop.takes.report import AxisReport
     from teleop.takes.take import Take
 
+ENDINGS = (".html", ".svg", ".png")
 
-def take_report(file: TakeFile, /, *, as_json: Json = False) -> int:
-    """Say how well a run went: errors, delay and limits used by axis, and why it stopped."""
+
+def take_report(
+    file: TakeFile,
+    /,
+    *,
+    output: Annotated[
+        Path | None, Parameter(name=("--output", "-o"), help="Draw it too: a page (.html) or a drawing (.svg, .png).")
+    ] = None,
+    overwrite: Overwrite = False,
+    as_json: Json = False,
+) -> int:
+    """Say how well a run went: errors, delay and limits used by axis, and why it stopped.
+
+    The page and the drawing show what was commanded and measured, the error, the actions and the end.
+    """
+    if output is not None:
+        _drawable(output)
+        place("-o", output, overwrite, file)
     from teleop.takes.report import report
     from teleop.takes.take import read_take
 
@@ -25,6 +49,8 @@ def take_report(file: TakeFile, /, *, as_json: Json = False) -> int:
         take = read_take(file)
     say(take.remark)
     found = report(take)
+    if output is not None:
+        _draw(take, found, output)
     if as_json:
         axes = {axis.value: {key: _plain(value) for key, value in asdict(of).items()} for axis, of in found.items()}
         about = {"title": take.about.title, "rig": take.about.rig, "seconds": round(take.duration, 3)}
@@ -32,6 +58,28 @@ def take_report(file: TakeFile, /, *, as_json: Json = False) -> int:
     else:
         _print(take, found)
     return 0
+
+
+def _drawable(output: Path) -> None:
+    ending = output.suffix.lower()
+    if ending not in ENDINGS:
+        raise UsageError(f"-o {output}: its ending must be one of {', '.join(ENDINGS)}")
+    if ending != ".html" and find_spec("matplotlib") is None:
+        raise UsageError(f"-o {output}: a drawing needs matplotlib: pip install 'rs-teleop[plot]'")
+
+
+def _draw(take: Take, found: Mapping[Axis, AxisReport], output: Path) -> None:
+    if not found:
+        raise UnplayableError([f"{take.path}: is empty: there is nothing to draw"])
+    with replacing(output) as stream:
+        if output.suffix.lower() == ".html":
+            from teleop.takes.picture import page
+
+            stream.write(page(take, found).encode())
+        else:
+            from teleop.takes.drawing import draw
+
+            draw(take, stream, output.suffix.lower().removeprefix("."))
 
 
 def _print(take: Take, found: Mapping[Axis, AxisReport]) -> None:

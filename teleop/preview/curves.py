@@ -36,7 +36,7 @@ def curve(track: Track, duration: float) -> Curve:
     times = _times(track, duration)
     rows = track.sample(times)
     if len(times) > MOST:
-        kept = _outline(rows)
+        kept = outline(rows)
         return Curve(times[kept], rows[:, kept])
     return Curve(times, rows)
 
@@ -57,8 +57,8 @@ def _times(track: Track, duration: float) -> Array:
     return np.unique(np.concatenate([around, inside[needed]]))
 
 
-def _outline(rows: Array) -> NDArray[np.intp]:
-    """Ascending indices of at most MOST columns of `rows` (4, m) that keep its shape: the extremes of each bucket."""
+def outline(rows: Array) -> NDArray[np.intp]:
+    """Ascending indices of at most MOST columns of `rows` (k, m) that keep its shape: the extremes of each bucket."""
     columns = rows.shape[1]
     buckets = (MOST - 2) // (2 * len(rows))
     size = -(-columns // buckets)

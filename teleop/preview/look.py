@@ -21,4 +21,4 @@ DEGREES, SHARE = "°", ""
 UNITS: Mapping[Axis, str] = {axis: DEGREES if axis in (Axis.PAN, Axis.TILT, Axis.ROLL) else SHARE for axis in Axis}
 """Axes of one unit share a scale: focus and the sticks, 0..1 and -1..1, would be flat lines among degrees."""
 
-PER: Mapping[str, str] = {"position": "", "velocity": "/s", "acceleration": "/s²", "jerk": "/s³"}
+PER: Mapping[str, str] = {"position": "", "error": "", "velocity": "/s", "acceleration": "/s²", "jerk": "/s³"}

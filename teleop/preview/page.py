@@ -11,6 +11,7 @@ import html
 import json
 import math
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,10 +28,18 @@ _SCRIPTS = ("values", "marks", "plots")  # one module: in this order
 
 def page(performance: Performance, profile: Profile) -> str:
     """The HTML text of an interactive page about `performance` on the rig of `profile`."""
-    data = json.dumps(_data(performance, profile), separators=(",", ":"), allow_nan=False)
+    return assembled(performance.title, _data(performance, profile))
+
+
+def assembled(title: str, data: Mapping[str, Any]) -> str:
+    """The page about `data`, which is as `_data` gives it.
+
+    An axis may have samples of `measured`, drawn over its position, and None for what is not known at a time; `facts`
+    may be said instead of what else stands below the title.
+    """
     parts = {
-        "title": html.escape(performance.title),
-        "data": data.replace("<", "\\u003c"),
+        "title": html.escape(title),
+        "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
         "style": _text(_WEB / "page.css"),
         "script": "\n".join(_text(_WEB / f"{name}.js") for name in _SCRIPTS),
         "uplot_style": _text(_UPLOT / "uPlot.min.css"),
@@ -66,26 +75,24 @@ def _axis(axis: Axis, performance: Performance, limits: Limits) -> dict[str, Any
         "name": axis.value.replace("_", " "),
         "colour": COLOURS[axis],
         "unit": UNITS[axis],
-        "limits": {"position": [_finite(limits.minimum), _finite(limits.maximum)], **reach},
+        "limits": {"position": [finite(limits.minimum), finite(limits.maximum)], **reach},
         "peaks": {
-            "position": [_short(peaks.minimum), _short(peaks.maximum)],
-            **{name: [_short(getattr(peaks, name))] for name in QUANTITIES[1:]},
+            "position": [short(peaks.minimum), short(peaks.maximum)],
+            **{name: [short(getattr(peaks, name))] for name in QUANTITIES[1:]},
         },
         "keys": [
             {"at": key.at, "hold": key.hold, "position": key.position, "name": key.where}
             for key in performance.keys[axis]
         ],
         "times": [round(time, 6) for time in times.tolist()],
-        "samples": {
-            name: [_short(value) for value in row] for name, row in zip(QUANTITIES, rows.tolist(), strict=True)
-        },
+        "samples": {name: [short(value) for value in row] for name, row in zip(QUANTITIES, rows.tolist(), strict=True)},
     }
 
 
-def _finite(limit: float) -> float | None:
+def finite(limit: float) -> float | None:
     return limit if math.isfinite(limit) else None
 
 
-def _short(value: float) -> float:
+def short(value: float) -> float:
     """Six digits: finer than a screen, a third of the bytes."""
     return float(f"{value:.6g}")

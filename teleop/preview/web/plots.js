@@ -52,12 +52,19 @@ function axisY(name, unit, side) {
   };
 }
 
+function series(axis, dotted) {
+  const look = dotted ? { stroke: "#f1f3f5", width: 1, dash: [2, 3] } : { stroke: axis.colour, width: 2 };
+  return { ...look, scale: scaleOf(axis.unit), pxAlign: 0, spanGaps: true, points: { show: false } };
+}
+
 const { times, picks } = merged();
 let dragged = null; // the plot in which the mouse is: the others follow it, and must not zoom a second time
 const plots = [];
 for (const quantity of move.quantities) {
   const { name } = quantity, { section, values } = card(quantity);
-  const samples = picks.map((pick, k) => pick.map((i) => (i < 0 ? null : move.axes[k].samples[name][i])));
+  const column = (row) => picks.map((pick, k) => pick.map((i) => (i < 0 ? null : move.axes[k].samples[row]?.[i] ?? null)));
+  const measured = name === "position" && move.axes.some((axis) => axis.samples.measured); // drawn dotted, over the plan
+  const samples = [...column(name), ...(measured ? column("measured") : [])];
   const plot = new uPlot({
     ...size(name, section),
     legend: { show: false },
@@ -66,8 +73,7 @@ for (const quantity of move.quantities) {
       x: { time: false, range: () => [view.from, view.to] },
       ...Object.fromEntries(scales(name).map(([scale, range]) => [scale, { auto: false, ...range }])),
     },
-    series: [{}, ...move.axes.map((axis) => (
-      { stroke: axis.colour, width: 2, scale: scaleOf(axis.unit), pxAlign: 0, spanGaps: true, points: { show: false } }))],
+    series: [{}, ...samples.map((_, k) => series(move.axes[k % move.axes.length], k >= move.axes.length))],
     axes: [axisX(), ...units.map((unit, side) => axisY(name, unit, side))],
     cursor: {
       sync: { key: "move", scales: ["x", null] }, y: false, points: { show: false },
@@ -116,7 +122,10 @@ function zoom(from, to) {
 function fit() {
   for (const { name, plot } of plots)
     plot.batch(() => {
-      move.axes.forEach((axis, k) => plot.series[k + 1].show !== axis.shown && plot.setSeries(k + 1, { show: axis.shown }));
+      plot.series.slice(1).forEach((each, k) => {
+        const { shown } = move.axes[k % move.axes.length];
+        if (each.show !== shown) plot.setSeries(k + 1, { show: shown });
+      });
       plot.setScale("x", { min: view.from, max: view.to });
       for (const [scale, range] of scales(name)) plot.setScale(scale, range);
     });
@@ -132,9 +141,9 @@ function read(u, name) {
     const value = at === null ? null : valueAt(axis, name, at);
     values[k].hidden = !axis.shown;
     values[k].children[1].textContent = value === null
-      ? axis.peaks[name].map((peak) => number(peak, axis.unit)).join(" … ") : number(value, axis.unit);
+      ? (at === null ? axis.peaks[name].map((peak) => number(peak, axis.unit)).join(" … ") : "") : number(value, axis.unit);
     const limit = axis.limits[name].map((each) => (each === null ? "∞" : minus(each)));
-    values[k].children[2].textContent = `/ ${name === "position" ? limit.join(" … ") : limit[1]}`;
+    values[k].children[2].textContent = limit.length ? `/ ${name === "position" ? limit.join(" … ") : limit[1]}` : "";
     dots[k].hidden = value === null || !axis.shown;
     if (value !== null) dots[k].style.transform = `translate(${plot.cursor.left}px, ${plot.valToPos(value, scaleOf(axis.unit))}px)`;
   });
@@ -187,7 +196,7 @@ addEventListener("resize", () => {
 
 element("title").textContent = move.title;
 const keyframes = new Set(move.axes.flatMap((axis) => axis.keys.map((key) => key.name))).size;
-element("facts").textContent = `${span()} on ${move.rig}, ${keyframes} keyframe${keyframes === 1 ? "" : "s"}`;
+element("facts").textContent = move.facts ?? `${span()} on ${move.rig}, ${keyframes} keyframe${keyframes === 1 ? "" : "s"}`;
 for (const warning of move.warnings) {
   const item = document.createElement("li");
   item.textContent = warning;

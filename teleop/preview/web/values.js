@@ -46,6 +46,7 @@ function indexAt(times, time) {
 function valueAt(axis, quantity, time) {
   const i = indexAt(axis.times, time), values = axis.samples[quantity];
   const span = axis.times[i + 1] - axis.times[i];
+  if (values[i] === null || (span > 0 && values[i + 1] === null)) return null; // nothing was measured then
   return span > 0 ? values[i] + (values[i + 1] - values[i]) * (time - axis.times[i]) / span : values[i];
 }
 
@@ -64,12 +65,18 @@ function merged() {
 function extent(quantity, unit) {
   const axes = move.axes.filter((axis) => axis.shown && axis.unit === unit);
   let low = Infinity, high = -Infinity;
-  const include = (value) => { low = Math.min(low, value); high = Math.max(high, value); };
+  const include = (value) => {
+    if (value === null) return;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  };
   for (const axis of axes) {
-    include(valueAt(axis, quantity, view.from));
-    include(valueAt(axis, quantity, view.to));
-    const values = axis.samples[quantity];
-    for (let i = indexAt(axis.times, view.from) + 1; i < values.length && axis.times[i] <= view.to; i++) include(values[i]);
+    for (const name of quantity === "position" && axis.samples.measured ? [quantity, "measured"] : [quantity]) {
+      include(valueAt(axis, name, view.from));
+      include(valueAt(axis, name, view.to));
+      const values = axis.samples[name];
+      for (let i = indexAt(axis.times, view.from) + 1; i < values.length && axis.times[i] <= view.to; i++) include(values[i]);
+    }
     if (quantity !== "position") include(0);
   }
   const near = high - low, bottom = low - near, top = high + near;
