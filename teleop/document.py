@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import yaml
 
+from teleop.nodes import TooMuchError, compose
 from teleop.phrases import PHRASES, nearest
 from teleop.ports import UsageError
 
@@ -26,21 +27,24 @@ if TYPE_CHECKING:
     Checked = TypeVar("Checked", bound=BaseModel)
 
 MAX_BYTES = 4_000_000  # a sequence of 2000 keys is 0.2 MB
-MAX_NODES = 400_000  # after aliases are followed
+MAX_VALUES = 100_000  # after aliases are followed: 14 000 keyframes of four axes, which nobody writes or can plan
+MAX_NODES = 160_000  # keys counted, aliases not followed
 MAX_DEPTH = 32
+MOST_TOLD = 200  # of what pydantic finds: to say it in words takes a millisecond each
 
 Location = tuple[str | int, ...]
 Place = tuple[int, int]  # line and column, from 1
 Wrong = tuple[Location, str]  # where in the data, and what is wrong there
 
 _UNTAGGED = frozenset(f"tag:yaml.org,2002:{kind}" for kind in ("str", "seq", "map"))  # what PyYAML gives by default
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
 _SCALARS: Sequence[tuple[re.Pattern[str], Callable[[str], Any]]] = (
     (re.compile(r"~|null|Null|NULL|"), lambda _: None),
     (re.compile(r"true|True|TRUE"), lambda _: True),
     (re.compile(r"false|False|FALSE"), lambda _: False),
-    (re.compile(r"[-+]?[0-9]{1,400}"), int),
-    (re.compile(r"0o[0-7]{1,400}"), lambda text: int(text[2:], 8)),
-    (re.compile(r"0x[0-9a-fA-F]{1,400}"), lambda text: int(text[2:], 16)),
+    (re.compile(r"[-+]?[0-9]{1,300}"), int),  # longer ones, of any base, are no float either, and stay text
+    (re.compile(r"0o[0-7]{1,300}"), lambda text: int(text[2:], 8)),
+    (re.compile(r"0x[0-9a-fA-F]{1,250}"), lambda text: int(text[2:], 16)),
     (re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?"), float),
     (re.compile(r"[-+]?\.(inf|Inf|INF)"), lambda text: float(text.replace(".", ""))),
     (re.compile(r"\.(nan|NaN|NAN)"), lambda _: float("nan")),
@@ -48,11 +52,11 @@ _SCALARS: Sequence[tuple[re.Pattern[str], Callable[[str], Any]]] = (
 
 
 class DocumentError(UsageError):
-    """A file that cannot be used; `problems` has a line for each thing wrong with it."""
+    """A file that cannot be used: a line for each thing wrong with it, and how many more there are than `problems`."""
 
-    def __init__(self, problems: Sequence[str]) -> None:
+    def __init__(self, problems: Sequence[str], more: int = 0) -> None:
         super().__init__("\n".join(problems))
-        self.problems = list(problems)
+        self.problems, self.more = list(problems), more
 
 
 def path_text(path: Location) -> str:
@@ -100,14 +104,15 @@ class Document:
         from pydantic import ValidationError
 
         found = [self.problem(location, text) for location, text in wrong]
-        checked = None
+        checked, more = None, 0
         try:
             checked = model.model_validate(self.data)
         except ValidationError as error:
             known = sorted(set(_property_names(model.model_json_schema())))
-            found += [self._explain(detail, known) for detail in error.errors(include_url=False)]
+            found += [self._explain(detail, known) for detail in error.errors(include_url=False)[:MOST_TOLD]]
+            more = max(0, error.error_count() - MOST_TOLD)
         if checked is None or found:
-            raise DocumentError(sorted(found, key=_place_in))
+            raise DocumentError(sorted(found, key=_place_in), more)
         return checked
 
     def _explain(self, detail: ErrorDetails, known: Sequence[str]) -> str:
@@ -198,15 +203,20 @@ def parse_document(text: str, name: str) -> Document:
     """YAML text as a Document called `name` in errors; raises DocumentError."""
     document = Document(name)
     problems: list[str] = []
+    if found := _CONTROL.search(text):
+        line = text.count("\n", 0, found.start()) + 1
+        column = found.start() - text.rfind("\n", 0, found.start())
+        raise DocumentError([f"{name}:{line}:{column}: not YAML: a control character, U+{ord(found[0]):04X}"])
     try:
-        node = yaml.compose(text, yaml.BaseLoader)
+        node = compose(text, MAX_DEPTH, MAX_NODES)
         if node is None:
             raise DocumentError([f"{name}:1:1: the file is empty"])
         document.data = _Reading(document, problems).value(node, (), 0)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f":{mark.line + 1}:{mark.column + 1}" if mark else ""
-        raise DocumentError([f"{name}{place}: not YAML: {error.problem or error.context}"]) from None
+        what = "" if isinstance(error, TooMuchError) else "not YAML: "
+        raise DocumentError([f"{name}{place}: {what}{error.problem or error.context}"]) from None
     except yaml.YAMLError as error:
         raise DocumentError([f"{name}: not YAML: {str(error).splitlines()[0]}"]) from None
     except RecursionError:
@@ -226,8 +236,8 @@ class _Reading:
         place = (node.start_mark.line + 1, node.start_mark.column + 1)
         self._document.places[path] = place
         self._nodes += 1
-        if self._nodes > MAX_NODES or depth > MAX_DEPTH:
-            what = "holds too many values" if self._nodes > MAX_NODES else "is nested too deeply"
+        if self._nodes > MAX_VALUES or depth > MAX_DEPTH:
+            what = "holds too many values" if self._nodes > MAX_VALUES else "is nested too deeply"
             raise DocumentError([self._document.problem(path[:4], what + "; aliases count each time")])
         if node.tag not in _UNTAGGED:
             self._problems.append(self._document.problem(path, f"has a tag, {node.tag}; no tags are used here"))
@@ -236,7 +246,7 @@ class _Reading:
         if isinstance(node, yaml.SequenceNode):
             return [self.value(item, (*path, index), depth + 1) for index, item in enumerate(node.value)]
         assert isinstance(node, yaml.ScalarNode)
-        return _scalar(node.value) if node.style is None else node.value
+        return node.value if node.style else _scalar(node.value)
 
     def _mapping(self, node: yaml.MappingNode, path: Location, depth: int) -> dict[str, Any]:
         result: dict[str, Any] = {}

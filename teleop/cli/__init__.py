@@ -17,6 +17,7 @@ import teleop
 from teleop.document import DocumentError, UnplayableError
 from teleop.ports import TeleopError, UsageError
 
+MOST_SAID = 50  # problems of a file: nobody mends more at a time
 DONE, FAILED, BAD_USAGE, INTERRUPTED = 0, 1, 2, 130
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
@@ -71,6 +72,8 @@ def run(arguments: Sequence[str]) -> int:
 
 def _say(error: Exception) -> None:
     if isinstance(error, DocumentError):
-        print("\n".join(error.problems), file=sys.stderr)
+        print("\n".join(error.problems[:MOST_SAID]), file=sys.stderr)
+        if more := len(error.problems[MOST_SAID:]) + error.more:
+            print(f"teleop: and {more} more", file=sys.stderr)
     else:
         print(f"teleop: {error}", file=sys.stderr)

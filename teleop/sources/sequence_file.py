@@ -61,8 +61,8 @@ def load_performance(
     reader = Reader(limits, rig, devices)
     script = reader.read(*find(name, "sequences", "sequence"))
     if script is None:
-        kind = UnplayableError if len(reader.problems) == reader.beyond_rig else DocumentError
-        raise kind(reader.problems)
+        kind = UnplayableError if len(reader.problems) + reader.more == reader.beyond_rig else DocumentError
+        raise kind(reader.problems, reader.more)
     sheet, document = script.sheet, script.document
     try:
         keys, move, factor = _planned(script.keys, sheet, {axis: limits[axis] for axis in script.keys})

@@ -27,12 +27,13 @@ MOST_FILES = 200  # each counted as often as it is included
 
 @dataclass
 class Reader:
-    """Reads files for a rig; `problems` are of all of them, `beyond_rig` is how many of those are only the rig's."""
+    """Reads files for a rig. `problems` are of all of them, `more` are not told; `beyond_rig` are only the rig's."""
 
     limits: Mapping[Axis, Limits]
     rig: str
     devices: Collection[str] | None = None
     problems: list[str] = field(default_factory=list)
+    more: int = 0
     beyond_rig: int = 0
     _files: int = 0
     _documents: dict[Path, Document] = field(default_factory=dict)
@@ -56,6 +57,7 @@ class Reader:
             script = Script.of(document, sheet)
         except DocumentError as error:
             self.problems += error.problems
+            self.more += error.more
             self.beyond_rig += len(beyond_rig)
         entries = enumerate(sequence(document.data, "include"))
         included = [self._include(document, index, entry, (*chain, path.resolve())) for index, entry in entries]

@@ -10,7 +10,10 @@ from typing import Any
 
 _PARTS = re.compile(r"(?:(\d+(?:\.\d+)?)h)?(?:(\d+(?:\.\d+)?)m)?(?:(\d+(?:\.\d+)?)s)?")
 _FRAMES = re.compile(r"(\d+)f")
-_TIMECODE = re.compile(r"(\d+):([0-5]\d):([0-5]\d):(\d+)")
+_TIMECODE = re.compile(r"(\d+):([0-5]\d):([0-5]\d)([:;])(\d+)")
+LONGEST = 31 * 86400.0  # s
+LONGEST_TEXT = 40  # characters: what is longer is no time, and a number of so many digits no number
+DROPPED = {29.97: 2, 59.94: 4}  # fps, nominally -> frame numbers left out in a minute
 _PERCENT = re.compile(r"(\d{1,6}(?:\.\d{1,6})?)\s*%")
 TIME_WRITTEN = rf"^\s*(?=\S)({_PARTS.pattern}|{_FRAMES.pattern}|{_TIMECODE.pattern})\s*$"
 FRAMES_WRITTEN = rf"^\s*({_FRAMES.pattern})\s*$"
@@ -23,25 +26,50 @@ _WRITTEN = "4, 4s, 1m30s, 96f or 00:00:04:00"
 def seconds(value: Any, fps: float | None) -> float:
     """`4`, `4s`, `1m30s`, `2h`, `96f` or `00:00:04:00` in seconds; the last two need `fps`, in frames per second.
 
-    Timecode is non-drop. Raises ValueError with what would be right.
+    Timecode is non-drop, or with a semicolon (`00:01:00;02`) the drop-frame one of 29.97 and 59.94 fps. Raises
+    ValueError with what would be right.
     """
+    time = _seconds(value, fps)
+    if time > LONGEST:
+        raise ValueError(f"must be at most {LONGEST / 86400:g} days, not {value!r}"[:200])
+    return time
+
+
+def _seconds(value: Any, fps: float | None) -> float:
     if isinstance(value, int | float) and not isinstance(value, bool):
         if not math.isfinite(value) or value < 0:
             raise ValueError(f"must be 0 s or later, not {value:g}")
         return float(value)
-    text = value.strip() if isinstance(value, str) else ""
+    text = value.strip() if isinstance(value, str) and len(value) <= LONGEST_TEXT else ""
     if text and (match := _PARTS.fullmatch(text)):
         hours, minutes, rest = (float(part or 0) for part in match.groups())
         return hours * 3600 + minutes * 60 + rest
     if match := _FRAMES.fullmatch(text):
         return int(match[1]) / _needed(fps, text)
     if match := _TIMECODE.fullmatch(text):
-        rate = _needed(fps, text)
-        hours, minutes, whole, frames = (int(part) for part in match.groups())
-        if frames >= math.ceil(rate):
-            raise ValueError(f"has frame {frames}, and there are {rate:g} in a second")
-        return (hours * 3600 + minutes * 60 + whole) * math.ceil(rate) / rate + frames / rate
-    raise ValueError(f"must be a time ({_WRITTEN}), not {value!r}")
+        hours, minutes, whole, mark, number = match.groups()
+        return _timecode(text, (int(hours), int(minutes), int(whole), int(number)), _needed(fps, text), mark == ";")
+    raise ValueError(f"must be a time ({_WRITTEN}), not {value!r}"[:200])
+
+
+def _timecode(text: str, parts: tuple[int, int, int, int], fps: float, drop: bool) -> float:
+    """Drop-frame timecode leaves out the first numbers of every minute but each tenth, to keep up with the clock."""
+    hours, minutes, whole, number = parts
+    rate = math.ceil(fps)
+    if number >= rate:
+        raise ValueError(f"has frame {number}, and there are {fps:g} in a second")
+    count = ((hours * 60 + minutes) * 60 + whole) * rate + number
+    if not drop:
+        return count / fps
+    if round(fps, 2) not in DROPPED:
+        raise ValueError(f"is {text}, in drop-frame timecode, which there is at 29.97 and 59.94 fps, not {fps:g}")
+    dropped = DROPPED[round(fps, 2)]
+    if minutes % 10 and whole == 0 and number < dropped:
+        raise ValueError(
+            f"is {text}, a number that drop-frame timecode leaves out; {text[:-2]}{dropped:02} is the next"
+        )
+    whole_minutes = hours * 60 + minutes
+    return (count - dropped * (whole_minutes - whole_minutes // 10)) / (rate * 1000 / 1001)
 
 
 def frames(value: Any) -> float:

@@ -20,6 +20,11 @@ from teleop.sources.times import seconds
         ("00:00:04:00", 24, 4.0),
         ("01:00:00:12", 24, 3600.5),
         ("00:01:00:00", 23.976, 24 * 60 / 23.976),
+        ("00:00:59;29", 29.97, 1799 * 1.001 / 30),
+        ("00:01:00;02", 29.97, 1800 * 1.001 / 30),
+        ("00:10:00;00", 29.97, 17982 * 1.001 / 30),
+        ("01:00:00;00", 29.97, 107892 * 1.001 / 30),
+        ("01:00:00;00", 59.94, 215784 * 1.001 / 60),
     ],
 )
 def test_every_way_to_write_a_time(written: object, fps: float | None, value: float) -> None:
@@ -40,6 +45,12 @@ def test_every_way_to_write_a_time(written: object, fps: float | None, value: fl
         ("00:00:04:00", None, "needs fps"),
         ("00:00:04:24", 24, "has frame 24"),
         ("00:61:00:00", 24, "must be a time"),
+        ("00:01:00;00", 29.97, "a number that drop-frame timecode leaves out; 00:01:00;02 is the next"),
+        ("00:00:01;00", 25, "there is at 29.97 and 59.94 fps, not 25"),
+        ("9" * 5000 + "s", None, "must be a time"),
+        ("9" * 38 + "h", None, "must be at most 31 days"),
+        (1e300, None, "must be at most 31 days"),
+        (10**299, None, "must be at most 31 days"),
     ],
 )
 def test_what_is_no_time_is_said(written: object, fps: float | None, said: str) -> None:
