@@ -16,11 +16,15 @@ if TYPE_CHECKING:
 def plan(sequence: str | Path, rig: str | Path = "sim") -> Move:
     """The move that a sequence makes on a rig; each a shipped name, or a file.
 
-    `Move.at(t)` is the state of every axis t seconds after the first keyframe's zero, `Move.duration` its length in s.
+    `Move.at(t)` is the state of every axis t seconds after the first keyframe's zero, `Move.duration` its length in s;
+    of a timelapse it is the rehearsal, at the speed of its clip.
     Raises `teleop.document.DocumentError` with a line for everything wrong, UnplayableError where the rig cannot do it.
     """
     from teleop.profile import load_profile  # numpy and the solver take 0.3 s to load, which no other command needs
     from teleop.sources.sequence_file import load_performance
+    from teleop.sources.timelapse_file import load_timelapse
 
     profile = load_profile(str(rig))
+    if timelapse := load_timelapse(str(sequence), profile.limits, profile.name):
+        return timelapse.rehearsal().move
     return load_performance(str(sequence), profile.limits, profile.name).move

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Mapping
 from typing import Annotated, Any
 
@@ -33,12 +34,16 @@ def check(
     if options.json:
         found = {"ok": True, "title": performance.title, "duration": performance.duration, "axes": asked}
         speed = None if math.isinf(most) else most
-        found |= {"speed_at_most": speed, "warnings": list(performance.warnings)}
+        cues = [{"at": cue.at, "name": cue.name} for cue in performance.cues]
+        found |= {"cues": cues, "speed_at_most": speed, "warnings": list(performance.warnings)}
         print(json.dumps(found if timelapse is None else {**found, "timelapse": facts(timelapse)}))
     else:
         _print(performance, profile, asked)
         if timelapse is not None:
             print(f"{summary(timelapse)}. The table is of its rehearsal.")
+        if performance.cues:
+            counted = Counter(cue.name for cue in performance.cues)
+            print(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
         if math.isfinite(most):
             print(f"It can be played at most at {math.floor(100 * most)} % of its speed.")
     return 0

@@ -64,6 +64,8 @@ def load_performance(
         kind = UnplayableError if len(reader.problems) + reader.more == reader.beyond_rig else DocumentError
         raise kind(reader.problems, reader.more)
     sheet, document = script.sheet, script.document
+    if sheet.timelapse is not None:
+        raise DocumentError([document.problem(("timelapse",), "has keyframes in frames: it is shot, not played")])
     try:
         keys, move, factor = _planned(script.keys, sheet, {axis: limits[axis] for axis in script.keys})
     except Infeasible as error:

@@ -12,6 +12,9 @@ import pytest
 from command import running, teleop
 from network import own_network
 
+from sequences import RIGS
+from teleop.shipped import folder
+
 BUS = "gimbal=udp_multicast:239.74.163.2"
 STICKS = "time,pan\n0,0.3\n1,0\n2,0\n"
 
@@ -22,6 +25,20 @@ def test_the_demo_plays_and_reports_every_axis() -> None:
     for word in ("pan", "tilt", "focus", "RMS error", "Peak error"):
         assert word in done.stdout
     assert " / 15.0 s" in done.stderr
+
+
+LONG = ("interview", "day-to-night")  # ten minutes, and an evening
+SHORT = [file.stem for file in sorted(folder("sequences").glob("*.yaml")) if file.stem not in LONG]
+
+
+@pytest.mark.parametrize("name", SHORT)
+def test_every_shipped_move_plays_to_its_end(name: str) -> None:
+    done = teleop("play", name, "--fast", "--json", "--rig", RIGS.get(name, "sim"))
+    assert done.returncode == 0, done.stderr
+    report = json.loads(done.stdout)
+    assert report["result"] == "done"
+    for score in report["axes"].values():
+        assert score["rms"] < 0.1
 
 
 def test_json_is_one_object_for_programs() -> None:
@@ -47,7 +64,9 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
     done = teleop("check", "reveal", "--rig", "rs2", "--link", "gimbal=slcan:/dev/nothing-here")
     assert done.returncode == 0, done.stderr
     assert "15.00 s on DJI RS 2" in done.stdout
+    assert "Cues: record, stop." in done.stdout
     report = json.loads(teleop("check", "reveal", "--json").stdout)
+    assert report["cues"] == [{"at": 0, "name": "record"}, {"at": 15, "name": "stop"}]
     assert report["duration"] == 15
     assert 0 < report["axes"]["pan"]["velocity"] < 1
     assert report["speed_at_most"] == pytest.approx(3.3, abs=0.5)
