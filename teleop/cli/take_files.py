@@ -14,21 +14,22 @@ from teleop.ports import UsageError
 from teleop.preview.output import replacing
 from teleop.sinks.recorder import ENDING
 
+COLUMNS = (
+    "Columns: time (s); of each axis, as of pan, pan_stick (-1..1), pan_wish (cruise, goto, follow or halt), pan_asked"
+    " (its number: unit/s of a cruise, else units), pan, pan_velocity, pan_acceleration (commanded), pan_measured and"
+    " pan_measured_time (since the row before); actions. Empty where there was nothing."
+)
+
 
 def take_export(
     file: TakeFile,
     /,
     *,
-    csv: Annotated[Path, Parameter(help="The table to write.")],
+    csv: Annotated[Path, Parameter(help=f"The table to write, a row for each tick. {COLUMNS}")],
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> int:
-    """Write a take as a table, a row for each tick.
-
-    The columns: time (s), then of each axis its stick (-1..1), what was asked for (wish) and its number (asked: of a
-    cruise unit/s, else units), where it was commanded to be (the axis's name, _velocity, _acceleration) and measured to
-    be since the row before (_measured, _measured_time), at last the actions. A field is empty where there was nothing.
-    """
+    """Write a take as a table, a row for each tick; `teleop.takes.table` says what its columns are."""
     from teleop.takes.table import write_table
 
     place("--csv", csv, overwrite, file)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -52,7 +54,8 @@ def take_keyframes(
         take = read_take(file)
         for warning in warnings(take):
             say(warning)
-        fitted = keyframes(take, tolerance, rate, measured=measured)
+        with _busy(f"Fitting {take.duration:.0f} s"):
+            fitted = keyframes(take, tolerance, rate, measured=measured)
     with replacing(output) as stream:
         stream.write(fitted.text.encode())
     if as_json:
@@ -64,3 +67,16 @@ def take_keyframes(
         count = len(fitted.frames)
         print(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
     return 0
+
+
+@contextmanager
+def _busy(what: str) -> Iterator[None]:
+    """A sign of life on a terminal: a minute of a restless hand takes about as long to fit."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield
+        return
+    with console.status(what):
+        yield
