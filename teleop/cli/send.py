@@ -1,4 +1,4 @@
-"""`teleop send`: one command to a rig's gimbal, camera or focus motor, and what it answers.
+"""`teleop send`: one command to a rig's gimbal, camera or focus motor, and what it answers; for a drone, send_drone.
 
 Everything here comes from the catalogue: the words, the help, the checks. A message is checked before any port opens,
 so that a typing error never costs a half-done exchange. A lost reply does not mean a lost command, so whether to ask
@@ -8,9 +8,7 @@ again depends on what is asked: a question or a setting may be repeated, a photo
 from __future__ import annotations
 
 import json
-import shutil
 import sys
-import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Annotated, Any
@@ -18,11 +16,13 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from teleop.cli.monitor import in_units
 from teleop.cli.options import DEFAULTS, Options
+from teleop.cli.send_drone import send_drone
+from teleop.cli.send_help import print_help
+from teleop.cli.told import in_units
 from teleop.clock import SystemClock
 from teleop.dji import camera, focus, gimbal
-from teleop.dji.catalogue import COMMANDS, DEVICES, PLAIN, find, help_of
+from teleop.dji.catalogue import find
 from teleop.dji.frame import FrameReader
 from teleop.dji.message import STREAM, FieldError, Message
 from teleop.dji.r_sdk import R_SDK
@@ -55,13 +55,12 @@ NOT_DONE: Mapping[tuple[str, str], str] = {
 TAKEN_OVER = (
     "speed control stays taken over; to give it back: teleop send gimbal speed yaw=0 roll=0 pitch=0 take_over=false"
 )
-_WIDTH = 100  # columns at most: longer lines are hard to read
-_NO_BREAK = "\N{NO-BREAK SPACE}"
 
 
 def send(
     *words: Annotated[
-        str, Parameter(help="gimbal, camera or focus, a command and field=value ...; or plain words, as recenter.")
+        str,
+        Parameter(help="gimbal, camera, focus or drone, a command and field=value ...; or plain words, as recenter."),
     ],
     retries: Annotated[
         int | None,
@@ -80,12 +79,22 @@ def send(
             show_default=False,
         ),
     ] = False,
+    i_understand: Annotated[
+        bool,
+        Parameter(help="Send what can make a drone fly or fall.", negative=(), show_default=False),
+    ] = False,
     options: Options = DEFAULTS,
 ) -> int:
-    """Send one command to the gimbal, the camera or the focus motor, and print the reply."""
+    """Send one command to the gimbal, the camera, the focus motor or the drone, and print the reply."""
     if show_help:
-        _print_help(words)
+        print_help(words)
         return 0
+    if words and words[0].lower() == "drone":
+        if retries is not None:
+            raise DocumentError(["--retries is for the gimbal: how often a drone is asked is the protocol's affair"])
+        return send_drone(words, options, i_understand)
+    if i_understand:
+        raise DocumentError(["--i-understand is for what makes a drone fly: teleop send drone ..."])
     profile = options.profile()
     message = asked_for(words)
     url = url_of(profile, message.name.partition(".")[0])
@@ -200,46 +209,3 @@ def readable(name: str, record: Record) -> Iterator[str]:
     fields = {field: text for field, text in in_units(record).items() if field != "return_code"}
     width = max(map(len, fields), default=0)
     yield from (f"  {field:{width}}  {text}" for field, text in fields.items())
-
-
-def _print_help(words: Sequence[str]) -> None:
-    """Usage and options as every command has them, then the catalogue, or the part of it that the words begin."""
-    from teleop.cli import app
-
-    width = min(shutil.get_terminal_size().columns, _WIDTH)
-    lines = list(catalogue_help(" ".join(word for word in words if "=" not in word), width))
-    if not lines:
-        raise DocumentError([f"no command begins with {' '.join(words)!r}; teleop send --help lists everything"])
-    app.help_print(["send"])
-    print(*lines, sep="\n")
-
-
-def catalogue_help(beginning: str, width: int) -> Iterator[str]:
-    """Lines of at most `width` columns on the commands that begin so, with or without their device."""
-    for device in DEVICES:
-        plain = [_shortest(name).replace(" ", _NO_BREAK) for name in PLAIN if _begins(name, device, beginning)]
-        if plain:
-            yield from ("", f"{device}: plain words", *_wrapped("  ", "  ", ", ".join(plain), width))
-        for name, command in COMMANDS.items():
-            if _begins(name, device, beginning):
-                yield from ("", f"{name}, sent once without a reply" if command.cmd_type == STREAM else name)
-                yield from _wrapped("  ", "  ", " ".join((command.__doc__ or "").split()), width)
-                for field, requirement, default in help_of(command):
-                    text = requirement if default is None else f"{requirement} [default: {default}]"
-                    yield from _wrapped(f"    {field:20}", " " * 24, text, width)
-
-
-def _begins(name: str, device: str, beginning: str) -> bool:
-    shapes = (name, name.removeprefix(f"{device} ")) if name.startswith(f"{device} ") else ()
-    return any(f"{shape} ".startswith(f"{beginning} ".lstrip()) for shape in shapes)
-
-
-def _shortest(name: str) -> str:
-    """The words without their device, where they mean the same."""
-    short = name.partition(" ")[2]
-    return short if find(short.split()) == PLAIN[name] else name
-
-
-def _wrapped(first: str, later: str, text: str, width: int) -> list[str]:
-    lines = textwrap.wrap(text, width, initial_indent=first, subsequent_indent=later)
-    return [line.replace(_NO_BREAK, " ") for line in lines]

@@ -8,15 +8,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import Final, Protocol
 
 from teleop.links.url import LinkAddress, LinkUrlError, parse
 from teleop.ports import Link
 
-if TYPE_CHECKING:
-    from teleop.links.can import CanListener
+__all__ = [
+    "FAR_END",
+    "ClosableLink",
+    "LinkAddress",
+    "LinkUrlError",
+    "Listener",
+    "OpenLink",
+    "open_link",
+    "open_listener",
+    "parse",
+]
 
-__all__ = ["ClosableLink", "LinkAddress", "LinkUrlError", "OpenLink", "open_link", "open_listener", "parse"]
+FAR_END: Final = 0  # who speaks on a serial line, where nobody has a CAN id
 
 
 class ClosableLink(Link, Protocol):
@@ -44,18 +53,35 @@ def open_link(address: str | LinkAddress, *, host: bool = True, now: Callable[[]
     return opener(address, host, now)
 
 
-def open_listener(address: str | LinkAddress, *, now: Callable[[], float]) -> CanListener:
-    """Opens a CAN bus to hear what host and gimbal say to each other. `now` is a clock in seconds.
+class Listener(Protocol):
+    """Hears what others say. `foreign` counts those who are not of interest, `counts` what went wrong, by name."""
 
-    Raises LinkUrlError where there is no bus for a third party to be on, LinkError when it cannot be opened.
+    foreign: Counter[int]
+    counts: Counter[str]
+
+    def receive(self) -> list[tuple[int, bytes]]:
+        """What was said since the last call, and by whom: a CAN id, or FAR_END. Raises LinkError when it is lost."""
+        ...
+
+    def close(self) -> None: ...
+
+
+def open_listener(address: str | LinkAddress, *, now: Callable[[], float]) -> Listener:
+    """Opens a link to hear what host and device say to each other. `now` is a clock in seconds.
+
+    Raises LinkUrlError where there is nothing to hear, LinkError when it cannot be opened.
     """
     if isinstance(address, str):
         address = parse(address)
-    if address.kind != "can":
-        raise LinkUrlError(f"link {str(address)!r} is no bus: only CAN lets a third party listen")
-    from teleop.links.can import CanListener
+    if address.kind == "can":
+        from teleop.links.can import CanListener
 
-    return CanListener(address, now=now)
+        return CanListener(address, now=now)
+    if address.kind == "serial":
+        from teleop.links.serial import SerialListener
+
+        return SerialListener(address, now=now)
+    raise LinkUrlError(f"link {str(address)!r} is simulated in each process: there is nothing to listen on")
 
 
 def _open_can(address: LinkAddress, host: bool, now: Callable[[], float]) -> OpenLink:

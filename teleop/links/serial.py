@@ -8,11 +8,13 @@ would mix its bytes into our frames.
 from __future__ import annotations
 
 import select
+from collections import Counter
 from collections.abc import Callable
 from typing import Protocol
 
 import serial
 
+from teleop.links import FAR_END
 from teleop.links.buffered import BufferedLink
 from teleop.links.faults import opening_failed
 from teleop.links.url import LinkAddress
@@ -71,3 +73,23 @@ class SerialLink(BufferedLink):
 
     def _shut(self) -> None:
         self._port.close()
+
+
+class SerialListener:
+    """Hears what the far end of a serial line says, and transmits nothing: the other direction has a wire of its own.
+
+    It needs the port for itself. `foreign` stays empty. Raises LinkError when it cannot be opened.
+    """
+
+    def __init__(self, address: LinkAddress, *, now: Callable[[], float]) -> None:
+        self.foreign: Counter[int] = Counter()
+        self._link = SerialLink(address, now=now)
+        self.counts = self._link.counts
+
+    def receive(self) -> list[tuple[int, bytes]]:
+        """What has arrived since the last call. Raises LinkError when the line is lost."""
+        data = self._link.receive()
+        return [(FAR_END, data)] if data else []
+
+    def close(self) -> None:
+        self._link.close()

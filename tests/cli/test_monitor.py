@@ -17,7 +17,8 @@ from network import own_network
 from waiting import wait_until
 
 from teleop.cli import run
-from teleop.cli.monitor import Watch, in_units, line
+from teleop.cli.monitor import Tap, Watch
+from teleop.cli.told import in_units, line
 from teleop.dji import focus, gimbal
 from teleop.dji.message import Message, Result, ReturnCode
 from teleop.dji.r_sdk import R_SDK
@@ -38,7 +39,8 @@ class Bus:
         self.host: ClosableLink = open_link(url, now=lambda: 0.0)
         self.gimbal: ClosableLink = open_link(url, host=False, now=lambda: 0.0)
         self.listener = open_listener(url, now=lambda: 0.0)
-        self.watch = Watch(self.listener, as_json)
+        directions = {HOST_ID: "to gimbal", GIMBAL_ID: "from gimbal"}
+        self.watch = Watch(self.listener, Tap(url, "gimbal", R_SDK, directions), as_json)
         self.session, self.far = Session(), Session()
         self._stranger = can.Bus(self.channel, interface="virtual", ignore_config=True)
         self._capsys = capsys
@@ -177,11 +179,8 @@ def test_a_frame_that_nobody_describes_is_shown_in_hexadecimal() -> None:
 @pytest.mark.parametrize(
     ("link", "said"),
     [
-        ([], "there is nothing to monitor on sim: (no CAN bus): --link gimbal=socketcan:can0 names one"),
-        (
-            ["--link", "gimbal=serial:/dev/nothing@9600"],
-            "there is nothing to monitor on serial:/dev/nothing@9600 (no CAN",
-        ),
+        ([], "there is nothing to monitor on sim: (simulated): --link gimbal=socketcan:can0 names one"),
+        (["drone"], "Simulated rig has no link 'drone'; it has "),
         (["--seconds", "0"], 'teleop: Invalid value "0.0" for --seconds. Must be > 0.'),
     ],
 )
@@ -195,8 +194,8 @@ def test_where_there_is_no_bus_there_is_nothing_to_monitor(
     assert printed.err.count("\n") == 1
 
 
-def test_only_a_bus_can_be_listened_on() -> None:
-    with pytest.raises(LinkUrlError, match="is no bus: only CAN lets a third party listen"):
+def test_what_is_simulated_cannot_be_listened_on() -> None:
+    with pytest.raises(LinkUrlError, match="is simulated in each process: there is nothing to listen on"):
         open_listener("sim:", now=lambda: 0.0)
 
 

@@ -20,8 +20,9 @@ from teleop.cli.send import ask, asked_for, default_retries
 from teleop.cli.sim import serve
 from teleop.clock import SystemClock, VirtualClock
 from teleop.dji import gimbal
-from teleop.dji.catalogue import COMMANDS, PLAIN, help_of
+from teleop.dji.catalogue import COMMANDS, PLAIN
 from teleop.dji.frame import Frame, FrameReader
+from teleop.dji.vocabulary import help_of
 from teleop.links import open_link, open_listener
 from teleop.ports import DeviceError
 from teleop.sim.gimbal import SimulatedGimbal

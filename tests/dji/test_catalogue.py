@@ -6,10 +6,11 @@ import pytest
 
 from teleop.dji import camera, focus, gimbal
 from teleop.dji.camera import CameraCommand
-from teleop.dji.catalogue import COMMANDS, PLAIN, FieldHelp, find, help_of
+from teleop.dji.catalogue import COMMANDS, PLAIN, find
 from teleop.dji.focus import CalibrationAction
 from teleop.dji.message import FieldError, Message
 from teleop.dji.r_sdk import R_SDK
+from teleop.dji.vocabulary import FieldHelp, help_of
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,77 @@
+"""What a drone says on its serial line is told in units, and no secret with it."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections import Counter
+from typing import Any
+
+import pytest
+from far_drone import far_drone
+
+from teleop.cli import run
+from teleop.cli.monitor import Tap, Watch
+from teleop.dji import drone
+from teleop.dji.broadcast import Broadcast
+from teleop.dji.drone_words import FlightStatus
+from teleop.dji.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.onboard import M100
+from teleop.dji.onboard_session import OnboardSession
+from teleop.dji.telemetry import Position
+from teleop.links import FAR_END
+
+
+def test_a_drone_is_heard_on_its_serial_line_in_one_direction(capsys: pytest.CaptureFixture[str]) -> None:
+    rig = ["--rig", "m100", "--json", "--seconds", "0.1"]
+    with far_drone() as (far, url):
+        far.receive(OnboardSession().command(drone.Activate(1)), time.monotonic())
+        assert run(["monitor", "drone", "--link", f"drone={url}", *rig]) == 0
+    printed = capsys.readouterr()
+    records = [json.loads(line) for line in printed.out.splitlines()]
+    assert {record["direction"] for record in records} == {"from drone"}
+    assert any(record["fields"].get("status") == "standby" for record in records)
+    listening, summary = printed.err.splitlines()
+    assert listening == (
+        f"listening on {url}: time in s, <- from the drone; what it is told cannot be heard on a serial line"
+    )
+    assert summary.startswith(f"{len(records)} frames from the drone, 0 damaged")
+
+
+class Overheard:
+    """A listener that heard these bytes from a drone."""
+
+    def __init__(self, data: bytes) -> None:
+        self.foreign: Counter[int] = Counter()
+        self.counts: Counter[str] = Counter()
+        self._heard = [(FAR_END, data)]
+
+    def receive(self) -> list[tuple[int, bytes]]:
+        heard, self._heard = self._heard, []
+        return heard
+
+    def close(self) -> None: ...
+
+
+@pytest.mark.parametrize("as_json", [False, True])
+def test_an_app_id_that_is_overheard_is_not_shown(as_json: bool, capsys: pytest.CaptureFixture[str]) -> None:
+    tapped = Tap("serial:x@1", "drone", M100, {FAR_END: "from drone"})
+    Watch(Overheard(OnboardSession().command(drone.Activate(1030093))), tapped, as_json).look(1.0)
+    told = capsys.readouterr().out
+    assert "1030093" not in told
+    assert "hidden" in told
+
+
+def test_a_broadcast_in_units(capsys: pytest.CaptureFixture[str]) -> None:
+    tapped = Tap("serial:x@1", "drone", M100, {FAR_END: "from drone"})
+    said = OnboardSession()
+    broadcast = Broadcast(position=Position(0.5, 1.25, 60.0, 3.5, 4), status=FlightStatus.IN_AIR, battery=87)
+    modes: dict[str, Any] = {"horizontal": Horizontal.VELOCITY, "vertical": Vertical.VELOCITY, "yaw_control": Yaw.RATE}
+    move = Move(stable=True, frame=Frame.GROUND, x=1, y=0, z=2, yaw=9, **modes)
+    Watch(Overheard(said.command(broadcast) + said.command(move)), tapped, False).look(1.0)
+    assert capsys.readouterr().out.splitlines() == [
+        "    1.000 <- drone.broadcast, position.latitude 0.5 rad, position.longitude 1.25 rad, position.altitude 60 m, "
+        "position.height 3.5 m, position.health 4, status in_air, battery 87 %",
+        "    1.000 <- drone.move, stable true, frame ground, yaw_control rate, vertical velocity, horizontal velocity, "
+        "x 1 m/s, y 0 m/s, z 2 m/s, yaw 9 deg/s",
+    ]

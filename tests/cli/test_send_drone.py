@@ -1,0 +1,221 @@
+"""What can be sent to a drone from a shell reaches a simulated one as real frames; what must not be sent does not."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from far_drone import BAUD, far_drone
+from waiting import wait_until
+
+from teleop.cli import run
+from teleop.cli.send_drone import Exchange, asked_for, refusal
+from teleop.clock import VirtualClock
+from teleop.dji import drone
+from teleop.dji.drone_catalogue import COMMANDS, PLAIN, hazard, never
+from teleop.dji.drone_words import ActivationCode, ArmOrder, ControlCode, ControlOrder, TaskKind
+from teleop.dji.frame import Frame
+from teleop.dji.onboard_session import OnboardSession
+from teleop.document import DocumentError
+from teleop.ports import DeviceError
+
+APP_ID = 1030093
+SECRETS = (str(APP_ID), f"{APP_ID:x}", APP_ID.to_bytes(4, "little").hex(), "5ec2e7" * 10)
+MOVE = "move stable=true frame=body yaw_control=rate vertical=velocity horizontal=velocity x=1 y=0 z=0 yaw=0"
+
+
+@pytest.fixture(autouse=True)
+def no_credentials(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    for name in ("TELEOP_DJI_APP_ID", "TELEOP_DJI_APP_KEY"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+
+
+def send(words: str, url: str, *options: str) -> int:
+    return run(["send", "drone", *words.split(), "--rig", "m100", "--link", f"drone={url}", *options])
+
+
+def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TELEOP_DJI_APP_ID", str(APP_ID))
+    with far_drone() as (far, url):
+        assert send("version", url) == 0
+        assert capsys.readouterr().out == (
+            "drone.version: not_activated\n"
+            "  checksum  0\n  id        SIMULATED\n  version   M100 SIMULATED 03.01.10.00\n"
+        )
+        assert send("frequency control=hz_50", url) == 1
+        assert capsys.readouterr().err == (
+            "teleop: drone.frequency was refused: not_activated: teleop send drone activate comes first\n"
+        )
+        assert send("activate", url) == 0
+        assert capsys.readouterr() == ("drone.activate: ok\n", "")
+        assert send("frequency control=hz_50", url) == 0
+        assert send("obtain control", url, "--i-understand") == 0
+        assert send("arm", url, "--i-understand") == 0
+        assert send("arm", url, "--i-understand") == 0  # which it is
+        assert capsys.readouterr().out.endswith("drone.control: obtained\ndrone.arm: ok\ndrone.arm: already\n")
+        assert send("take off", url, "--i-understand") == 0
+        wait_until(lambda: far.cockpit.flight.airborne, "flight")
+        assert send("disarm", url, "--i-understand") == 1
+        assert send("land", url, "--i-understand", "--json") == 0
+        assert json.loads(capsys.readouterr().out.splitlines()[-1])["fields"] == {"code": "ok"}
+        assert send("release control", url) == 0
+        assert send(MOVE, url, "--i-understand") == 0
+        assert capsys.readouterr().out.endswith("drone.move: sent once, it is never acknowledged\n")
+        wait_until(lambda: far.counts["drone.move"] == 1, "the movement")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("arm", "drone.arm: it starts the motors; if that is what you want, say --i-understand"),
+        ("arm order=disarm", "drone.arm: it stops the motors; if that is what you want, say --i-understand"),
+        ("take off", "drone.task: the drone flies, and nobody is at the controls; if that is what you want, say --"),
+        ("return home", "drone.task: the drone flies"),
+        ("land", "drone.task: the drone flies"),
+        (MOVE, "drone.move: the drone flies"),
+        ("obtain control", "drone.control: it takes the drone from its pilot"),
+        ("virtual rc off", "drone.virtual_rc: it takes the drone from whatever flies it by virtual RC"),
+        ("virtual_rc on=true --i-understand", "drone.virtual_rc is not sent by itself: virtual RC without a stream"),
+        ("sticks --i-understand", "drone.sticks is not sent by itself: sticks that nobody holds fly on"),
+        ("sticks throttle=1684 --i-understand", "drone.sticks is not sent by itself"),
+        ("activate app_id=5", "drone activate takes no fields"),
+        ("activate", "the drone wants the app id that DJI gave you: in TELEOP_DJI_APP_ID, or app_id in "),
+        ("", "say what to send to the drone; teleop send drone --help lists everything"),
+        ("tkae off", "there is no command 'drone tkae off', did you mean 'drone take off'?"),
+        ("event event=control_lost", "there is no command 'drone event'"),
+        ("broadcast", "there is no command 'drone broadcast'"),
+        ("frequency control=hz_51", "drone.frequency: control must be one of off, hz_1, hz_10, hz_50, hz_100, hold"),
+        ("version --retries 2", "--retries is for the gimbal"),
+        (MOVE.replace("x=1", "x=11") + " --i-understand", "drone.move: x must be -10..10 m/s, not 11"),
+    ],
+)
+def test_what_is_not_sent_is_said_before_a_port_opens(
+    words: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert send(words, f"serial:/dev/nothing-here@{BAUD}") == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith(said)
+    assert printed.err.count("\n") == 1
+
+
+def test_whatever_can_make_it_fly_is_a_hazard_and_the_rest_is_not() -> None:
+    harmless = {
+        *("drone version", "drone frequency", "drone gimbal speed", "drone gimbal angle"),
+        *("drone photo", "drone start video", "drone stop video", "drone activate", "drone release control"),
+    }
+    given = {
+        "drone control": "order=release",
+        "drone task": "task=land",
+        "drone arm": "order=arm",
+        "drone move": MOVE.partition(" ")[2],
+        "drone gimbal speed": "yaw=1 roll=0 pitch=0",
+        "drone gimbal angle": "yaw=1 roll=0 pitch=0 duration=1",
+        "drone virtual rc": "on=true",
+    }
+    for name in (*COMMANDS, *PLAIN):
+        if name in ("drone virtual rc", "drone sticks"):
+            with pytest.raises(DocumentError, match="is not sent by itself"):
+                asked_for([*name.split(), *given.get(name, "").split()], understood=True)
+            continue
+        message = asked_for([*name.split(), *given.get(name, "").split()], understood=True)
+        assert not never(message)
+        assert bool(hazard(message)) is (name not in harmless and name != "drone control"), name
+
+
+def test_a_rig_without_a_drone_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["send", "drone", "version"]) == 2
+    assert capsys.readouterr().err == (
+        "Simulated rig has no drone: --rig m100 has one, --rig sim-drone a simulated one\n"
+    )
+
+
+def test_what_is_simulated_is_activated_for_each_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["send", "drone", "frequency", "control=hz_50", "--rig", "sim-drone"]) == 0
+    assert run(["send", "drone", "take", "off", "--rig", "sim-drone"]) == 1
+    assert "no_rights" in capsys.readouterr().err
+
+
+def test_help_has_what_can_be_sent(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["send", "drone", "--help"]) == 0
+    page = capsys.readouterr().out
+    assert re.search("^drone frequency$", page, re.MULTILINE)
+    assert "drone take off" in " ".join(page.split())
+    assert "recenter" not in page.partition("╯\n")[2].replace("plain words, as recenter", "")
+    assert "drone sticks" not in page
+    assert "app_id" not in page
+
+
+def test_the_app_id_is_on_the_wire_and_in_nothing_that_is_printed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setenv("TELEOP_DJI_APP_ID", str(APP_ID))
+    monkeypatch.setenv("TELEOP_DJI_APP_KEY", "5ec2e7" * 10 + "0000")
+    caplog.set_level(0)
+    heard = []
+
+    def refuse(message: drone.Activate) -> drone.ActivateAck:
+        heard.append(message.app_id)
+        return drone.ActivateAck(ActivationCode.REFUSED)
+
+    with far_drone() as (far, url):
+        assert send("activate", url, "--debug", "--json") == 0
+        monkeypatch.setitem(far._handlers, drone.Activate, refuse)
+        assert send("activate", url, "--debug", "--json") == 1
+    assert heard == [APP_ID]
+    printed = capsys.readouterr()
+    assert "drone.activate was refused: refused" in printed.err
+    everything = printed.out + printed.err + caplog.text
+    assert not [secret for secret in SECRETS if secret in everything]
+
+
+class SlowDrone:
+    """Control changes hands only the third time; everything else is never acknowledged."""
+
+    def __init__(self) -> None:
+        self._session = OnboardSession()
+        self._said = bytearray()
+        self.heard: list[Frame] = []
+        self._codes = iter((ControlCode.OBTAINING, ControlCode.OBTAINING, ControlCode.OBTAINED))
+
+    def send(self, data: bytes) -> None:
+        for received in self._session.receive(data, 0.0):
+            self.heard.append(received.frame)
+            if isinstance(received.message, drone.Control):
+                self._said += self._session.reply(received.frame, drone.ControlAck(next(self._codes)))
+
+    def receive(self) -> bytes:
+        said = bytes(self._said)
+        self._said.clear()
+        return said
+
+
+def test_control_that_is_changing_hands_is_asked_for_again() -> None:
+    clock, far = VirtualClock(), SlowDrone()
+    obtain = drone.Control(ControlOrder.OBTAIN)
+    record = Exchange(far, "sim:", clock).ask(obtain)
+    assert record["fields"] == {"code": "obtained"}
+    assert (len(far.heard), len({frame.sequence for frame in far.heard})) == (3, 3)
+    assert 1.0 <= clock.now() < 1.1
+    assert refusal(obtain, record) == ""
+    assert refusal(drone.Control(ControlOrder.RELEASE), record) == "obtained"
+
+
+def test_without_an_acknowledgement_it_is_sent_again_byte_for_byte() -> None:
+    clock, far = VirtualClock(), SlowDrone()
+    with pytest.raises(DeviceError) as raised:
+        Exchange(far, "serial:x@1", clock).ask(drone.Version())
+    assert str(raised.value).startswith(
+        "serial:x@1: no acknowledgement of drone.version within 300 ms, sent 3 times: is it on, is the cable in, is"
+    )
+    assert (len(far.heard), len(set(far.heard))) == (3, 1)
+    with pytest.raises(DeviceError, match=r"no acknowledgement of drone\.arm within 100 ms: is it on"):
+        Exchange(far, "serial:x@1", clock).ask(drone.Arm(ArmOrder.ARM))
+
+
+def test_an_acknowledgement_of_nothing_known_is_a_refusal() -> None:
+    record = {"message": "drone.task", "reply": True, "fields": {"value": "00"}}
+    assert refusal(drone.Task(TaskKind.LAND), record) == "an acknowledgement that nothing is known of"
