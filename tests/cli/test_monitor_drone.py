@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from collections import Counter
 from typing import Any
 
@@ -22,11 +21,15 @@ from teleop.dji.telemetry import Position
 from teleop.links import FAR_END
 
 
-def test_a_drone_is_heard_on_its_serial_line_in_one_direction(capsys: pytest.CaptureFixture[str]) -> None:
-    rig = ["--rig", "m100", "--json", "--seconds", "0.1"]
-    with far_drone() as (far, url):
-        far.receive(OnboardSession().command(drone.Activate(1)), time.monotonic())
-        assert run(["monitor", "drone", "--link", f"drone={url}", *rig]) == 0
+def test_a_drone_is_heard_on_its_serial_line_in_one_direction(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TELEOP_DJI_APP_ID", "1")
+    with far_drone() as (_, url):
+        rig = ["--rig", "m100", "--link", f"drone={url}"]
+        assert run(["send", "drone", "activate", *rig]) == 0
+        capsys.readouterr()
+        assert run(["monitor", "drone", "--json", "--seconds", "0.2", *rig]) == 0
     printed = capsys.readouterr()
     records = [json.loads(line) for line in printed.out.splitlines()]
     assert {record["direction"] for record in records} == {"from drone"}
