@@ -59,13 +59,22 @@ def onboard(
     *text: Annotated[str, Parameter(help="Hexadecimal; without any, standard input.")],
     model: Model = "m100",
     key_file: KeyFile = None,
+    parts: Annotated[
+        bool, Parameter(help="List the parts of the broadcast with their units, and decode nothing.", negative=())
+    ] = False,
 ) -> None:
     """Decode frames of the drone's Onboard SDK.
 
-    What an acknowledgement says is known only together with its command: paste both. Encrypted frames need the key.
+    What an acknowledgement says is known only together with its command: paste both. Encrypted frames need the key. A
+    broadcast that stays a value has the layout of the other model.
     """
     from teleop.dji.onboard import MODELS
 
+    if parts:
+        from teleop.cli.parts import parts as lines_of_parts
+
+        print(*lines_of_parts(), sep="\n")
+        return
     for line in decode_hex(text or standard_input(), MODELS[model], cipher_of(key_file)):
         print(line, flush=True)
 

@@ -57,7 +57,7 @@ class Acceleration(Message):
 
 @message("velocity", 0, 0)
 class Velocity(Message):
-    """Linear velocity in the ground frame."""
+    """Linear velocity in the ground frame (north, east, down)."""
 
     x: metres_per_second
     y: metres_per_second
@@ -77,12 +77,13 @@ class AngularRate(Message):
 
 @message("position", 0, 0)
 class Position(Message):
-    """Where the drone is; `health` of the GPS is 0 to 5, the best.
+    """Where the drone is; `health` is the GPS's, 5 the best.
 
-    Latitude comes first (osdk-facts.md "Errata"). Altitude is raw (barometer) or fused with inertia; height above
-    ground is raw (ultrasound, valid within 3 m) or fused.
+    Altitude is raw (barometer) or fused (with inertia). Height above ground is raw (ultrasound, valid within 3 m) or
+    fused (with barometer and inertia, which are all there is above 3 m and drift indoors).
     """
 
+    # Latitude first: osdk-facts.md "Errata".
     latitude: radians
     longitude: radians
     altitude: metres

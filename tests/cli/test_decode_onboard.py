@@ -15,6 +15,7 @@ from teleop.cli import run
 from teleop.cli.decode import decode_hex
 from teleop.cli.encode import encode_lines
 from teleop.dji import drone
+from teleop.dji.broadcast import PARTS, Several
 from teleop.dji.drone_words import ControlCode, ControlOrder
 from teleop.dji.onboard import A3, M100
 from teleop.dji.onboard_session import OnboardSession
@@ -118,3 +119,22 @@ def test_the_library_is_asked_for_only_when_something_is_encrypted(
     assert capsys.readouterr().err == (
         "teleop: encryption needs the package cryptography: pip install 'rs-teleop[aes]'\n"
     )
+
+
+def test_the_parts_of_the_broadcast_are_listed_with_units_and_whether_they_are_raw_or_fused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert run(["decode", "onboard", "--parts"]) == 0
+    page = capsys.readouterr().out
+    for name, part in PARTS.items():
+        assert f"{name}: m100 " in page
+        for field in part.cls.layout.fields if isinstance(part, Several) else ():
+            assert field.name == "reserved" or f"    {field.name:14} " in page
+    assert "gps: m100 none, a3 bit 6, 32 bytes" in page
+    assert "    x              a number, m/s2 if fused, g if raw" in page
+    for text in (
+        "raw (barometer) or fused",
+        "raw (gyroscopes) or fused",
+        "raw (ultrasound, valid within 3 m) or fused",
+    ):
+        assert text in " ".join(page.split())
