@@ -17,7 +17,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
-from teleop.motion import Act, Axis, Demand, Halt, Limits, Motion, Reading, State, Tick, Wish
+from teleop.motion import STICKS, Act, Axis, Demand, Halt, Limits, Motion, Reading, State, Tick, Wish
 from teleop.planner.stop import stop_phases, stop_state
 from teleop.ports import Clock, DeviceError, Interrupted, Reporter, Sink, Source, TeleopError
 from teleop.supervisor import Event, Run, Supervisor
@@ -56,7 +56,8 @@ class Loop:
     """One run of sources through a planner into sinks.
 
     `sources` stand in priority order: the first with an opinion on an axis drives it. `limits` has the axes in use;
-    the run waits until each has been reported, and the planner starts from there.
+    the run waits until each has been reported, `first_report` s at most, and the planner starts from there.
+    `keep_alive` is the longest that it sleeps while everything rests.
     """
 
     def __init__(
@@ -67,11 +68,14 @@ class Loop:
         sources: Sequence[Source],
         sinks: Sequence[Sink],
         reporters: Sequence[Reporter],
+        keep_alive: float = KEEP_ALIVE,
+        first_report: float = FIRST_REPORT,
     ) -> None:
         self.supervisor = Supervisor()
         self.faults: list[BaseException] = []  # the first few, oldest first
         self._clock, self._planner, self._limits = clock, planner, limits
         self._sources, self._sinks, self._reporters = sources, sinks, reporters
+        self._keep_alive, self._first_report = keep_alive, first_report
         self._origin = clock.now()
         self._ticks = 0
         self._resting = True
@@ -119,7 +123,7 @@ class Loop:
         due = self._ticks + 1
         running = self.supervisor.state is Run.RUNNING
         if self._resting and running:
-            wake = min(self._wake, self._time(self._ticks) + KEEP_ALIVE)
+            wake = min(self._wake, self._time(self._ticks) + self._keep_alive)
             due = max(due, math.ceil((wake - self._origin) * RATE - 1e-6))
         self._clock.sleep_until(self._time(due))
         late = self._clock.now() - self._time(due)
@@ -127,7 +131,8 @@ class Loop:
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (Run.RUNNING, Run.STOPPING):
             self._fault(StallError(f"the computer stalled for {late:.2f} s"))
-            self._lost = Whereabouts(self._motion, self._time(self._ticks))
+            measured = {axis: state for axis, state in self._motion.items() if axis not in STICKS}
+            self._lost = Whereabouts(measured, self._time(self._ticks))
             return self._time(self._ticks), 1
         return self._time(self._ticks), 1 if self._resting else elapsed
 
@@ -146,8 +151,8 @@ class Loop:
                 source.start(now, self._motion)
             self._wake = now
             self.supervisor.happened(Event.REPORTED)
-        elif now - self._origin > FIRST_REPORT:
-            raise DeviceError(f"no position of {' or '.join(missing)} was reported within {FIRST_REPORT:g} s")
+        elif now - self._origin > self._first_report:
+            raise DeviceError(f"no position of {' or '.join(missing)} was reported within {self._first_report:g} s")
 
     def _drive(self, now: float, steps: int) -> None:
         demand: dict[Axis, Wish] = {}

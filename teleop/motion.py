@@ -27,6 +27,10 @@ class Axis(StrEnum):
     STICK_YAW = "stick_yaw"
 
 
+STICKS = (Axis.STICK_ROLL, Axis.STICK_PITCH, Axis.STICK_THROTTLE, Axis.STICK_YAW)
+"""The axes that have a spring: left alone they go to 0, where every other axis stays where it is."""
+
+
 @dataclass(frozen=True, slots=True)
 class Limits:
     """What an axis may do: soft limits in units, then the magnitudes of unit/s, unit/s2 and unit/s3.
@@ -94,7 +98,7 @@ class Follow(NamedTuple):
 
 
 class Halt(NamedTuple):
-    """Come to rest as fast as the axis's own limits allow, and stay."""
+    """Come to rest as fast as the axis's own limits allow, and stay; a stick, in its centre."""
 
 
 Wish = Cruise | Goto | Follow | Halt

@@ -2,49 +2,74 @@
 
 Which class serves a type of sink is a row in a table. Devices that share a link share one connection, because two
 frames must never interleave on a bus. A simulated device is an ordinary one on a link that ends in this process.
+Whether a link ends at a gimbal or at a drone is said by the sinks that use it.
 """
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
+from teleop.credentials import load_credentials
+from teleop.dji.drone import Activate
+from teleop.dji.onboard_session import OnboardSession
 from teleop.links import open_link, parse
-from teleop.loop import PERIOD, Loop
+from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, Loop
 from teleop.motion import Axis, Limits
 from teleop.planner.live import Live
 from teleop.ports import Clock, Reporter, Sink, Source
-from teleop.profile import MOVES, CameraSection, FocusSection, GimbalSection, Profile
+from teleop.profile import Profile
+from teleop.profile_sinks import (
+    MOVES,
+    CameraSection,
+    FlightSection,
+    FocusSection,
+    GimbalSection,
+    VirtualRcSection,
+)
+from teleop.sim.drone import SimulatedDrone
 from teleop.sim.gimbal import SimulatedGimbal
 from teleop.sim.link import SimLink
 from teleop.sinks.camera import CameraSink
 from teleop.sinks.connection import Connection
 from teleop.sinks.correction import Gains
+from teleop.sinks.drone import DroneSink
 from teleop.sinks.focus import FocusReporter, FocusSink
 from teleop.sinks.gimbal import Angles, PositionSink
 from teleop.sinks.gimbal_speed import SpeedSink
 from teleop.sinks.gimbal_stick import StickSink
+from teleop.sinks.grips import Grip, MovementGrip, VirtualRcGrip
+from teleop.sinks.preflight import Site
 from teleop.sinks.stall import StallGuard
+from teleop.sinks.telemetry import Telemetry
 from teleop.sinks.wiring import Wiring
+
+DRONE_KEEP_ALIVE = 0.05  # s: virtual RC wants its sticks 20 times a second, moving or not
+DRONE_FIRST_REPORT = 8.0  # s: an activation may be asked for three times, a second each
 
 
 @dataclass(frozen=True)
 class Device:
     """What serves one entry of a profile's sinks, and the axes it can move.
 
-    `follow` is how far from commanded these may be found, in units, and `delay` how much later than that they move (s).
+    `follow` is how far from commanded these may be found, in units, None where nobody measures them, and `delay` how
+    much later than that they move (s).
     """
 
     moves: Sequence[Axis]
     sink: Sink
     reporter: Reporter | None
-    follow: float = 0.0
+    follow: float | None = 0.0
     delay: float = 0.0
 
 
 class Rig:
-    """An open rig. By link name, `connections` and `simulated`, the devices behind the links that are `sim:`."""
+    """An open rig.
+
+    By link name: `connections`, and `simulated` and `simulated_drones`, the devices behind the links that are `sim:`.
+    """
 
     def __init__(
         self,
@@ -53,9 +78,19 @@ class Rig:
         devices: Sequence[Device],
         connections: Mapping[str, Connection],
         simulated: Mapping[str, SimulatedGimbal],
+        simulated_drones: Mapping[str, SimulatedDrone],
     ) -> None:
-        self.profile, self.clock, self.connections, self.simulated = profile, clock, connections, simulated
+        self.profile, self.clock, self.connections = profile, clock, connections
+        self.simulated, self.simulated_drones = simulated, simulated_drones
         self._devices = devices
+
+    def drone(self, axes: Sequence[Axis]) -> DroneSink | None:
+        """The drone that moves some of the axes."""
+        sinks = [device.sink for device in self._used(axes) if isinstance(device.sink, DroneSink)]
+        return sinks[0] if sinks else None
+
+    def _used(self, axes: Sequence[Axis]) -> Sequence[Device]:
+        return [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
 
     def loop(self, axes: Sequence[Axis], sources: Sequence[Source], watchers: Sequence[Sink] = ()) -> Loop:
         """A run of `sources` over the axes in use; devices that move none of them are left alone.
@@ -63,37 +98,53 @@ class Rig:
         `watchers` are sinks that only look on, and see each tick after the devices.
         """
         limits = {axis: self.profile.limits[axis] for axis in axes}
-        used = [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
+        used = self._used(axes)
         sinks = [device.sink for device in used]
         reporters = [device.reporter for device in used if device.reporter is not None]
-        guarded = {axis: device for device in used for axis in device.moves if axis in limits}
+        measured = [(axis, device) for device in used for axis in device.moves if axis in limits]
         guard = StallGuard(
             limits,
-            {axis: device.follow for axis, device in guarded.items()},
-            {axis: device.delay for axis, device in guarded.items()},
+            {axis: device.follow for axis, device in measured if device.follow is not None},
+            {axis: device.delay for axis, device in measured},
         )
         planner = Live(limits, PERIOD)
-        return Loop(self.clock, planner, limits, sources, [*sinks, guard, *watchers], reporters)
+        keep_alive, first_report = KEEP_ALIVE, FIRST_REPORT
+        if self.drone(axes):
+            keep_alive, first_report = DRONE_KEEP_ALIVE, DRONE_FIRST_REPORT
+        all_sinks = [*sinks, guard, *watchers]
+        return Loop(self.clock, planner, limits, sources, all_sinks, reporters, keep_alive, first_report)
 
 
 @contextmanager
 def open_rig(profile: Profile, clock: Clock) -> Iterator[Rig]:
-    """The rig with its links open; raises LinkError when one cannot be opened, and closes those that were."""
+    """The rig with its links open; raises LinkError when one cannot be opened, and closes those that were.
+
+    Raises DocumentError when a drone on a real link has no credentials.
+    """
     with ExitStack() as stack:
         simulated: dict[str, SimulatedGimbal] = {}
+        drones: dict[str, SimulatedDrone] = {}
         connections: dict[str, Connection] = {}
         for name, url in profile.links.items():
+            session = OnboardSession(first_sequence=_unlike_the_last()) if name in profile.drones else None
             if parse(url).kind == "sim":
-                simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile))
-                sim = SimLink(simulated[name], clock.now)
-                connections[name] = Connection(name, url, sim, clock.now())
+                if name in profile.drones:
+                    far = drones[name] = SimulatedDrone(now=clock.now())
+                else:
+                    far = simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile))
+                connections[name] = Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
             else:
                 link = open_link(url, now=clock.now)
                 stack.callback(link.close)
-                connections[name] = Connection(name, url, link, clock.now(), link.counts)
+                connections[name] = Connection(name, url, link, clock.now(), link.counts, session)
         limits = profile.limits
         devices = [BUILDERS[section.type](section, connections[section.link], limits) for section in profile.sinks]
-        yield Rig(profile, clock, devices, connections, simulated)
+        yield Rig(profile, clock, devices, connections, simulated, drones)
+
+
+def _unlike_the_last() -> int:
+    """Where a session with a drone begins to number: the same numbers as a run before would look like its retries."""
+    return secrets.randbelow(0x10000)
 
 
 def _turns_for_ever(profile: Profile) -> bool:
@@ -125,4 +176,27 @@ def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis
     return Device(MOVES[section.type], CameraSink(connection), None)
 
 
-BUILDERS: Mapping[str, Callable[..., Device]] = {"gimbal": _gimbal, "focus": _focus, "camera": _camera}
+def _virtual_rc(section: VirtualRcSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
+    grip = VirtualRcGrip(connection, section.back_to_rc, section.go_home)
+    return _drone(section, grip, connection)
+
+
+def _flight(section: FlightSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
+    site = Site(section.guidance, section.indoors)
+    grip = MovementGrip(connection, section.combination, section.frame, section.full.model_dump(), site)
+    return _drone(section, grip, connection)
+
+
+def _drone(section: VirtualRcSection | FlightSection, grip: Grip, connection: Connection) -> Device:
+    activation = Activate(0) if connection.simulated else load_credentials().activation()
+    sink = DroneSink(grip, Telemetry(connection, activation), connection.opened, section.low_battery)
+    return Device(MOVES[section.type], sink, sink, follow=None)
+
+
+BUILDERS: Mapping[str, Callable[..., Device]] = {
+    "gimbal": _gimbal,
+    "focus": _focus,
+    "camera": _camera,
+    "virtual-rc": _virtual_rc,
+    "flight": _flight,
+}

@@ -79,9 +79,13 @@ def test_a_good_profile_gives_the_limits_of_each_axis(tmp_path: Path) -> None:
         (
             "type: gimbal",
             "type: crane",
-            "rig.yaml:12:5: sinks[0] type must be one of gimbal, focus, camera, not 'crane'",
+            "rig.yaml:12:5: sinks[0] type must be one of gimbal, focus, camera, virtual-rc, flight, not 'crane'",
         ),
-        ("type: gimbal", "type: [1]", "rig.yaml:12:5: sinks[0] type must be one of gimbal, focus, camera, not '[1]'"),
+        (
+            "type: gimbal",
+            "type: [1]",
+            "rig.yaml:12:5: sinks[0] type must be one of gimbal, focus, camera, virtual-rc, flight, not '[1]'",
+        ),
         ("  tilt:\n", "  focus:\n", "rig.yaml:6:5: axes.focus has no sink that moves it"),
         (
             "  - {type: gimbal,",
@@ -135,3 +139,46 @@ def test_links_can_be_replaced_by_other_urls() -> None:
         load_profile("rs2", {"gimbal": "nonsense", "drone": "sim:"})
     assert "--link drone: rs2.yaml has no such link; it has gimbal" in caught.value.problems
     assert any(problem.startswith("--link gimbal: link 'nonsense'") for problem in caught.value.problems)
+
+
+DRONE = """
+name: Drone
+links: {drone: "serial:/dev/ttyUSB0@230400", gimbal: "slcan:/dev/ttyACM0"}
+axes:
+  pan:   {min: -180, max: 180, velocity: 120, acceleration: 240, jerk: 1200}
+  stick_roll:  {min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}
+  stick_pitch: {min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}
+sinks:
+  - {type: gimbal, link: gimbal, mode: position, rate: 50}
+  - {type: flight, link: drone, mode: velocity-body, full: {horizontal: 3, vertical: 1, yaw: 30}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "problem"),
+    [
+        ("link: drone", "link: gimbal", "drone.yaml:10:26: sinks[1].link must be the drone's alone, and gimbal is on"),
+        ("serial:/dev/ttyUSB0@230400", "slcan:/dev/ttyACM1", "drone.yaml:3:16: links.drone must be a serial line"),
+        ("horizontal: 3", "horizontal: 11", "sinks[1].full.horizontal must be at most 10 m/s in this mode"),
+        ("velocity-body, full: {horizontal: 3", "tilt, full: {horizontal: 31", "must be at most 30 deg in this mode"),
+        ("yaw: 30", "yaw: 101", "sinks[1].full.yaw must be at most 100 deg/s in this mode"),
+        ("vertical: 1", "vertical: 4.5", "sinks[1].full.vertical must be at most 4 m/s in this mode"),
+        ("velocity-body", "thrust", "sinks[1].mode must be one of velocity-body, velocity-ground, tilt"),
+        (
+            "flight, link: drone, mode: velocity-body, full:",
+            "virtual-rc, link: drone, rate: 50, full:",
+            "sinks[1].rate must be one of 20",
+        ),
+        ("stick_roll:  {min: -1", "stick_roll:  {min: 0.2", "axes.stick_roll is a stick: its min and max must be"),
+        ("stick_pitch: {min: -1, max: 1", "stick_pitch: {min: null, max: null", "axes.stick_pitch is a stick"),
+    ],
+)
+def test_what_is_wrong_with_a_drone_is_said_where_it_stands(tmp_path: Path, old: str, new: str, problem: str) -> None:
+    (tmp_path / "drone.yaml").write_text(DRONE.replace(old, new))
+    with pytest.raises(DocumentError) as caught:
+        load_profile(str(tmp_path / "drone.yaml"))
+    assert any(problem in each for each in caught.value.problems), caught.value.problems
+
+
+def test_the_shipped_drones_are_right() -> None:
+    assert load_profile("m100").drones == load_profile("sim-drone").drones == {"drone"}

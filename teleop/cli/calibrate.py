@@ -19,7 +19,8 @@ from teleop.cli.perform import EXIT_CODES, signals_to
 from teleop.cli.play import Fast, the_clock
 from teleop.motion import Axis
 from teleop.ports import DeviceError, UsageError
-from teleop.profile import Angle, GainsSection, GimbalSection, Profile
+from teleop.profile import Profile
+from teleop.profile_sinks import Angle, GainsSection, GimbalSection
 from teleop.rig import open_rig
 from teleop.sources.swing import Swing
 from teleop.supervisor import Result, Supervisor

@@ -4,7 +4,8 @@ Each axis tries a short ladder of plans, and the first whose next state can stil
 wins (planning.md, section A): for a stick, Ruckig's velocity interface under the operator's limits, then its position
 interface exactly onto the soft limit, then the guard stop. A preset and a compiled move have ladders of their own,
 which end in the same guard stop. Since every committed state can be stopped, the guard stop is legal by induction, and
-since a plan is only ever a proposal for one tick, demands may change kind at any tick without a bump.
+since a plan is only ever a proposal for one tick, demands may change kind at any tick without a bump. An axis with a
+spring (a drone's stick) goes to its centre when nothing is asked of it, as the stick of a remote control does.
 
 All velocities go through one solver call because that costs half of four; whatever needs more is an axis's own affair.
 What every axis does every tick is written out in `step` and `_cruise`, where a call or a `zip` would be seen in the
@@ -15,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from teleop.motion import Axis, Cruise, Demand, Follow, Goto, Limits, Motion, State
+from teleop.motion import STICKS, Axis, Cruise, Demand, Follow, Goto, Limits, Motion, State
 from teleop.planner.drive import INSET, Drive
 from teleop.planner.recall import Recall, plan_recalls
 from teleop.planner.solver import PositionSolver, VelocitySolver, new_state
@@ -25,6 +26,7 @@ from teleop.planner.tracking import Tracker
 SLOWEST = 1e-3  # share of V with which a soft limit is approached at least: Ruckig needs more than 0
 RESIDUE = 1e-10  # unit/s and unit/s2 left by rounding when Ruckig's plan has come to rest
 STILL = Cruise(0.0)  # what a halt is, and an axis of which nothing is asked
+HOME = Goto(0.0)  # what they are of an axis with a spring
 
 
 class Live:
@@ -73,7 +75,10 @@ class Live:
         return self._after == self._before and all(drive.rests for drive in self._drives)
 
     def step(self, demand: Demand, dt_steps: int = 1) -> dict[Axis, State]:
-        """The motion `dt_steps` ticks on. An axis absent from `demand` comes to rest and stays."""
+        """The motion `dt_steps` ticks on. An axis absent from `demand` comes to rest and stays.
+
+        One with a spring comes to rest in its centre.
+        """
         seconds, asked = self._dt * dt_steps, demand.get
         sticks: list[Drive] = []
         velocities: list[float] = []
@@ -89,6 +94,8 @@ class Live:
                     else:
                         drive.state = state
                     continue
+                if drive.axis in STICKS and not isinstance(wish, Goto):
+                    wish = HOME
                 if isinstance(wish, Goto):
                     presets.append((drive, wish))
                     continue

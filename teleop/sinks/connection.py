@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 
 from teleop.dji.message import Message
+from teleop.dji.onboard_session import OnboardSession
 from teleop.dji.session import Session
 from teleop.ports import Link, LinkError
 
@@ -30,20 +31,36 @@ class Answer:
 class Connection:
     """`name` is what errors call the far end, `url` where it is; it is first expected to be heard after `now`.
 
-    `link_counts` are what the link counts of its own: how often it was full, what it dropped.
+    `link_counts` are what the link counts of its own: how often it was full, what it dropped. `session` is that of the
+    far end's protocol, a gimbal's unless given.
     """
 
     def __init__(
-        self, name: str, url: str, link: Link, now: float, link_counts: Mapping[str, int] | None = None
+        self,
+        name: str,
+        url: str,
+        link: Link,
+        now: float,
+        link_counts: Mapping[str, int] | None = None,
+        session: Session | OnboardSession | None = None,
     ) -> None:
-        self.session = Session()
+        self.session = session or Session()
         self._link_counts = {} if link_counts is None else link_counts
         self._name, self._url, self._link = name, url, link
+        self.opened = now
         self._handlers: dict[type[Message], list[Callable[[Answer], None]]] = {}
         self._push_handlers: dict[type[Message], list[Callable[[Message, float], None]]] = {}
         self._sent: dict[int, float] = {}
         self._heard = self._polled = now
         self._unanswered = 0
+
+    def __str__(self) -> str:
+        return f"{self._name} on {self._url}"
+
+    @property
+    def simulated(self) -> bool:
+        """Whether the far end is in this process."""
+        return self._url == "sim:"
 
     @property
     def counts(self) -> Mapping[str, int]:
@@ -83,8 +100,11 @@ class Connection:
         for lost in self.session.overdue(now):
             self._unanswered += 1
             self._answer(lost.request, lost.sequence, None)
+        if isinstance(self.session, OnboardSession):  # whose protocol sends again what is not acknowledged
+            for frame in self.session.due(now):
+                self._link.send(frame)
         if self._unanswered >= UNANSWERED and now - self._heard > SILENCE:
-            raise LinkError(f"{self._name} on {self._url} does not answer: is it on, is the cable in?")
+            raise LinkError(f"{self} does not answer: is it on, is the cable in?")
 
     def _answer(self, request: Message, sequence: int, reply: Message | None) -> None:
         answer = Answer(sequence, self._sent.pop(sequence), reply)

@@ -41,6 +41,7 @@ class Event(Enum):
     LEAVE = auto()
     GIVEN_BACK = auto()
     FREE = auto()  # confirmed, or no longer waited for
+    UNSENT = auto()  # the giving back did not leave
 
 
 TRANSITIONS: Mapping[tuple[Stage, Event], Stage] = {
@@ -53,6 +54,7 @@ TRANSITIONS: Mapping[tuple[Stage, Event], Stage] = {
     (Stage.ADRIFT, Event.LEAVE): Stage.LEAVING,
     (Stage.LEAVING, Event.GIVEN_BACK): Stage.CHECKING,
     (Stage.CHECKING, Event.FREE): Stage.IDLE,
+    (Stage.CHECKING, Event.UNSENT): Stage.LEAVING,
 }
 HELD = frozenset({Stage.TAKING, Stage.ENGAGED, Stage.ADRIFT})  # the drone is in our hands
 
@@ -76,6 +78,7 @@ class Engagement:
     def __init__(self, what: str, period: float, opened: float, say: Callable[[str], object]) -> None:
         self.stage = Stage.IDLE
         self.failure = ""  # why it was last left without the operator asking for it
+        self.unreturned = ""  # what the drone did when it was last given back and did not confirm it
         self._what, self._period, self._say = what, period, say
         self._taken = opened
         self._since = opened  # in this stage
@@ -93,7 +96,7 @@ class Engagement:
     def engage(self, now: float) -> None:
         """Whoever calls this takes the drone, once, now."""
         assert not self.refusal(now)
-        self._taken, self._next, self.failure = now, now, ""
+        self._taken, self._next, self.failure, self.unreturned = now, now, "", ""
         self._happened(Event.ENGAGE, now)
 
     def leave(self, now: float, why: str, *, asked: bool = False) -> None:
@@ -102,6 +105,11 @@ class Engagement:
             self.failure = "" if asked else why
             self._say(f"{why}: sticks neutral, {self._what} is given back")
             self._happened(Event.LEAVE, now)
+
+    def not_sent(self, now: float) -> None:
+        """What the last order gave back did not leave: it is to be tried again."""
+        if self.stage is Stage.CHECKING:
+            self._happened(Event.UNSENT, now)
 
     def advance(self, now: float, hand: bool, held: bool | None) -> Order:
         """What to send now; to be asked each tick.
@@ -164,8 +172,8 @@ class Engagement:
             return
         else:
             said = "says that it still has it" if held else "says nothing"
-            self._say(f"{self._what} was given back, but the drone {said}: take it over with its RC")
-            self.failure = self.failure or f"the drone did not confirm that {self._what} was given back"
+            self.unreturned = f"{self._what} was given back, but the drone {said}: take it over with its RC"
+            self._say(self.unreturned)
         self._happened(Event.FREE, now)
 
     def _happened(self, event: Event, now: float) -> None:

@@ -3,13 +3,16 @@
 Whatever moves an axis belongs to a hand, and stops with it: a stick while it is deflected, a recall or a jog until it
 is there. An axis that was driven and is no longer is told to rest until it does, so that nothing beneath takes it over
 in flight: gently when a stick was let go, as fast as the axis may when the hand was lost.
+
+A drone's stick is not moved by a hand's stick, it is one: it is where the hand's is, centred too, for as long as a hand
+that is trusted has it. When none has, nothing is said of it, which is how a drone is told that nobody is there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from teleop.motion import Axis, Cruise, Limits, Motion, Wish
+from teleop.motion import STICKS, Axis, Cruise, Goto, Limits, Motion, Wish
 from teleop.sources.arming import Arming
 from teleop.sources.handling import SticksSection
 from teleop.sources.recall import Jog, Recall
@@ -32,7 +35,10 @@ class Driving:
         say: Callable[[str], object],
     ) -> None:
         self._limits, self._hands, self._say = limits, hands, say
-        self._steering = {axis: Steering(of, sticks.ramp, sticks.low_pass) for axis, of in limits.items()}
+        self._sticks = [axis for axis in limits if axis in STICKS]
+        self._steering = {
+            axis: Steering(of, sticks.ramp, sticks.low_pass) for axis, of in limits.items() if axis not in STICKS
+        }
         self._jog = Jog(limits)
         self.recall: Recall | None = None
         self.drivers: dict[Axis, Arming] = {}
@@ -52,7 +58,7 @@ class Driving:
         self._merge()
         self._take_steps(motion)
         sent = self._sent(now, motion)
-        demand: dict[Axis, Wish] = {}
+        demand: dict[Axis, Wish] = self._held()
         for axis, steering in self._steering.items():
             deflection = self.deflections.get(axis, 0.0)
             hand = None if axis in sent else self.drivers.get(axis, self._driven.get(axis))
@@ -70,6 +76,16 @@ class Driving:
                 demand[axis] = Cruise(0.0) if lost else wish
         return demand
 
+    def _held(self) -> dict[Axis, Wish]:
+        """A drone's sticks, where hands that are trusted hold them."""
+        mapped = {axis for hand in self._hands if hand.trusted for axis in hand.said.deflections}
+        return {axis: Goto(self.deflections.get(axis, 0.0)) for axis in self._sticks if axis in mapped}
+
+    @property
+    def deflected(self) -> Axis | None:
+        """An axis that a stick moves, a drone's own sticks apart."""
+        return next((axis for axis in self.drivers if axis not in STICKS), None)
+
     def _merge(self) -> None:
         """Which hand drives which axis: the first one trusted that deflects it. A stick ends what was under way."""
         self.drivers, self.deflections = {}, {}
@@ -80,9 +96,8 @@ class Driving:
                 if deflection and axis in self._limits and axis not in self.drivers:
                     self.drivers[axis], self.deflections[axis] = hand, deflection
                     self._jog.drop(axis)
-        if self.recall and self.drivers:
-            axis, hand = next(iter(self.drivers.items()))
-            self._end_recall(f"{hand.name} moved {axis}")
+        if self.recall and (axis := self.deflected):
+            self._end_recall(f"{self.drivers[axis].name} moved {axis}")
 
     def _take_steps(self, motion: Motion) -> None:
         """Steps, and sliders that were moved: both send an axis somewhere, unless a stick has it."""
@@ -101,6 +116,8 @@ class Driving:
             self._say(f"{hand.name} moves nothing: {hand.waits_for}")
         elif axis not in self._limits:
             self._say(f"{axis} is not an axis of this rig")
+        elif axis in STICKS:
+            self._say(f"{axis} moves only while a stick is held")
         elif axis not in self.drivers:
             if self.recall:
                 self._end_recall(f"{hand.name} moved {axis}")

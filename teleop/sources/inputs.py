@@ -31,6 +31,8 @@ class Command(StrEnum):
     RECORD = "record"  # on, and off again
     SHUTTER = "shutter"
     TELL = "tell"  # a device's own command: `gimbal follow lock`
+    ENGAGE = "engage"  # the drone
+    DISENGAGE = "disengage"
     QUIT = "quit"
     PAUSE = "pause"  # of a sequence, and on again
     NEXT = "next"  # keyframe

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, field_validator
 
 from teleop.document import DocumentError, Location, Wrong, mapping, sequence
-from teleop.motion import Axis
+from teleop.motion import STICKS, Axis
 from teleop.section import Finite, Section
 from teleop.shipped import find
 from teleop.sources.inputs import Command
@@ -168,6 +168,13 @@ def control_rules(controls: Mapping[str, Any], here: Location, axes: Mapping[str
         for direction in directions:
             yield from _action_rules(mapping(control, direction), (*place, direction), axes)
         yield from _wheel_rules(control, place)
+        yield from _stick_rules(control, place)
+
+
+def _stick_rules(control: Mapping[str, Any], here: Location) -> Iterator[Wrong]:
+    """A drone's stick may only be held, and is let go with the control: what stays where it was left is no stick."""
+    if control.get("axis") in STICKS and (control.get("by") == "position" or control.get("rest") == "high"):
+        yield here, "must be let go with the hand: a drone's stick is moved by a stick or a button, not by a slider"
 
 
 def _action_rules(action: Mapping[str, Any], here: Location, axes: Mapping[str, Any] | None) -> Iterator[Wrong]:

@@ -1,7 +1,8 @@
 """Which key asks for what, and how the bytes of a terminal become keys.
 
 A terminal tells of presses and never of releases, so no key can be held: keys move an axis on by steps. The space bar
-is the e-stop wherever it comes, in the middle of a sequence too: nothing typed before it may swallow it.
+is the e-stop wherever it comes, in the middle of a sequence too: nothing typed before it may swallow it. What a drone
+is told is a whole word and Enter, so that no slip of a finger starts a motor.
 """
 
 from __future__ import annotations
@@ -42,6 +43,7 @@ KEYS: Mapping[str, Act] = {
     "z": Press(Command.RECENTER),
     "r": Press(Command.RECORD),
     ".": Press(Command.SHUTTER),
+    "b": Press(Command.DISENGAGE),
     "q": Press(Command.QUIT),
     "[": Step(Axis.FOCUS, -0.01),
     "]": Step(Axis.FOCUS, 0.01),
@@ -64,6 +66,20 @@ PREFIXES: Mapping[str, tuple[str, Mapping[str, Act]]] = {
 }
 """Keys that ask for a second one: the question, and its answers. Any other key takes it back."""
 
+SPELL = "d"
+DRONE_WORDS: Mapping[str, Act] = {
+    "engage": Press(Command.ENGAGE),
+    "disengage": Press(Command.DISENGAGE),
+    **{
+        word: Press(Command.TELL, words=f"drone {word}")
+        for word in (
+            *("arm", "disarm", "take-off", "land", "home", "home-off"),
+            *("mode-p", "mode-a", "mode-f", "gear-up", "gear-down"),
+        )
+    },
+}
+"""What can be spelled after the key that begins a word."""
+
 HELP: Sequence[tuple[str, str]] = (
     ("space", "E-STOP"),
     ("c", "clear the e-stop"),
@@ -80,8 +96,12 @@ HELP: Sequence[tuple[str, str]] = (
     ("r", "record, and stop"),
     (".", "shutter"),
     ("e", "hands off, and on"),
+    ("d word", "tell the drone: engage, arm, land, mode-p"),
+    ("b", "give the drone back to its RC"),
     ("q", "quit"),
 )
+
+LONGEST_WORD = 20
 
 _SEQUENCE = re.compile(r"\x1b(?:O|\[(?P<parameters>[0-9;]*))(?P<final>[@-~])")
 _BEGUN = re.compile(r"\x1b(?:O|\[[0-9;]*)?")
@@ -94,6 +114,7 @@ class KeyReader:
         self.question = ""
         self.helping = False
         self._answers: Mapping[str, Act] = {}
+        self._word: str | None = None  # what has been spelled of one
         self._begun = ""  # of an escape sequence
 
     @property
@@ -125,17 +146,38 @@ class KeyReader:
                 text = text[1:]
 
     def _key(self, key: str) -> Iterator[Act]:
+        if self._word is not None and key != STOP:
+            yield from self._spell(self._word, key)
+            return
         answers = self._answers
-        asked = bool(self.question)
+        asked = bool(answers)
         self._ask(key if key in PREFIXES and not (asked and key in answers) else "")
         if key == "?":
             self.helping = not self.helping
         elif asked and key in answers:
             yield answers[key]
+        elif not asked and key == SPELL:
+            self._begin_word("")
         elif (not asked and key in KEYS) or key == STOP:
             yield KEYS[key]
 
+    def _begin_word(self, word: str) -> None:
+        self._word, self.question = word, f"tell the drone: {word}_   Enter does it, Escape takes it back"
+
+    def _spell(self, word: str, key: str) -> Iterator[Act]:
+        if key in "\r\n":
+            self._ask("")
+            if word in DRONE_WORDS:
+                yield DRONE_WORDS[word]
+            elif word:
+                self.question = f"a drone knows {', '.join(DRONE_WORDS)}, not {word!r}"
+        elif key in "\b\x7f":
+            self._begin_word(word[:-1])
+        elif key.isascii() and key.isprintable() and len(word) < LONGEST_WORD:
+            self._begin_word(word + key.lower())
+
     def _ask(self, key: str) -> None:
+        self._word = None
         self.question, self._answers = PREFIXES.get(key, ("", {}))
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-from teleop.motion import Act, Action, Axis, Demand, Dialled, Halt, Limits, Motion, Tick, Told, Wish
+from teleop.motion import STICKS, Act, Action, Axis, Demand, Dialled, Goto, Halt, Limits, Motion, Tick, Told, Wish
 from teleop.ports import Source
 from teleop.sources.arming import CENTRE, Arming
 from teleop.sources.driving import Driving
@@ -23,6 +23,8 @@ from teleop.sources.recall import Recall, reachable
 from teleop.sources.status import Hand, Log, Status
 
 CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)  # what a recentre takes to 0
+DRONE = "drone "  # begins the words that a drone is told
+CENTRED_STICK = Goto(0.0)  # of a drone: nothing moves, but somebody is there
 
 
 class Operator:
@@ -67,6 +69,8 @@ class Operator:
             Command.RECORD: self._record,
             Command.SHUTTER: lambda _hand, _press: self._actions.append(Action.SHUTTER),
             Command.TELL: self._tell,
+            Command.ENGAGE: lambda _hand, _press: self._tell_drone("engage"),
+            Command.DISENGAGE: lambda _hand, _press: self._tell_drone("disengage"),
             Command.QUIT: self._quit,
         }
         self.begin = math.inf  # when the run begins, on the loop's clock
@@ -117,7 +121,8 @@ class Operator:
         demand, actions = self._beneath.read(now)
         self._actions += actions
         self._done = self._done or math.isinf(self._beneath.next_change(now))
-        self._beneath_trusted = not self._stopped and (self._beneath_trusted or not demand)
+        rests = all(wish == CENTRED_STICK for wish in demand.values())
+        self._beneath_trusted = not self._stopped and (self._beneath_trusted or rests)
         return demand if self._beneath_trusted else {}
 
     def _turn_dial(self) -> None:
@@ -130,7 +135,8 @@ class Operator:
 
     @property
     def _moving(self) -> bool:
-        return any(state.velocity or state.acceleration for state in self._motion.values())
+        moved = (state for axis, state in self._motion.items() if axis not in STICKS)
+        return any(state.velocity or state.acceleration for state in moved)
 
     def _stop(self, hand: Arming, _press: Press) -> None:
         if not self._stopped:
@@ -164,7 +170,7 @@ class Operator:
         if preset is None:
             self.say(f"there is no preset {press.number} yet")
             return
-        known = {axis: target for axis, target in preset.positions.items() if axis in self._limits}
+        known = {axis: to for axis, to in preset.positions.items() if axis in self._limits and axis not in STICKS}
         self._send(hand, f"preset {press.number}", known)
 
     def _recenter(self, hand: Arming, _press: Press) -> None:
@@ -172,7 +178,8 @@ class Operator:
 
     def _send(self, hand: Arming, title: str, positions: Mapping[Axis, float]) -> None:
         """Begin to take the axes somewhere, if the hand that asks may."""
-        deflected = any(any(each.said.deflections.values()) for each in self._hands if each.trusted)
+        held = [each.said.deflections for each in self._hands if each.trusted]
+        deflected = any(value for said in held for axis, value in said.items() if axis not in STICKS)
         refusal = "the e-stop is not cleared" if self._stopped else hand.waits_for
         refusal = refusal or ("let the stick go first" if deflected else "")
         if refusal:
@@ -186,7 +193,8 @@ class Operator:
             self.say(f"{title} in {self._seconds:g} s")
 
     def _store(self, _hand: Arming, press: Press) -> None:
-        self._presets.store(press.number, {axis: state.position for axis, state in self._motion.items()})
+        where = {axis: state.position for axis, state in self._motion.items() if axis not in STICKS}
+        self._presets.store(press.number, where)
         self.say(f"preset {press.number} stored")
 
     def _delete(self, _hand: Arming, press: Press) -> None:
@@ -197,8 +205,16 @@ class Operator:
         self._recording = not self._recording
         self._actions.append(Action.RECORD if self._recording else Action.STOP)
 
+    def _tell_drone(self, word: str) -> None:
+        if word == "engage" and self._stopped:
+            self.say("drone: not engaged: the e-stop is not cleared")
+        else:
+            self._actions.append(Told(f"{DRONE}{word}"))
+
     def _tell(self, _hand: Arming, press: Press) -> None:
-        if self._moving:
+        if press.words.startswith(DRONE):
+            self._tell_drone(press.words.removeprefix(DRONE).strip())
+        elif self._moving:
             self.say(f"{press.words} refused: an axis moves")
         else:
             self._actions.append(Told(press.words))

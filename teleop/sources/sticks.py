@@ -1,7 +1,8 @@
 """Sticks replayed from a CSV file, as a joystick would have reported them.
 
 The file is read and checked whole before anything moves. A row's deflections hold until the next row; the last row
-marks the end, where every stick is let go. A centred stick has no opinion, so whatever lies beneath it drives.
+marks the end, where every stick is let go. A centred stick has no opinion, so whatever lies beneath it drives; but a
+drone's stick is held where the row has it, in its centre too.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teleop.document import DocumentError
-from teleop.motion import Act, Axis, Cruise, Demand, Motion
+from teleop.motion import STICKS, Act, Axis, Cruise, Demand, Goto, Motion, Wish
 from teleop.phrases import nearest
 
 MAX_PROBLEMS = 20  # a file with its columns swapped is wrong in every row
@@ -114,8 +115,13 @@ class SticksSource:
         if row < 0 or row == len(self._sticks.times) - 1:
             return {}, ()
         held = zip(self._sticks.axes, self._sticks.deflections[row], strict=True)
-        velocities = {axis: self._velocity(axis, deflection) for axis, deflection in held}
-        return {axis: Cruise(velocity) for axis, velocity in velocities.items() if velocity}, ()
+        demand: dict[Axis, Wish] = {}
+        for axis, deflection in held:
+            if axis in STICKS:
+                demand[axis] = Goto(deflection)
+            elif velocity := self._velocity(axis, deflection):
+                demand[axis] = Cruise(velocity)
+        return demand, ()
 
     def next_change(self, now: float) -> float:
         row = bisect.bisect_right(self._sticks.times, now - self.begin + 1e-9)

@@ -142,7 +142,7 @@ def test_a_drone_that_says_nothing_of_it_is_flown_with_a_warning() -> None:
     drone.run(1 + CHECK)
     assert drone.stage is Stage.IDLE
     assert drone.said[-1] == "virtual RC was given back, but the drone says nothing: take it over with its RC"
-    assert drone.engagement.failure
+    assert drone.engagement.unreturned == drone.said[-1]
 
 
 def test_a_pilot_who_takes_it_back_is_told_to_have_it() -> None:
@@ -195,6 +195,21 @@ def test_whatever_happens_it_is_taken_once_per_act_and_given_back_once(
     for taken, returned in zip(drone.taken, drone.of(Order.GIVE_BACK), strict=True):
         last = [order for time, order in drone.orders if taken <= time < returned][-LAST_NEUTRALS:]
         assert last == [Order.NEUTRAL] * LAST_NEUTRALS
+
+
+def test_a_giving_back_that_did_not_leave_is_tried_again() -> None:
+    drone = Drone()
+    drone.engage()
+    drone.run(2)
+    drone.engagement.leave(drone.now, "bye", asked=True)
+    while drone.stage is not Stage.CHECKING:
+        drone.run(TICK)
+    drone.changes.clear()
+    drone.engagement.not_sent(drone.now)
+    assert drone.stage is Stage.LEAVING
+    drone.run(3)
+    assert drone.stage is Stage.IDLE
+    assert len(drone.of(Order.GIVE_BACK)) == 2
 
 
 def test_the_table_knows_what_is_held() -> None:

@@ -97,7 +97,7 @@ def test_a_rig_without_inputs_has_none(tmp_path: Path) -> None:
             "{controls: {X: {press: halt}}}",
             28,
             "controls.X.press must be one of stop, clear, enable, slower, faster, range, recall, "
-            "store, delete, recenter, record, shutter, tell, quit, not 'halt'",
+            "store, delete, recenter, record, shutter, tell, engage, disengage, quit, not 'halt'",
         ),
         (
             "{controls: {X: {press: recall}}}",

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from teleop.dji.catalogue import find
 from teleop.motion import Axis
 from teleop.sources.inputs import Command, Press
-from teleop.sources.keys import HELP, KEYS, PREFIXES, Act, KeyReader, Step
+from teleop.sources.keys import DRONE_WORDS, HELP, KEYS, PREFIXES, Act, KeyReader, Step
 
 
 def typed(text: str) -> list[Act]:
@@ -17,7 +17,11 @@ def typed(text: str) -> list[Act]:
 
 
 def test_every_command_has_a_key() -> None:
-    acts = [*KEYS.values(), *(act for _, answers in PREFIXES.values() for act in answers.values())]
+    acts = [
+        *KEYS.values(),
+        *DRONE_WORDS.values(),
+        *(act for _, answers in PREFIXES.values() for act in answers.values()),
+    ]
     assert {act.command for act in acts if isinstance(act, Press)} == set(Command)
 
 
@@ -56,6 +60,14 @@ def test_the_help_fits_a_small_terminal() -> None:
         ("\x1b[1;2 ", [Press(Command.STOP)]),
         ("\x1b\x1b[C", [Step(Axis.PAN, 1)]),
         ("wQ\n\t\xe9", []),
+        ("dengage\n", [Press(Command.ENGAGE)]),
+        ("dEngagr\x7fe\r3", [Press(Command.ENGAGE), Press(Command.RECALL, 3)]),
+        ("dmode-a\n", [Press(Command.TELL, words="drone mode-a")]),
+        ("dq\nc", [Press(Command.CLEAR)]),  # no word, and neither a quit
+        ("deng \n", [Press(Command.STOP)]),
+        ("deng\x1b[C\n", [Step(Axis.PAN, 1)]),
+        ("sdz", [Press(Command.RECENTER)]),  # the answer to another question begins no word
+        ("b", [Press(Command.DISENGAGE)]),
     ],
 )
 def test_what_is_typed_is_what_is_asked_for(text: str, acts: list[Act]) -> None:

@@ -1,0 +1,309 @@
+"""The fault table of a drone in the air, on virtual time: what was sent, what it did, what the operator was told.
+
+Each row breaks something while the drone flies with half a stick forward. Whatever it is, the monitor of `sky` looks
+at every frame: never two enables within two seconds, never sticks that no hand holds, never more than 25 frames in a
+second. What a row adds is who flies afterwards, and the words.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from sky import READY, Sky, sky
+
+from teleop.dji.virtual_rc import NEUTRAL, Sticks
+from teleop.sim.controls import Pilot, Switch
+from teleop.sinks.engagement import LAST_NEUTRALS, Stage
+from teleop.sources.inputs import Command
+from teleop.supervisor import Result
+
+BREAKS = 8.0  # s after the start
+FORWARD = 1024 + 330
+
+
+def fly(sky: Sky) -> None:
+    sky.airborne()
+    sky.engage_at(READY)
+    sky.hold_at(READY + 1, stick_pitch=0.5)
+
+
+def test_it_is_engaged_flown_and_given_back(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        fly(scene)
+        scene.at(BREAKS, lambda: scene.keys.press(Command.DISENGAGE))
+        scene.quit_at(BREAKS + 4)
+        scene.run()
+    assert scene.ended.result is Result.DONE
+    [enabled], [disabled] = scene.enables, scene.disables
+    sticks = scene.of(Sticks)
+    assert sticks[0][0] - enabled <= 0.011, "sticks follow the enable at once"
+    assert [message for _, message in sticks[-LAST_NEUTRALS:]] == [NEUTRAL] * LAST_NEUTRALS
+    assert disabled - sticks[-1][0] <= 0.06
+    assert max(message.pitch for _, message in sticks) == FORWARD
+    assert len(sticks) == pytest.approx(20 * (disabled - enabled), abs=2)
+    assert scene.pilot(BREAKS - 0.1) is Pilot.VIRTUAL
+    assert scene.pilot(BREAKS + 1) is Pilot.RC
+    assert scene.said == [
+        "drone: engaged: the drone confirms virtual RC",
+        "drone: the operator lets go: sticks neutral, virtual RC is given back",
+        "drone: virtual RC is given back: the drone confirms",
+    ]
+
+
+def hand_is_gone(scene: Sky) -> None:
+    scene.pad.trouble = "pad: silent for 0.2 s"
+
+
+def everything_stops(scene: Sky) -> None:
+    scene.keys.press(Command.STOP)
+
+
+def pilot_leaves_f(scene: Sky) -> None:
+    scene.drone.turn_switch(scene.clock.now(), Switch.P)
+
+
+def control_is_lost(scene: Sky) -> None:
+    scene.drone.lose_control(scene.clock.now())
+
+
+def battery_runs_low(scene: Sky) -> None:
+    scene.drone.set_battery(scene.clock.now(), 20)
+
+
+def status_is_no_longer_told(scene: Sky) -> None:
+    scene.drone.hide("status")
+
+
+def nothing_comes_from_it(scene: Sky) -> None:
+    scene.cable.mute = True
+
+
+def nothing_reaches_it(scene: Sky) -> None:
+    scene.cable.deaf = True
+
+
+def every_byte_is_damaged(scene: Sky) -> None:
+    scene.cable.damage = lambda data: bytes([data[0] ^ 1]) + data[1:]
+
+
+def every_frame_is_cut(scene: Sky) -> None:
+    scene.cable.damage = lambda data: data[:-1]
+
+
+def unplugged(scene: Sky) -> None:
+    scene.cable.unplugged = True
+
+
+def signal(scene: Sky) -> None:
+    scene.loop.interrupt("SIGTERM received")
+
+
+def stalls_300_ms(scene: Sky) -> None:
+    scene.clock.stall(0.3)
+
+
+def stalls_1500_ms(scene: Sky) -> None:
+    scene.clock.stall(1.5)
+
+
+def defect(scene: Sky) -> None:
+    def fails(*_arguments: object) -> None:
+        raise ZeroDivisionError("a defect")
+
+    scene.operator.read = fails  # type: ignore[method-assign]  # a defect is put in
+
+
+@dataclass(frozen=True)
+class Row:
+    """What breaks, what is said of it, by whom it flies then, within how many s of the break the sticks are neutral."""
+
+    breaks: Callable[[Sky], None]
+    said: str
+    within: float = 0.07
+    result: Result = Result.DONE
+    disables: int = 1
+    given_back: float = 2.0  # s after the break, by which its RC has it
+
+
+ROWS = [
+    Row(hand_is_gone, "no hand on the sticks for 1 s"),
+    Row(everything_stops, "everything is to stop: sticks neutral"),
+    Row(pilot_leaves_f, "the drone has ended virtual RC"),
+    Row(control_is_lost, "the drone says that control was lost"),
+    Row(battery_runs_low, "the battery is at 20 %", within=1.1),
+    Row(status_is_no_longer_told, "the drone no longer says its flight status", within=1.1),
+    Row(nothing_comes_from_it, "take it over with its RC", within=1.1, result=Result.FAILED),
+    Row(nothing_reaches_it, "the drone has ended virtual RC", within=1.1),
+    Row(every_byte_is_damaged, "the drone has ended virtual RC", within=1.1),
+    Row(every_frame_is_cut, "the drone has ended virtual RC", within=1.1),
+    Row(unplugged, "goes back to its RC by itself, a second after", result=Result.FAILED, disables=0),
+    Row(signal, "everything is to stop", result=Result.INTERRUPTED),
+    Row(stalls_300_ms, "the computer stalled for 0.30 s", within=0.37, result=Result.FAILED),
+    Row(stalls_1500_ms, "the computer stalled for 1.5", within=1.57, result=Result.FAILED),
+    Row(defect, "ZeroDivisionError: a defect", result=Result.FAILED),
+]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=[row.breaks.__name__ for row in ROWS])
+def test_whatever_breaks_the_drone_is_back_with_its_pilot(row: Row, tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        fly(scene)
+        scene.at(BREAKS, lambda: row.breaks(scene))
+        scene.quit_at(BREAKS + 6)
+        scene.run()
+    assert scene.pilot(BREAKS - 0.01) is Pilot.VIRTUAL, "it flew until then"
+    assert scene.ended.result is row.result, scene.ended.reasons
+    assert any(row.said in text for text in (*scene.said, *scene.ended.reasons)), (scene.said, scene.ended.reasons)
+    assert len(scene.enables) == 1, "never again by itself"
+    assert len(scene.disables) == row.disables
+    after = [message for time, message in scene.of(Sticks) if time > BREAKS + row.within]
+    assert all(message == NEUTRAL for message in after)
+    assert scene.pilot(BREAKS + row.given_back) is Pilot.RC
+    if row.disables:
+        given_back = scene.disables[0]
+        assert [message for time, message in scene.of(Sticks) if time < given_back][-LAST_NEUTRALS:] == [
+            NEUTRAL
+        ] * LAST_NEUTRALS
+        assert not scene.of(Sticks) or scene.of(Sticks)[-1][0] < given_back, "nothing after it"
+    pose = scene.drone.cockpit.pose
+    assert abs(complex(pose.velocity_north, pose.velocity_east)) < 0.1, "it hovers"
+    assert not scene.drone.cockpit.flight.crashed
+
+
+def test_a_hand_that_is_back_within_a_second_has_to_be_centred_first(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        fly(scene)
+        scene.at(BREAKS, lambda: hand_is_gone(scene))
+        scene.at(BREAKS + 0.4, lambda: setattr(scene.pad, "trouble", ""))
+        scene.hold_at(BREAKS + 0.6)
+        scene.hold_at(BREAKS + 0.7, stick_pitch=0.5)
+        scene.quit_at(BREAKS + 3)
+        scene.run()
+    assert "drone: a hand is on the sticks again" in scene.said
+    deflected = [time for time, message in scene.of(Sticks) if message != NEUTRAL and time > BREAKS + 0.07]
+    assert deflected[0] > BREAKS + 0.69
+    assert len(scene.enables) == 1
+
+
+def test_an_enable_that_is_not_answered_is_not_repeated(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.airborne()
+        scene.drone.cockpit.enable_virtual = lambda back_to_rc: None  # type: ignore[method-assign]  # it does not
+        fly(scene)
+        scene.quit_at(BREAKS)
+        scene.run()
+    assert len(scene.enables) == len(scene.disables) == 1
+    assert any("the drone does not confirm virtual RC" in text for text in scene.said)
+
+
+def test_a_drone_that_hides_the_bit_is_flown_and_that_is_said(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.drone.hide("control")
+        fly(scene)
+        scene.quit_at(BREAKS)
+        scene.run()
+    assert any("sends no control field" in text for text in scene.said)
+    assert any("engaged, but the drone does not say whether virtual RC is on" in text for text in scene.said)
+    assert max(message.pitch for _, message in scene.of(Sticks)) == FORWARD
+    assert len(scene.enables) == len(scene.disables) == 1
+    assert scene.ended.result is Result.FAILED, "whether it was given back is not known"
+
+
+def test_lost_acknowledgements_are_asked_for_again_and_then_end_the_run(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.drone.acknowledges = False
+        scene.at(0.15, lambda: setattr(scene.drone, "acknowledges", True))
+        fly(scene)
+        scene.quit_at(BREAKS)
+        scene.run()
+    assert scene.ended.result is Result.DONE
+    assert len(scene.enables) == 1
+    with sky(tmp_path) as scene:
+        scene.drone.acknowledges = False
+        scene.run()
+    assert scene.ended.reasons[0] == "drone on sim: does not answer: is it on, is the cable in?"
+    assert scene.enables == []
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda scene: scene.hold_at(0.0, stick_roll=0.5), "no input holds its sticks"),
+        (lambda scene: scene.hold_at(2.0, stick_roll=0.5), "let its sticks go to their centre"),
+        (pilot_leaves_f, "mode switch is in P"),
+        (battery_runs_low, "the battery is at 20 %: 25 % is too low to begin with"),
+        (lambda scene: scene.drone.hide("rc"), "does not say where its RC's mode switch is"),
+        (lambda scene: scene.drone.hide("battery"), "does not say how full its battery is"),
+        (lambda scene: scene.keys.press(Command.STOP), "the e-stop is not cleared"),
+    ],
+)
+def test_what_is_not_fit_to_fly_is_not_engaged(spoil: Callable[[Sky], None], said: str, tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.at(0.5, lambda: spoil(scene)) if spoil.__name__ != "<lambda>" else spoil(scene)
+        scene.engage_at(READY + 1)
+        scene.quit_at(READY + 2)
+        scene.run()
+    told = [*scene.said, *(message.text for message in scene.operator.status.messages)]
+    assert any(said in text for text in told), told
+    assert scene.of(Sticks) == []
+    assert scene.enables == []
+
+
+def test_it_is_not_engaged_twice_within_two_seconds_however_often_it_is_asked(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.airborne()
+        for tenth in range(100):
+            scene.engage_at(0.1 * tenth)
+            scene.at(0.1 * tenth + 0.05, lambda: scene.keys.press(Command.DISENGAGE))
+        scene.quit_at(11)
+        scene.run()
+    assert len(scene.enables) >= 3
+    assert any("twice within 2 s would lock the drone" in text for text in scene.said)
+
+
+def test_motors_start_by_gesture_in_standby_and_are_never_cut_in_the_air(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.engage_at(READY)
+        scene.tell_at(READY + 0.5, "arm")
+        scene.hold_at(READY + 4, stick_throttle=0.8)
+        scene.tell_at(READY + 7, "disarm")
+        scene.hold_at(READY + 8)
+        scene.quit_at(READY + 10)
+        scene.run()
+    corners = [time for time, message in scene.of(Sticks) if (message.roll, message.throttle) == (364, 364)]
+    assert corners[0] >= READY + 0.5
+    assert corners[-1] <= READY + 2.6
+    assert scene.drone.cockpit.flight.airborne
+    assert not scene.drone.cockpit.flight.crashed
+    assert "disarm refused: the drone says in air" in scene.said[-3]
+
+
+def test_switches_are_set_while_it_is_engaged_and_neutral_is_p_mode(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.airborne()
+        scene.tell_at(READY - 1, "mode-a")
+        scene.engage_at(READY)
+        scene.tell_at(READY + 1, "mode-a")
+        scene.tell_at(READY + 1.5, "gear-up")
+        scene.tell_at(READY + 2, "home")
+        scene.at(READY + 3, lambda: scene.keys.press(Command.DISENGAGE))
+        scene.quit_at(READY + 5)
+        scene.run()
+    switches = [(message.mode, message.gear, message.go_home) for _, message in scene.of(Sticks)]
+    assert switches[0] == switches[-1] == (1552, 1324, 1024)
+    assert (1024, 1684, 1024) in switches
+    assert scene.said[0] == "drone: mode-a refused: it is not engaged"
+    assert any("the profile does not say what its channel is to be" in text for text in scene.said)
+
+
+def test_the_loop_ends_idle_when_nobody_ever_engaged(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.hold_at(3, stick_pitch=1.0)
+        scene.quit_at(5)
+        scene.run()
+        assert scene.sink.state(scene.clock.now()).stage == Stage.IDLE.value
+    assert scene.of(Sticks) == []
+    assert scene.enables == scene.disables == []
