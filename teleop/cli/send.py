@@ -7,10 +7,8 @@ again depends on what is asked: a question or a setting may be repeated, a photo
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from typing import Annotated, Any
 
 from cyclopts import Parameter
@@ -19,6 +17,7 @@ from cyclopts.validators import Number
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.send_drone import send_drone
 from teleop.cli.send_help import print_help
+from teleop.cli.sending import opened, tell
 from teleop.cli.told import in_units
 from teleop.clock import SystemClock
 from teleop.dji import camera, focus, gimbal
@@ -29,9 +28,9 @@ from teleop.dji.r_sdk import R_SDK
 from teleop.dji.record import Record, Transcriber, describe
 from teleop.dji.session import REPLY_TIMEOUT, Received, Session
 from teleop.document import DocumentError
-from teleop.links import open_link, parse
 from teleop.ports import Clock, DeviceError, Link
 from teleop.profile import Profile
+from teleop.sim.link import Device
 
 PERIOD = 0.001  # s between looks for the reply; a gimbal answers within 5 ms
 RETRIES = 2  # where asking again does no harm
@@ -100,15 +99,9 @@ def send(
     url = url_of(profile, message.name.partition(".")[0])
     tries = 1 + (default_retries(message) if retries is None else retries)
     clock = SystemClock()
-    with _open(url, clock) as link:
+    with opened(url, clock, _simulated) as link:
         record = stream(link, message) if message.cmd_type == STREAM else ask(link, url, message, clock, tries)
-    reason = refusal(record)
-    if options.json:
-        print(json.dumps(record))
-    elif not reason:
-        print(*readable(message.name, record), sep="\n")
-    if reason:
-        raise DeviceError(f"{message.name} was refused: {reason}")
+    tell(message.name, record, refusal(record), readable(message.name, record), options.json)
     if isinstance(message, gimbal.Speed) and message.take_over:
         print(TAKEN_OVER, file=sys.stderr)
     return 0
@@ -185,19 +178,10 @@ def refusal(record: Record) -> str:
     return next((NOT_DONE[each] for each in said if each in NOT_DONE), "")
 
 
-@contextmanager
-def _open(url: str, clock: Clock) -> Iterator[Link]:
-    if parse(url).kind == "sim":
-        from teleop.sim.gimbal import SimulatedGimbal
-        from teleop.sim.link import SimLink
+def _simulated() -> Device:
+    from teleop.sim.gimbal import SimulatedGimbal
 
-        yield SimLink(SimulatedGimbal(), clock.now)
-        return
-    link = open_link(url, now=clock.now)
-    try:
-        yield link
-    finally:
-        link.close()
+    return SimulatedGimbal()
 
 
 def readable(name: str, record: Record) -> Iterator[str]:

@@ -7,13 +7,12 @@ often a command is sent, and how long its acknowledgement may take, is the proto
 
 from __future__ import annotations
 
-import json
 import secrets
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from typing import Final
 
 from teleop.cli.options import Options
+from teleop.cli.sending import opened, tell
 from teleop.cli.told import in_units
 from teleop.clock import SystemClock
 from teleop.credentials import load_credentials
@@ -26,9 +25,10 @@ from teleop.dji.onboard import M100
 from teleop.dji.onboard_session import ONCE, SENDS, OnboardSession
 from teleop.dji.record import Record, Transcriber, describe
 from teleop.document import DocumentError
-from teleop.links import open_link, parse
+from teleop.links import parse
 from teleop.ports import Clock, DeviceError, Link
 from teleop.profile import Profile
+from teleop.sim.link import Device
 
 PERIOD: Final = 0.001  # s between looks for the acknowledgement
 PATIENCE: Final = 3.0  # s in which control that is being obtained or released must be
@@ -58,18 +58,12 @@ def send_drone(words: Sequence[str], options: Options, understood: bool) -> int:
     if isinstance(message, drone.Activate) and not simulated:
         message = load_credentials().activation()
     clock = SystemClock()
-    with _open(url, clock) as link:
+    with opened(url, clock, lambda: _simulated(clock)) as link:
         exchange = Exchange(link, url, clock)
         if simulated:  # it lives no longer than this command
             exchange.ask(drone.Activate(0))
         record = exchange.stream(message) if message.cmd_type == STREAM else exchange.ask(message)
-    reason = refusal(message, record)
-    if options.json:
-        print(json.dumps(record))
-    elif not reason:
-        print(*readable(message.name, record), sep="\n")
-    if reason:
-        raise DeviceError(f"{message.name} was refused: {reason}")
+    tell(message.name, record, refusal(message, record), readable(message.name, record), options.json)
     return 0
 
 
@@ -178,16 +172,7 @@ def readable(name: str, record: Record) -> Iterator[str]:
     yield from (f"  {field:{width}}  {text}" for field, text in fields.items())
 
 
-@contextmanager
-def _open(url: str, clock: Clock) -> Iterator[Link]:
-    if parse(url).kind == "sim":
-        from teleop.sim.drone import SimulatedDrone
-        from teleop.sim.link import SimLink
+def _simulated(clock: Clock) -> Device:
+    from teleop.sim.drone import SimulatedDrone
 
-        yield SimLink(SimulatedDrone(now=clock.now()), clock.now)
-        return
-    link = open_link(url, now=clock.now)
-    try:
-        yield link
-    finally:
-        link.close()
+    return SimulatedDrone(now=clock.now())
