@@ -11,7 +11,7 @@ from network import own_network
 from pty_lines import SlcanBus
 from waiting import wait_until
 
-from teleop.links import LinkAddress, open_link, open_listener
+from teleop.links import LinkAddress, Listener, open_link, open_listener
 from teleop.links.can import GIMBAL_ID, HOST_ID, CanListener
 from teleop.ports import LinkError
 
@@ -29,7 +29,7 @@ def url(request: pytest.FixtureRequest):
                 yield "socketcan:vcan0"
 
 
-def heard(listener: CanListener, count: int) -> list[tuple[int, bytes]]:
+def heard(listener: Listener, count: int) -> list[tuple[int, bytes]]:
     """The next `count` CAN frames, or more if more have come."""
     arrived: list[tuple[int, bytes]] = []
 

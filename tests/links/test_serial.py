@@ -5,7 +5,7 @@ from link_suite import LinkSuite, UnpluggedSuite
 from pty_lines import NullModem
 from waiting import wait_until
 
-from teleop.links import open_link, parse
+from teleop.links import FAR_END, open_link, open_listener, parse
 from teleop.links.serial import SerialLink
 from teleop.ports import LinkError
 
@@ -55,3 +55,23 @@ class TestSerial(LinkSuite, UnpluggedSuite):
     def test_a_port_that_is_not_there(self) -> None:
         with pytest.raises(LinkError, match=r"^serial:/dev/ttyNone@9600: no port /dev/ttyNone: is the adapter plugged"):
             open_link("serial:/dev/ttyNone@9600", now=time.monotonic)
+
+
+def test_a_listener_hears_the_far_end_and_says_nothing() -> None:
+    cable = NullModem()
+    far = open_link(f"serial:{cable.ports[0]}@230400", now=time.monotonic)
+    listener = open_listener(f"serial:{cable.ports[1]}@230400", now=time.monotonic)
+    heard: list[tuple[int, bytes]] = []
+    far.send(b"status")
+    wait_until(lambda: heard.extend(listener.receive()) or b"".join(data for _, data in heard) == b"status")
+    assert {who for who, _ in heard} == {FAR_END}
+    assert listener.receive() == []
+    assert far.receive() == b""
+    listener.close()
+    far.close()
+    cable.close()
+
+
+def test_a_listener_on_a_port_that_is_not_there_says_so() -> None:
+    with pytest.raises(LinkError, match="no port /dev/nothing-here"):
+        open_listener("serial:/dev/nothing-here@9600", now=time.monotonic)
