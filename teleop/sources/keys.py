@@ -96,8 +96,8 @@ HELP: Sequence[tuple[str, str]] = (
     ("r", "record, and stop"),
     (".", "shutter"),
     ("e", "hands off, and on"),
-    ("d word", "tell the drone: engage, arm, land, mode-p"),
-    ("b", "give the drone back to its RC"),
+    ("d word", "drone: engage, arm"),
+    ("b", "give the drone back"),
     ("q", "quit"),
 )
 
