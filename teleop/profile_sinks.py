@@ -130,7 +130,9 @@ class FullSection(Section):
 
 
 class FlightSection(Section):
-    """A drone flown by movement commands. `mode` is what its horizontal sticks are, `yaw` what that stick is.
+    """A drone flown by movement commands. `mode` is what its horizontal sticks are, `vertical` and `yaw` the others.
+
+    Angles, heights and offsets count from where the drone was when it was taken.
 
     `guidance` is whether Guidance is on board and set up, `indoors` whether it flies there.
     """
@@ -138,6 +140,7 @@ class FlightSection(Section):
     type: Literal["flight"]
     link: str
     mode: Literal["velocity-body", "velocity-ground", "tilt", "tilt-ground", "offset-body", "offset-ground"]
+    vertical: Literal["velocity", "height"] = "velocity"
     yaw: Literal["rate", "angle"] = "rate"
     full: FullSection
     rate: Literal[50] = 50  # Hz: osdk-facts.md, Commands
@@ -151,14 +154,15 @@ class FlightSection(Section):
 
     @property
     def combination(self) -> Combination:
-        return _combination(self.mode, self.yaw)
+        return _combination(self.mode, self.vertical, self.yaw)
 
 
 SinkSection = GimbalSection | FocusSection | CameraSection | VirtualRcSection | FlightSection
 
 
-def _combination(mode: str, yaw: str) -> Combination:
-    made = Combination(FLIGHT_MODES[mode][0], Vertical.VELOCITY, Yaw.RATE if yaw == "rate" else Yaw.ANGLE)
+def _combination(mode: str, vertical: str, yaw: str) -> Combination:
+    up = Vertical.VELOCITY if vertical == "velocity" else Vertical.POSITION
+    made = Combination(FLIGHT_MODES[mode][0], up, Yaw.RATE if yaw == "rate" else Yaw.ANGLE)
     assert made in COMBINATIONS
     return made
 
@@ -213,8 +217,11 @@ def _drone_rules(sink: Mapping[str, Any], kind: str, here: Location, data: Any) 
         yield (*here, "link"), f"must be the drone's alone, and {others[0]} is on {link} too"
     if _is_bus(mapping(data, "links").get(link)):
         yield ("links", link), "must be a serial line, as a drone's is: serial:/dev/ttyUSB0@230400, or sim:"
-    if kind == "flight" and sink.get("mode") in FLIGHT_MODES and sink.get("yaw", "rate") in ("rate", "angle"):
-        ranges = _combination(sink["mode"], sink.get("yaw", "rate")).ranges
+    mode, vertical, yaw = sink.get("mode"), sink.get("vertical", "velocity"), sink.get("yaw", "rate")
+    if kind == "flight" and isinstance(mode, str) and mode in FLIGHT_MODES:
+        if vertical not in ("velocity", "height") or yaw not in ("rate", "angle"):
+            return
+        ranges = _combination(mode, vertical, yaw).ranges
         for name, of in (("horizontal", "x"), ("vertical", "z"), ("yaw", "yaw")):
             full, most = number(mapping(sink, "full").get(name)), ranges[of].high
             if full is not None and most is not None and full > most:

@@ -13,6 +13,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from teleop.cli.display import Display
+from teleop.cli.flying import Aboard, Understood, ask_to_fly, is_flown, refuse_offsets, tell
 from teleop.cli.hands import open_devices
 from teleop.cli.live_view import LiveView
 from teleop.cli.options import DEFAULTS, Options
@@ -40,12 +41,14 @@ def live(
     learn: Annotated[bool, Parameter(help="Ask what each control is to do.", negative=(), show_default=False)] = False,
     fast: Fast = False,
     take: Take = None,
+    i_understand: Understood = False,
     options: Options = DEFAULTS,
 ) -> int:
     """Move a rig by joystick, dial and keys, or by sticks replayed from a file, which ends after its last row."""
     profile = options.profile()
     if learn:
         return _learn(profile)
+    refuse_offsets(profile)
     if sticks is None and fast:
         raise UsageError("--fast: a hand keeps its own time; only --sticks can be replayed fast")
     recorded = None if sticks is None else read_sticks(sticks, list(profile.axes))
@@ -55,10 +58,17 @@ def live(
     limits = {axis: profile.limits[axis] for axis in axes}
     clock = the_clock(fast, profile)
     keyboard = None if fast else _keyboard()
+    aboard = Aboard()
     if replay and recorded and keyboard is None:
+        ask_to_fly(title, axes, i_understand)
         tally = Tally(lambda: replay.begin)
         display = Display(title, lambda: replay.begin, recorded.times[-1], silent=options.json)
-        with recording(take, profile.name, title, limits, patient=fast) as recorder, open_rig(profile, clock) as rig:
+        status = aboard.status if is_flown(axes) else None
+        with (
+            recording(take, profile.name, title, limits, status, patient=fast) as recorder,
+            open_rig(profile, clock) as rig,
+        ):
+            aboard.board(rig, axes, tell, by_script=True)
             return perform(rig, axes, [replay], tally, display, options.json, recorder)
     with ExitStack() as stack:
         inputs, note = open_devices(stack, profile, clock, keyboard is not None, NOBODY)
@@ -68,10 +78,15 @@ def live(
         operator = Operator(limits, hands, shelf, profile.sticks, profile.presets.recall, replay)
         if note:
             operator.say(note)
-        recorder = stack.enter_context(recording(take, profile.name, title, limits, lambda: operator.status))
+        recorder = stack.enter_context(
+            recording(take, profile.name, title, limits, lambda: aboard.status(operator.status))
+        )
         rig = stack.enter_context(open_rig(profile, clock))
+        aboard.board(rig, axes, operator.say, by_script=False)
         trouble = (lambda: "") if recorder is None else (lambda: recorder.trouble)
-        view = LiveView(title, limits, lambda: operator.status, rig.connections, keyboard, trouble, options.json)
+        view = LiveView(
+            title, limits, lambda: operator.status, rig.connections, keyboard, trouble, options.json, aboard.state
+        )
         watchers: list[Sink] = [operator, *commands(rig, operator.say), *([] if keyboard is None else [keyboard])]
         tally = Tally(lambda: operator.begin)
         return perform(rig, axes, [operator], tally, view, options.json, recorder, watchers)

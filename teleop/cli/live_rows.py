@@ -9,8 +9,8 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from teleop.motion import Axis, Limits, Tick
-from teleop.sources.keys import HELP
+from teleop.motion import STICKS, Axis, Limits, Tick
+from teleop.sources.keys import HELP, SPELLING
 from teleop.sources.status import Hand, Said, Status
 
 STICK = 4  # cells of a stick's bar to either side
@@ -92,7 +92,7 @@ def _axis_row(tick: Tick, axis: Axis, limits: Limits, status: Status, names: int
     row.append_text(_bar(share, bar, at_low or at_high, bool(state.velocity)))
     row.append(f" {ends[1]:5}", "bold yellow" if at_high else "dim")
     row.append(f"{_number(state.position, places):>10}", "bold")
-    if reading is None:
+    if reading is None or axis in STICKS:  # which nobody measures
         row.append(f"{'-':>10}{'-':>8}", "dim")
     else:
         row.append(f"{_number(reading.position, places):>10}{_number(state.position - reading.position, places):>8}")
@@ -165,7 +165,8 @@ def key_rows(question: str, keys: bool) -> list[Text]:
     if not keys:
         return [Text(" no keys here: Ctrl-C ends the run", "dim")]
     if question:
-        return [Text(f" {question}", "bold cyan"), Text(" any other key takes it back", "dim")]
+        spelling = question.startswith(SPELLING)
+        return [Text(f" {question}", "bold cyan"), Text("" if spelling else " any other key takes it back", "dim")]
     row = Text(" ")
     for key, word in (("space", "STOP"), ("c", "clear"), ("arrows", "jog"), ("- +", "speed"), ("0-9", "recall")):
         row.append(key, "bold").append(f" {word}   ", "dim")

@@ -19,8 +19,10 @@ from rich.console import Console, RenderableType
 from rich.live import Live
 from rich.text import Text
 
+from teleop.cli.drone_rows import drone_rows, summary
 from teleop.cli.live_rows import Traffic, axis_rows, banner, help_rows, key_rows, said, state_rows, title_row
 from teleop.motion import Axis, Limits, Tick
+from teleop.sinks.drone_state import DroneState
 from teleop.sources.keyboard import Keyboard
 from teleop.sources.status import Said, Status
 
@@ -38,7 +40,8 @@ class Counted(Protocol):
 class LiveView:
     """A sink that only shows, and has the terminal while it is entered: its screen, and its keys if there are any.
 
-    `trouble` is asked for what is wrong with the recording of a take, "" for nothing.
+    `trouble` is asked for what is wrong with the recording of a take, "" for nothing, and `drone` for what is known of
+    one, None where there is none.
     """
 
     def __init__(
@@ -50,7 +53,9 @@ class LiveView:
         keyboard: Keyboard | None,
         trouble: Callable[[], str] = lambda: "",
         silent: bool = False,
+        drone: Callable[[], DroneState | None] = lambda: None,
     ) -> None:
+        self._drone = drone
         self._title, self._limits, self._status = title, limits, status
         self._keyboard, self._trouble, self._silent = keyboard, trouble, silent
         self._traffic = {name: Traffic(connection) for name, connection in connections.items()}
@@ -58,7 +63,7 @@ class LiveView:
         self._begin = math.nan
         self._console = Console(stderr=True)
         self._on_screen = self._console.is_terminal and not silent
-        self._plain = Plain(title)
+        self._plain = Plain(title, drone)
         self._stack = ExitStack()
         self._over = threading.Event()
 
@@ -110,7 +115,9 @@ class LiveView:
         else:
             top += axis_rows(tick, self._limits, status, width)
         links = [traffic.row(name, now) for name, traffic in self._traffic.items()]
-        middle = [Text(), *state_rows(status, links), Text()]
+        drone = self._drone()
+        flying = [] if drone is None else drone_rows(drone)
+        middle = [Text(), *flying, *state_rows(status, links), Text()]
         bottom = key_rows(keyboard.question if keyboard else "", keyboard is not None)
         room = max(1, height - len(top) - len(middle) - len(bottom))
         helping = keyboard is not None and keyboard.helping
@@ -125,8 +132,8 @@ class LiveView:
 class Plain:
     """A line each second where there is no screen, and each message as it comes."""
 
-    def __init__(self, title: str) -> None:
-        self._title = title
+    def __init__(self, title: str, drone: Callable[[], DroneState | None]) -> None:
+        self._title, self._drone = title, drone
         self._next = -math.inf
         self._last: Said | None = None
 
@@ -136,7 +143,9 @@ class Plain:
         if tick.time >= self._next:
             self._next = tick.time + 1
             angles = (f"{axis} {round(state.position, 3) + 0.0:+.3f}" for axis, state in tick.motion.items())
-            print(f"{elapsed:6.1f} s  {'  '.join(angles)}{'  E-STOP' * status.stopped}", file=sys.stderr)
+            drone = self._drone()
+            flying = "" if drone is None else f"  {summary(drone)}"
+            print(f"{elapsed:6.1f} s  {'  '.join(angles)}{flying}{'  E-STOP' * status.stopped}", file=sys.stderr)
 
     def _new(self, messages: Sequence[Said]) -> Sequence[Said]:
         until = messages.index(self._last) if self._last in messages else len(messages)

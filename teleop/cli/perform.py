@@ -17,6 +17,7 @@ from teleop.ports import Sink, Source
 from teleop.rig import Rig
 from teleop.sinks.commands import CommandSink
 from teleop.sinks.recorder import Recorder
+from teleop.sinks.take_format import plain
 from teleop.sinks.tally import Tally
 from teleop.supervisor import Result, Supervisor
 
@@ -64,6 +65,8 @@ def perform(
         take.finish(ended.result, ended.reasons, links)
     if as_json:
         report = {**_report(ended, tally, rig), **{name: value for extra in extras for name, value in extra.facts()}}
+        if drone := rig.drone(axes):
+            report = {**report, "drone": plain(drone.state(rig.clock.now()))}
         print(json.dumps(report if take is None else {**report, "take": take.facts}))
     else:
         for reason in ended.reasons:

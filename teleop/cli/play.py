@@ -10,6 +10,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from teleop.cli.attended import attended
+from teleop.cli.flying import Understood, ask_to_fly, is_flown
 from teleop.cli.options import DEFAULTS, Options, is_take, warn
 from teleop.cli.sequence_run import SequenceRun
 from teleop.cli.shoot_options import NOTHING_ASKED, ShootOptions
@@ -48,6 +49,7 @@ def play(
     trim: TrimOptions = NO_TRIM,
     fast: Fast = False,
     take: Take = None,
+    i_understand: Understood = False,
     options: Options = DEFAULTS,
 ) -> int:
     """Play a sequence: ease to its first keyframe, then the move, then say how well the rig followed.
@@ -57,6 +59,10 @@ def play(
     left = trim.left
     profile, performance, timelapse = options.compiled(file, left)
     shooting.check(file, timelapse is not None)
+    axes = list(performance.move.tracks)
+    flown = is_flown(axes)
+    if timelapse is not None and flown:
+        raise DocumentError([f"{file}: a timelapse has no drone: it would fly on from frame to frame"])
     if timelapse is not None and not shooting.rehearse:
         from teleop.cli.shoot import shoot
 
@@ -65,9 +71,8 @@ def play(
         return shoot(file, timelapse, profile, the_clock(fast, profile), shooting, take, options)
     if timelapse is not None:
         warn(performance)
-    descriptor = None if fast else terminal()
+    descriptor = None if fast or flown else terminal()  # a drone does not stand still while a move is paused
     performance = attended(file, performance, descriptor is not None, fast)
-    axes = list(performance.move.tracks)
     trimmed = None if trim.trim_out is None else _trimmed(file, trim.trim_out, axes, profile)
     if is_take(file):
         from teleop.takes.repeat import followable
@@ -76,6 +81,9 @@ def play(
     clock = the_clock(fast, profile)
     if trim.trim and fast:
         raise UsageError("--trim: a hand keeps its own time; leave out --fast")
+    if flown:
+        _refuse_to_fly(speed, staging, trim)
+    ask_to_fly(performance.title, axes, i_understand)
     rate, stage = percentage("--speed", speed), staging.staging(performance)
     try:
         source = SequenceSource(performance, sequence_limits(profile.limits, left), rate, staging=stage)
@@ -86,6 +94,16 @@ def play(
     keys = None if descriptor is None else Keyboard(descriptor, PlayKeys(TRIM_KEYS if trim.trim else KEYS))
     run = SequenceRun(profile, performance, source, clock, keys, left, trimmed, take, options.json, patient=fast)
     return run.perform()
+
+
+def _refuse_to_fly(speed: str, staging: StagingOptions, trim: TrimOptions) -> None:
+    """Raises UsageError for what makes a move of a drone's sticks another one."""
+    if percentage("--speed", speed) != 1:
+        raise UsageError(f"--speed {speed}: a drone's sticks held for longer or shorter fly it somewhere else")
+    if staging.start_at is not None:
+        raise UsageError(f"--start-at {staging.start_at}: a drone flies its moves from their beginning")
+    if trim.trim:
+        raise UsageError("--trim: a drone's sticks are not moved aside; fly it by hand in teleop live")
 
 
 def _trimmed(file: str, target: Path, axes: Sequence[Axis], profile: Profile) -> TrimmedFile:

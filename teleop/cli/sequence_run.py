@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teleop.cli.display import Display
+from teleop.cli.flying import Aboard, is_flown, tell
 from teleop.cli.hands import open_devices
 from teleop.cli.passes import PassesReport
 from teleop.cli.perform import Extra, commands, perform
@@ -52,11 +53,15 @@ class SequenceRun:
         source, profile, axes = self.source, self.profile, list(self.performance.move.tracks)
         limits = {axis: profile.limits[axis] for axis in axes}
         extras: list[Extra] = []
+        aboard = Aboard()
         with ExitStack() as stack:
             conductor = self._conductor(stack, axes, extras)
             title = self.performance.title
-            recorder = stack.enter_context(recording(self.take, profile.name, title, limits, patient=self.patient))
+            status = aboard.status if is_flown(axes) else None
+            taking = recording(self.take, profile.name, title, limits, status, patient=self.patient)
+            recorder = stack.enter_context(taking)
             rig = stack.enter_context(open_rig(profile, self.clock))
+            aboard.board(rig, axes, tell, by_script=True)
             watchers = self._watchers(stack, rig, conductor, extras)
             display = Display(
                 title,

@@ -32,7 +32,7 @@ class CommandSink:
 
     def write(self, tick: Tick) -> None:
         for act in tick.actions:
-            if isinstance(act, Told):
+            if isinstance(act, Told) and not act.words.startswith("drone "):
                 self._tell(act.words, tick.time)
             elif isinstance(act, Dialled):
                 self._dial = round(max(-1.0, min(1.0, act.speed)) * FULL_DIAL)

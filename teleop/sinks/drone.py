@@ -25,7 +25,6 @@ CENTRED = 0.02  # of full deflection: a stick that is seen there once is centred
 LATE = 0.2  # s without a tick after which its sticks are stale
 PATIENCE = 4.0  # s after activation in which a drone that a script engages must be ready
 RELEASE_LOOK = 0.01  # s between looks while giving back
-ALONE = "the drone goes back to its RC by itself, a second after the last sticks that it heard"
 PREFIX = "drone "
 
 log = logging.getLogger(__name__)
@@ -34,18 +33,16 @@ log = logging.getLogger(__name__)
 class DroneSink:
     """Sink and reporter of one drone, reached at `opened` (s).
 
-    `back_alone` is what it does when no more reaches it. `say` is for what the operator is to know; whoever has a
-    better place for it than the log puts it there. With `by_script` it is engaged at the first tick, and what ends
-    that ends the run.
+    `say` is for what the operator is to know; whoever has a better place for it than the log puts it there. With
+    `by_script` it is engaged at the first tick, and what ends that ends the run.
     """
 
-    def __init__(
-        self, grip: Grip, telemetry: Telemetry, opened: float, low_battery: int, back_alone: str = ALONE
-    ) -> None:
+    def __init__(self, grip: Grip, telemetry: Telemetry, opened: float, low_battery: int) -> None:
         self.say: Callable[[str], object] = log.warning
         self.by_script = False
         self.telemetry = telemetry
-        self._grip, self._low_battery, self._back_alone = grip, low_battery, back_alone
+        self._grip, self._low_battery = grip, low_battery
+        self._opened = opened
         self._engagement = Engagement(grip.what, grip.period, opened, lambda text: self.say(f"drone: {text}"))
         grip.say = lambda text: self.say(f"drone: {text}")
         self._sticks: Deflections = dict.fromkeys(STICKS, 0.0)
@@ -74,7 +71,7 @@ class DroneSink:
             self._hand = False
             self._turn(now)
         if not self._readings and self._ready(now):
-            self._readings = dict.fromkeys(STICKS, Reading(0.0, now))
+            self._readings = dict.fromkeys(STICKS, Reading(0.0, self._opened))
         return self._readings
 
     def write(self, tick: Tick) -> None:
@@ -140,7 +137,7 @@ class DroneSink:
             case Order.DRIVE:
                 self._grip.drive(self._sticks, self.telemetry, now)
             case Order.NEUTRAL:
-                self._grip.neutral()
+                self._grip.neutral(self.telemetry, now)
             case Order.GIVE_BACK:
                 self._grip.give_back(now)
 
@@ -195,20 +192,20 @@ class DroneSink:
                 self.say(f"drone: {word} is nothing that it can be told")
 
     def _explaining(self) -> _Explaining:
-        return _Explaining(self._engagement.stage is not Stage.IDLE, self._back_alone)
+        return _Explaining(self._engagement.stage is not Stage.IDLE, self._grip.alone)
 
 
 class _Explaining:
     """Adds to a lost link what becomes of the drone, if it was held."""
 
-    def __init__(self, held: bool, back_alone: str) -> None:
-        self._held, self._back_alone = held, back_alone
+    def __init__(self, held: bool, alone: str) -> None:
+        self._held, self._alone = held, alone
 
     def __enter__(self) -> None: ...
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         if isinstance(error, LinkError) and self._held:
-            raise LinkError(f"{error}; nothing more reaches the drone: {self._back_alone}") from error
+            raise LinkError(f"{error}; nothing more reaches the drone: {self._alone}") from error
 
 
 def _asks(demand: Demand, axis: Axis) -> bool:

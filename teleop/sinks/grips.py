@@ -28,6 +28,11 @@ from teleop.sinks.preflight import Site, mode_refusals, mode_warnings
 from teleop.sinks.telemetry import Telemetry
 
 Deflections = Mapping[Axis, float]
+STANDBY_WITHIN = 0.2  # s: an older word of standing on the ground is none to touch the motors by
+OBTAIN_AGAIN = 0.5  # s between two requests for control: osdk-facts.md, Link and frame
+BACK_ALONE = "the drone goes back to its RC by itself, a second after the last sticks that it heard"
+LOST_ALONE = "a second after the last sticks that it heard, the drone behaves as without any RC"
+MOVE_ALONE = "what the drone does then is not known: its pilot has to take it, by leaving F"
 GESTURE = 2.0  # s for which the arm gesture is made, at most
 
 
@@ -37,6 +42,7 @@ class Grip(Protocol):
     what: str
     period: float
     say: Callable[[str], object]
+    alone: str  # what becomes of the drone when nothing more reaches it
 
     def refusals(self, seen: Telemetry, now: float) -> Iterator[str]:
         """Why the drone cannot be held so now."""
@@ -50,7 +56,7 @@ class Grip(Protocol):
         """Send the sticks as they are."""
         ...
 
-    def neutral(self) -> None:
+    def neutral(self, seen: Telemetry, now: float) -> None:
         """Send what leaves the drone where it is."""
         ...
 
@@ -75,6 +81,7 @@ class VirtualRcGrip:
         self.say: Callable[[str], object] = lambda _text: None
         self._switches = NEUTRAL
         self._gesture_end = -math.inf
+        self.alone = BACK_ALONE if back_to_rc else LOST_ALONE
         self._words = {
             **{f"mode-{mode.name.lower()}": {"mode": mode} for mode in ModeChannel},
             **{f"gear-{gear.name.lower()}": {"gear": gear} for gear in GearChannel},
@@ -98,14 +105,14 @@ class VirtualRcGrip:
 
     def drive(self, sticks: Deflections, seen: Telemetry, now: float) -> None:
         if now < self._gesture_end:
-            if seen.get("status", now) == FlightStatus.STANDBY and not any(sticks.values()):
+            if not not_in_standby(seen, now) and not any(sticks.values()):
                 self._connection.stream(_with(self._switches, CORNERS))
                 return
             self._gesture_end = -math.inf
         self._connection.stream(_with(self._switches, sticks))
 
-    def neutral(self) -> None:
-        self._gesture_end = -math.inf
+    def neutral(self, seen: Telemetry, now: float) -> None:  # noqa: ARG002 - whatever it says
+        self._switches, self._gesture_end = NEUTRAL, -math.inf
         self._connection.stream(NEUTRAL)
 
     def give_back(self, now: float) -> None:  # noqa: ARG002 - whenever it is
@@ -134,7 +141,7 @@ CORNERS: Deflections = dict(zip(STICKS, (-1.0, -1.0, -1.0, 1.0), strict=True))
 
 def not_in_standby(seen: Telemetry, now: float) -> str:
     """Why motors must not be started or stopped now, "" when they may: the drone has to say standby, now."""
-    status = seen.get("status", now)
+    status = seen.get("status", now, STANDBY_WITHIN)
     if status == FlightStatus.STANDBY:
         return ""
     return "the drone does not say its flight status" if status is None else f"the drone says {word_of(status)}"
@@ -157,11 +164,12 @@ def _replaced(sticks: Sticks, **channels: int) -> Sticks:
 class MovementGrip:
     """Movement commands with control obtained: the sticks as shares of `full`, x, y, z and yaw of a combination.
 
-    A yaw angle is counted from the heading that the drone had when it was taken, so that a centred stick is where it
-    looks.
+    A yaw angle is counted from the heading that the drone had when it was taken, and a height from its height then, so
+    that centred sticks are where it is. Neutral is where it is now. While it does a task by itself nothing is streamed,
+    which could contradict it, until a stick is moved.
     """
 
-    what, period = "control", 0.02
+    what, period, alone = "control", 0.02, MOVE_ALONE
 
     def __init__(
         self,
@@ -174,10 +182,10 @@ class MovementGrip:
         self._connection, self._combination, self._frame = connection, combination, frame
         self._full, self._site = full, site
         self.say: Callable[[str], object] = lambda _text: None
-        self._heading = 0.0
+        self._heading = self._height = 0.0  # when it was taken: deg, m
         self._obtained: bool | None = None
-        self._in_progress = False
-        self._tasks = 0
+        self._ask_at = math.inf  # s: when control is to be asked for
+        self._tasks, self._by_itself = 0, False
         connection.on_answer(drone.Control, self._answered)
         connection.on_answer(drone.Task, self._told)
         connection.on_answer(drone.Arm, self._told)
@@ -187,27 +195,27 @@ class MovementGrip:
         yield from mode_refusals(self._combination, self._site, None if position is None else position.health)
         if self._combination.yaw == movement.Yaw.ANGLE and seen.get("quaternion", now) is None:
             yield "the drone does not say where it looks, and yaw angles start from there"
+        if self._combination.vertical == movement.Vertical.POSITION and position is None:
+            yield "the drone does not say how high it is, and heights start from there"
 
     def warnings(self, seen: Telemetry, now: float) -> Iterator[str]:
         position = seen.get("position", now)
         yield from mode_warnings(self._combination, self._site, None if position is None else position.height)
 
     def take(self, seen: Telemetry, now: float) -> None:
-        quaternion = seen.get("quaternion", now)
-        self._heading = 0.0 if quaternion is None else attitude(quaternion)[2]
-        self._obtained, self._in_progress = None, True
-        self.drive({}, seen, now)
+        self._heading, self._height = self._here(seen, now)
+        self._obtained, self._ask_at, self._by_itself = None, now, False
+        self._ask(now)
 
     def drive(self, sticks: Deflections, seen: Telemetry, now: float) -> None:  # noqa: ARG002 - the sticks alone say it
-        if self._in_progress:  # until it is answered: asked once, and again when the drone says that it is at it
-            self._in_progress = False
-            self._connection.request(drone.Control(ControlOrder.OBTAIN), now)
-        if self._obtained:
-            self._connection.stream(self._move(sticks))
+        self._ask(now)
+        self._by_itself = self._by_itself and not any(sticks.values())
+        if self._obtained and not self._by_itself:
+            self._connection.stream(self._move(sticks, self._heading, self._height))
 
-    def neutral(self) -> None:
-        if self._obtained:
-            self._connection.stream(self._move(dict.fromkeys(STICKS, 0.0)))
+    def neutral(self, seen: Telemetry, now: float) -> None:
+        if self._obtained and not self._by_itself:
+            self._connection.stream(self._move(dict.fromkeys(STICKS, 0.0), *self._here(seen, now)))
 
     def give_back(self, now: float) -> None:
         self._connection.request(drone.Control(ControlOrder.RELEASE), now)
@@ -226,14 +234,28 @@ class MovementGrip:
             return f"{word}: asked for"
         tasks = {"take-off": TaskKind.TAKE_OFF, "land": TaskKind.LAND, "home": TaskKind.RETURN_HOME}
         self._connection.request(drone.Task(tasks[word], number=self._tasks), now)
-        self._tasks = self._tasks + 1 & 0xFF
-        return f"{word}: asked for"
+        self._tasks, self._by_itself = self._tasks + 1 & 0xFF, True
+        return f"{word}: asked for; no sticks are sent until one is moved"
 
-    def _move(self, sticks: Deflections) -> movement.Move:
+    def _ask(self, now: float) -> None:
+        """Ask for control: once, and again when the drone says that it is at it."""
+        if now >= self._ask_at:
+            self._ask_at = math.inf
+            self._connection.request(drone.Control(ControlOrder.OBTAIN), now)
+
+    def _here(self, seen: Telemetry, now: float) -> tuple[float, float]:
+        """Heading (deg) and height (m) now, as far as they are known, else as they were when it was taken."""
+        quaternion, position = seen.get("quaternion", now), seen.get("position", now)
+        heading = self._heading if quaternion is None else attitude(quaternion)[2]
+        return heading, self._height if position is None else position.height
+
+    def _move(self, sticks: Deflections, heading: float, height: float) -> movement.Move:
         roll, pitch, throttle, yaw = (sticks[axis] for axis in STICKS)
-        turn = yaw * self._full["yaw"]
+        turn, rise = yaw * self._full["yaw"], throttle * self._full["vertical"]
         if self._combination.yaw == movement.Yaw.ANGLE:
-            turn = math.remainder(self._heading + turn, 360.0)
+            turn = math.remainder(heading + turn, 360.0)
+        if self._combination.vertical == movement.Vertical.POSITION:
+            rise = max(0.0, height + rise)
         return movement.Move(
             stable=self._combination.horizontal == movement.Horizontal.VELOCITY,
             frame=self._frame,
@@ -242,14 +264,14 @@ class MovementGrip:
             horizontal=self._combination.horizontal,
             x=pitch * self._full["horizontal"],
             y=roll * self._full["horizontal"],
-            z=throttle * self._full["vertical"],
+            z=rise,
             yaw=turn,
         )
 
     def _answered(self, answer: Answer) -> None:
         code = getattr(answer.reply, "code", None)
         if code == ControlCode.OBTAINING:
-            self._in_progress = True
+            self._ask_at = answer.sent + OBTAIN_AGAIN
             return
         self._obtained = code == ControlCode.OBTAINED
         if code is None:

@@ -66,6 +66,7 @@ def refusals(seen: Telemetry, now: float, low_battery: int) -> Iterator[str]:
     elif rc.mode != RcMode.F:
         where = rc.mode.name if isinstance(rc.mode, RcMode) else rc.mode
         yield f"its RC's mode switch is in {where}: it must be in F, which its pilot leaves to take the drone back"
+    yield from _mobile_device(seen, now)
 
 
 def troubles(seen: Telemetry, now: float, low_battery: int) -> Iterator[str]:
@@ -77,6 +78,10 @@ def troubles(seen: Telemetry, now: float, low_battery: int) -> Iterator[str]:
         yield "the drone no longer says how full its battery is"
     elif battery <= low_battery:
         yield f"the battery is at {battery} %"
+    yield from _mobile_device(seen, now)
+
+
+def _mobile_device(seen: Telemetry, now: float) -> Iterator[str]:
     control = seen.get("control", now)
     if control is not None and control.device == ControlDevice.MOBILE_DEVICE:
-        yield "the mobile device has taken control"
+        yield "the mobile device has control"

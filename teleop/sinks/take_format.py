@@ -21,6 +21,7 @@ from teleop.motion import Act, Axis, Cruise, Dialled, Exposure, Follow, Goto, Li
 ABOUT, END = "teleop take", "teleop end"  # the names of the metadata records
 FORMAT = "1"
 CUT = "cut"  # the result of a run whose end is not recorded: of a file that was recovered
+DRONE_PERIOD = 0.1  # s between two states of a drone, unless it is taken or given back meanwhile
 CHUNK = 1 << 20  # bytes of messages after which a chunk is written even if nobody asks
 PLACES = (12, 10, 8)  # decimals of a position, velocity, acceleration
 WISH_PLACES = 6  # decimals of what was asked for
@@ -59,6 +60,9 @@ SCHEMAS: Mapping[str, Mapping[str, Any]] = {
         "type": "object",
         "properties": {"action": {"type": "string"}, "words": {"type": "string"}, "speed": _NUMBER, "frame": _NUMBER},
     },
+    "/drone": _schema(
+        "Drone", "What the drone said of itself, ten times a second: deg, m, m/s, %; null is what it did not say.", None
+    ),
     "/status": _schema(
         "Status", "What held for the operator, on change: stops, recalls, inputs and their trouble.", None
     ),
@@ -95,6 +99,7 @@ class TakeWriter:
         self._origin = math.nan
         self._channels: dict[str, int] = {}
         self._said: dict[str, bytes] = {}
+        self._drone_due, self._stage = -math.inf, ""  # when the drone is next written down, and its last stage
         self._heard: dict[Axis, float] = {}
         self.ticks, self.seconds = 0, 0.0
         for topic, schema in SCHEMAS.items():
@@ -114,11 +119,7 @@ class TakeWriter:
         for act in tick.actions:
             self._message("/actions", tick.time, _act(act))
         if status is not None:
-            plain = _plain(status)
-            deflections = plain.pop("deflections", None) if isinstance(plain, dict) else None
-            if deflections is not None:
-                self._change("/sticks", tick.time, deflections)
-            self._change("/status", tick.time, plain)
+            self._told(tick.time, plain(status))
 
     def flush(self) -> None:
         """Everything so far goes to the stream; a reader of a file that is cut later will have it."""
@@ -131,6 +132,18 @@ class TakeWriter:
         self._writer.flush()
         self._writer.add_metadata(END, ending_record(result, reasons, dropped, self.ticks, self.seconds, links or {}))
         self._writer.finish()
+
+    def _told(self, time: float, status: Any) -> None:
+        """A status; sticks and the drone in it have topics of their own."""
+        if isinstance(status, dict):
+            deflections, drone = status.pop("deflections", None), status.pop("drone", None)
+            if deflections is not None:
+                self._change("/sticks", time, deflections)
+            if drone is not None and (time >= self._drone_due or drone["stage"] != self._stage):
+                self._drone_due, self._stage = time + DRONE_PERIOD, drone["stage"]
+                self._change("/drone", time, drone)
+        if status:
+            self._change("/status", time, status)
 
     def _measured(self, tick: Tick) -> None:
         """The readings not heard of before, those of one time in one message."""
@@ -210,20 +223,20 @@ def _act(act: Act) -> dict[str, Any]:
             return {"action": act.value}
 
 
-def _plain(value: object) -> Any:
+def plain(value: object) -> Any:
     """A frozen dataclass, and what is in it, as JSON has it; what JSON has no word for, as text."""
     if is_dataclass(value) and not isinstance(value, type):
-        return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
+        return {each.name: plain(getattr(value, each.name)) for each in fields(value)}
     if isinstance(value, Enum):
         return value.value
     if isinstance(value, Mapping):
-        return {str(_plain(key)): _plain(each) for key, each in value.items()}
+        return {str(plain(key)): plain(each) for key, each in value.items()}
     if isinstance(value, float):
         return round(value, 6) if math.isfinite(value) else None
     if value is None or isinstance(value, str | int):
         return value
     if isinstance(value, tuple) and hasattr(value, "_asdict"):
-        return _plain(value._asdict())  # type: ignore[attr-defined] - a NamedTuple, which has no type of its own
+        return plain(value._asdict())  # type: ignore[attr-defined] - a NamedTuple, which has no type of its own
     if isinstance(value, Sequence | set | frozenset):
-        return [_plain(each) for each in value]
+        return [plain(each) for each in value]
     return str(value)

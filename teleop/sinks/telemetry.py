@@ -70,14 +70,10 @@ class Telemetry:
     def activated(self) -> bool:
         return self._step >= len(self._steps)
 
-    def get(self, part: str, now: float) -> Any:
-        """A part of the broadcast, None where it has not come or is too old to be believed."""
+    def get(self, part: str, now: float, within: float = FRESH) -> Any:
+        """A part of the broadcast, None where it has not come `within` so many s and is too old to be believed."""
         value, heard = self._parts.get(part, (None, -math.inf))
-        return value if now - heard <= (SLOW_FRESH if part == "battery" else FRESH) else None
-
-    def last(self, part: str) -> Any:
-        """A part as it last came, however long ago; None for never."""
-        return self._parts.get(part, (None, 0.0))[0]
+        return value if now - heard <= (SLOW_FRESH if part == "battery" else within) else None
 
     def _answered(self, answer: Answer) -> None:
         if answer.reply is None:

@@ -29,6 +29,7 @@ Amount = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 AxisName = Annotated[Axis, Field(strict=False)]
 CommandName = Annotated[Command, Field(strict=False)]
 
+DRONE = "drone "  # begins the words that a drone is told
 _NUMBERED = frozenset({"recall", "store", "delete"})
 _AXES = frozenset(axis.value for axis in Axis)
 
@@ -186,6 +187,9 @@ def _action_rules(action: Mapping[str, Any], here: Location, axes: Mapping[str, 
         yield here, f"needs a number: which preset to {' or '.join(sorted(asked & _NUMBERED))}"
     if "number" in action and not asked & _NUMBERED:
         yield (*here, "number"), "is for recall, store and delete"
+    words = action.get("words")
+    if press == "engage" or (press == "tell" and isinstance(words, str) and words.startswith(DRONE)):
+        yield here, "must be held: a drone is engaged, and told, by hold, with a press beside it (press: disengage)"
     if press == "tell" and not action.get("words"):
         yield here, "needs words to tell: gimbal follow lock"
     if "words" in action and "tell" not in asked:

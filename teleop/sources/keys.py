@@ -66,7 +66,7 @@ PREFIXES: Mapping[str, tuple[str, Mapping[str, Act]]] = {
 }
 """Keys that ask for a second one: the question, and its answers. Any other key takes it back."""
 
-SPELL = "d"
+SPELL, SPELLING = "d", "tell the drone: "
 DRONE_WORDS: Mapping[str, Act] = {
     "engage": Press(Command.ENGAGE),
     "disengage": Press(Command.DISENGAGE),
@@ -162,7 +162,7 @@ class KeyReader:
             yield KEYS[key]
 
     def _begin_word(self, word: str) -> None:
-        self._word, self.question = word, f"tell the drone: {word}_   Enter does it, Escape takes it back"
+        self._word, self.question = word, f"{SPELLING}{word}_   Enter does it, Escape takes it back"
 
     def _spell(self, word: str, key: str) -> Iterator[Act]:
         if key in "\r\n":

@@ -18,12 +18,12 @@ from teleop.sources.arming import CENTRE, Arming
 from teleop.sources.driving import Driving
 from teleop.sources.handling import SticksSection
 from teleop.sources.inputs import Command, Input, Press
+from teleop.sources.inputs_section import DRONE
 from teleop.sources.presets import Presets
 from teleop.sources.recall import Recall, reachable
 from teleop.sources.status import Hand, Log, Status
 
 CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)  # what a recentre takes to 0
-DRONE = "drone "  # begins the words that a drone is told
 CENTRED_STICK = Goto(0.0)  # of a drone: nothing moves, but somebody is there
 
 

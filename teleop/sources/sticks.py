@@ -113,7 +113,7 @@ class SticksSource:
         """The deflections of the last row whose time has come, as velocities."""
         row = bisect.bisect_right(self._sticks.times, now - self.begin + 1e-9) - 1
         if row < 0 or row == len(self._sticks.times) - 1:
-            return {}, ()
+            return {axis: Goto(0.0) for axis in self._sticks.axes if axis in STICKS}, ()
         held = zip(self._sticks.axes, self._sticks.deflections[row], strict=True)
         demand: dict[Axis, Wish] = {}
         for axis, deflection in held:
