@@ -18,6 +18,7 @@ from hands import FakeInput
 from scene import StallingClock
 
 from teleop.dji.message import Message
+from teleop.dji.movement import Move
 from teleop.dji.onboard_session import OnboardSession
 from teleop.dji.virtual_rc import NEUTRAL, Sticks, VirtualRc
 from teleop.loop import Loop
@@ -152,6 +153,9 @@ class Sky:
             assert later - earlier >= 0.04 - 1e-6
         for time, message in sticks:
             assert message == NEUTRAL or self._fresh(time), f"stale sticks at {time:.3f} s: {message}"
+        for time, move in self.of(Move):
+            still = (move.x, move.y, move.z, move.yaw) == (0, 0, 0, 0)
+            assert still or self._fresh(time), f"stale movement at {time:.3f} s: {move}"
         assert not self.drone.cockpit.locked
 
     def _fresh(self, seconds: float) -> bool:

@@ -1,0 +1,64 @@
+"""Random operators, pilots and cables on virtual time: whatever they do, the monitor finds nothing."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from sky import FLIGHT, VIRTUAL_RC, Sky, sky
+
+from teleop.motion import STICKS
+from teleop.sim.controls import Pilot, Switch
+from teleop.sinks.engagement import Stage
+from teleop.sources.inputs import Command
+
+ACTS: Mapping[str, Callable[[Sky], object]] = {
+    "engage": lambda scene: scene.keys.press(Command.ENGAGE),
+    "disengage": lambda scene: scene.keys.press(Command.DISENGAGE),
+    "forward": lambda scene: scene.pad.hold(**dict.fromkeys(STICKS, 0.8)),
+    "centre": lambda scene: scene.pad.hold(**dict.fromkeys(STICKS, 0.0)),
+    "arm": lambda scene: scene.keys.press(Command.TELL, words="drone arm"),
+    "mode": lambda scene: scene.keys.press(Command.TELL, words="drone mode-a"),
+    "stale": lambda scene: setattr(scene.pad, "trouble", "silent for 0.2 s"),
+    "back": lambda scene: setattr(scene.pad, "trouble", ""),
+    "stop": lambda scene: scene.keys.press(Command.STOP),
+    "clear": lambda scene: scene.keys.press(Command.CLEAR),
+    "leave f": lambda scene: scene.drone.turn_switch(scene.clock.now(), Switch.P),
+    "to f": lambda scene: scene.drone.turn_switch(scene.clock.now(), Switch.F),
+    "deaf": lambda scene: setattr(scene.cable, "deaf", not scene.cable.deaf),
+    "mute": lambda scene: setattr(scene.cable, "mute", not scene.cable.mute),
+    "unplug": lambda scene: setattr(scene.cable, "unplugged", True),
+    "stall": lambda scene: scene.clock.stall(0.24),
+    "hide": lambda scene: scene.drone.hide("control"),
+    "show": lambda scene: scene.drone.hide(),
+}
+STEPS = st.lists(
+    st.tuples(
+        st.sampled_from(["engage"] * 4 + ["forward"] * 3 + ["centre"] * 3 + [*ACTS]), st.sampled_from([0.05, 0.5, 1.5])
+    ),
+    max_size=18,
+)
+
+
+@pytest.mark.parametrize("sink", [VIRTUAL_RC, FLIGHT], ids=["virtual-rc", "flight"])
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(steps=STEPS)
+def test_nothing_flies_by_accident(sink: str, steps: list[tuple[str, float]]) -> None:
+    with tempfile.TemporaryDirectory() as folder, sky(Path(folder), sink) as scene:
+        scene.airborne()
+        now = 2.0
+        for name, seconds in steps:
+            scene.at(now, lambda act=ACTS[name]: act(scene))
+            now += seconds
+        scene.quit_at(now)
+        scene.run(after=3.0)  # and its monitor looks at all that was sent
+        assert scene.sink.state(scene.clock.now()).stage in (Stage.IDLE.value, Stage.LEAVING.value)
+        engages = sum(name == "engage" for name, _ in steps)
+        assert len(scene.enables) <= engages, "only by an operator's act"
+        assert scene.drone.cockpit.pilot in (Pilot.RC, Pilot.ONBOARD), "its pilot has it, or it hovers"
+        assert scene.cable.unplugged or scene.cable.deaf or scene.drone.cockpit.pilot is Pilot.RC
+        assert not scene.drone.cockpit.flight.crashed

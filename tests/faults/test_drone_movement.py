@@ -1,0 +1,159 @@
+"""The same table for a drone that is flown by movement commands, with control obtained instead of virtual RC."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from sky import FLIGHT, READY, Sky, sky
+
+from teleop.dji import drone
+from teleop.dji.drone_words import ControlOrder, TaskKind
+from teleop.dji.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.sim.controls import Pilot, Status, Switch
+from teleop.sources.inputs import Command
+from teleop.supervisor import Result
+
+BREAKS = 6.0
+
+
+def orders(scene: Sky, order: ControlOrder) -> list[float]:
+    return [time for time, message in scene.of(drone.Control) if message.order == order]
+
+
+def fly(scene: Sky) -> None:
+    scene.airborne()
+    scene.engage_at(READY)
+    scene.hold_at(READY + 1, stick_pitch=0.5, stick_yaw=-0.5)
+
+
+def test_it_is_flown_by_velocities_and_given_back(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        fly(scene)
+        scene.at(BREAKS, lambda: scene.keys.press(Command.DISENGAGE))
+        scene.quit_at(BREAKS + 3)
+        scene.run()
+    assert scene.ended.result is Result.DONE
+    moves = scene.of(Move)
+    flying = [message for time, message in moves if READY + 2 < time < BREAKS]
+    assert {(m.x, m.y, m.z, m.yaw) for m in flying} == {(2.5, 0, 0, -30)}
+    assert {(m.horizontal, m.vertical, m.yaw_control, m.frame, m.stable) for m in flying} == {
+        (Horizontal.VELOCITY, Vertical.VELOCITY, Yaw.RATE, Frame.BODY, True)
+    }
+    assert len(flying) == pytest.approx(50 * (BREAKS - READY - 2), abs=2)
+    assert len(orders(scene, ControlOrder.OBTAIN)) == len(orders(scene, ControlOrder.RELEASE)) == 1
+    assert scene.pilot(BREAKS - 0.1) is Pilot.ONBOARD
+    assert scene.pilot(BREAKS + 1) is Pilot.RC
+
+
+@pytest.mark.parametrize(
+    ("breaks", "said", "result"),
+    [
+        (lambda scene: setattr(scene.pad, "trouble", "gone"), "no hand on the sticks for 1 s", Result.DONE),
+        (lambda scene: scene.keys.press(Command.STOP), "everything is to stop", Result.DONE),
+        (lambda scene: scene.drone.turn_switch(scene.clock.now(), Switch.P), "control was lost", Result.DONE),
+        (lambda scene: scene.drone.lose_control(scene.clock.now()), "control was lost", Result.DONE),
+        (lambda scene: scene.drone.set_battery(scene.clock.now(), 10), "the battery is at 10 %", Result.DONE),
+        (lambda scene: scene.drone.hide("status"), "no longer says its flight status", Result.DONE),
+        (lambda scene: setattr(scene.cable, "unplugged", True), "its pilot has to take it", Result.FAILED),
+        (lambda scene: scene.clock.stall(1.5), "the computer stalled", Result.FAILED),
+    ],
+)
+def test_whatever_breaks_it_hovers_with_its_pilot(
+    breaks: Callable[[Sky], None], said: str, result: Result, tmp_path: Path
+) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        fly(scene)
+        scene.at(BREAKS, lambda: breaks(scene))
+        scene.quit_at(BREAKS + 4)
+        scene.run()
+    assert scene.ended.result is result, scene.ended.reasons
+    assert any(said in text for text in (*scene.said, *scene.ended.reasons)), (scene.said, scene.ended.reasons)
+    assert len(orders(scene, ControlOrder.OBTAIN)) == 1, "never again by itself"
+    assert len(orders(scene, ControlOrder.RELEASE)) == (0 if scene.cable.unplugged else 1)
+    if not scene.cable.unplugged:
+        assert scene.pilot(BREAKS + 3) is Pilot.RC
+    pose = scene.drone.cockpit.pose
+    assert math.hypot(pose.velocity_north, pose.velocity_east) < 0.1
+    assert not scene.drone.cockpit.flight.crashed
+
+
+@pytest.mark.parametrize(
+    ("sink", "health", "said"),
+    [
+        (FLIGHT, 2, "GPS health is 2 of 5: horizontal velocities want 3, or Guidance declared in the profile"),
+        (FLIGHT.replace("velocity-body", "offset-body"), 2, "GPS health is 2 of 5: horizontal positions want 3"),
+        (FLIGHT.replace("velocity-body", "tilt"), 0, ""),
+        (FLIGHT.replace("mode", "guidance: true, mode"), 0, ""),
+    ],
+)
+def test_the_conditions_of_a_mode_are_checked_and_said(sink: str, health: int, said: str, tmp_path: Path) -> None:
+    with sky(tmp_path, sink) as scene:
+        scene.drone._beacon.health = health
+        scene.airborne()
+        scene.engage_at(READY)
+        scene.quit_at(READY + 2)
+        scene.run()
+    assert len(orders(scene, ControlOrder.OBTAIN)) == (0 if said else 1)
+    if said:
+        assert scene.said == [f"drone: not engaged: {said}"]
+
+
+def test_a_height_near_the_ground_is_warned_of(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT.replace("mode", "vertical: height, mode")) as scene:
+        scene.airborne(2.0)
+        scene.engage_at(READY + 3)
+        scene.hold_at(READY + 4, stick_throttle=1.0)
+        scene.quit_at(READY + 14)
+        scene.run()
+    assert "drone: below 3 m a height that is a little wrong is the ground" in scene.said
+    assert max(message.z for _, message in scene.of(Move)) == pytest.approx(4.0, abs=0.1), "counted from where it was"
+
+
+def test_a_heading_counts_from_where_it_looked_and_neutral_is_where_it_looks(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT.replace("mode", "yaw: angle, mode")) as scene:
+        scene.airborne()
+        scene.drone.cockpit.flight.yaw = math.radians(170)
+        scene.engage_at(READY)
+        scene.hold_at(READY + 1, stick_yaw=0.5)
+        scene.at(BREAKS, lambda: scene.keys.press(Command.STOP))
+        scene.quit_at(BREAKS + 3)
+        scene._fresh = lambda _seconds: True  # type: ignore[method-assign]  # a heading is no zero
+        scene.run()
+    headings = [message.yaw for time, message in scene.of(Move) if time < BREAKS]
+    assert headings[0] == pytest.approx(170, abs=1)
+    assert headings[-1] == pytest.approx(-160, abs=1)
+    assert scene.of(Move)[-1][1].yaw == pytest.approx(-160, abs=3), "it does not turn back"
+    assert math.degrees(scene.drone.cockpit.pose.yaw) == pytest.approx(-160, abs=3)
+
+
+def test_what_it_does_by_itself_is_not_contradicted_until_a_stick_is_moved(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne(5.0)
+        scene.engage_at(READY)
+        scene.tell_at(READY + 1, "land")
+        scene.at(READY + 3, lambda: setattr(scene, "landing", scene.drone.cockpit.status))
+        scene.hold_at(READY + 3.5, stick_throttle=0.5)
+        scene.quit_at(READY + 5)
+        scene.run()
+    assert [message.task for _, message in scene.of(drone.Task)] == [TaskKind.LAND]
+    assert scene.landing is Status.LANDING
+    silent = [time for time, _ in scene.of(Move) if READY + 1.1 < time < READY + 3.4]
+    assert silent == []
+    assert any(time > READY + 3.5 for time, _ in scene.of(Move))
+    assert scene.drone.cockpit.status is Status.IN_AIR
+
+
+def test_control_that_is_refused_is_said_and_not_asked_for_again(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.drone.cockpit.obtain = lambda: False  # type: ignore[method-assign]  # as without F mode
+        scene.engage_at(READY)
+        scene.quit_at(READY + 5)
+        scene.run()
+    assert scene.said[0] == "drone: the drone refuses control: not in f mode"
+    assert any("the drone does not confirm control" in text for text in scene.said)
+    assert len(orders(scene, ControlOrder.OBTAIN)) == 1
+    assert scene.of(Move) == []
