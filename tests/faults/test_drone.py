@@ -173,6 +173,37 @@ def test_whatever_breaks_the_drone_is_back_with_its_pilot(row: Row, tmp_path: Pa
     assert not scene.drone.cockpit.flight.crashed
 
 
+def test_a_stall_centres_the_sticks_before_the_gimbal_is_found_again(tmp_path: Path) -> None:
+    with sky(tmp_path, gimbal=True) as scene:
+        fly(scene)
+        scene.hold_at(READY + 1, stick_pitch=0.5, pan=1.0)
+        scene.at(BREAKS, lambda: setattr(scene.rig.simulated["gimbal"], "tells_angles", False))
+        scene.at(BREAKS, lambda: stalls_300_ms(scene))
+        scene.run()
+    assert scene.ended.result is Result.FAILED
+    after = [(time, message) for time, message in scene.of(Sticks) if time > BREAKS + 0.1]
+    assert after[0][0] <= BREAKS + 0.37, "at once, though the gimbal is still looked for"
+    assert all(message == NEUTRAL for _, message in after)
+    assert len(scene.disables) == 1
+
+
+def test_a_stick_whose_own_hand_is_gone_is_centred_while_the_others_fly(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        fly(scene)
+        scene.hold_at(READY + 1, stick_pitch=0.5)
+        scene.at(1, lambda: scene.keys.hold(stick_roll=0.0))
+        scene.at(READY + 0.9, lambda: scene.pad.hold(stick_pitch=0.0))
+        scene.at(READY + 1, lambda: scene.pad.hold(stick_pitch=0.5))
+        scene.at(READY + 1.5, lambda: scene.keys.hold(stick_roll=1.0))
+        scene.at(BREAKS, lambda: setattr(scene.keys, "trouble", "keys: gone"))
+        scene.at(BREAKS + 2, lambda: hand_is_gone(scene))
+        scene.at(BREAKS + 6, lambda: scene.loop.interrupt("the end"))
+        scene.run()
+    assert max(message.roll for time, message in scene.of(Sticks) if time < BREAKS) == 1684
+    after = [message for time, message in scene.of(Sticks) if BREAKS + 0.07 < time < BREAKS + 2]
+    assert {(message.roll, message.pitch) for message in after} == {(1024, FORWARD)}
+
+
 def test_a_hand_that_is_back_within_a_second_has_to_be_centred_first(tmp_path: Path) -> None:
     with sky(tmp_path) as scene:
         fly(scene)

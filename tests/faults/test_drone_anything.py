@@ -16,8 +16,18 @@ from teleop.sim.controls import Pilot, Switch
 from teleop.sinks.engagement import Stage
 from teleop.sources.inputs import Command
 
+
+def impatient(scene: Sky) -> None:
+    """Engages, gives back, and wants it again at once."""
+    now = scene.clock.now() - scene.begin
+    scene.engage_at(now)
+    scene.at(now + 0.4, lambda: scene.keys.press(Command.DISENGAGE))
+    scene.engage_at(now + 1.2)
+
+
 ACTS: Mapping[str, Callable[[Sky], object]] = {
     "engage": lambda scene: scene.keys.press(Command.ENGAGE),
+    "impatient": impatient,
     "disengage": lambda scene: scene.keys.press(Command.DISENGAGE),
     "forward": lambda scene: scene.pad.hold(**dict.fromkeys(STICKS, 0.8)),
     "centre": lambda scene: scene.pad.hold(**dict.fromkeys(STICKS, 0.0)),
@@ -38,7 +48,8 @@ ACTS: Mapping[str, Callable[[Sky], object]] = {
 }
 STEPS = st.lists(
     st.tuples(
-        st.sampled_from(["engage"] * 4 + ["forward"] * 3 + ["centre"] * 3 + [*ACTS]), st.sampled_from([0.05, 0.5, 1.5])
+        st.sampled_from(["engage"] * 4 + ["impatient"] * 3 + ["forward"] * 3 + ["centre"] * 3 + [*ACTS]),
+        st.sampled_from([0.05, 0.5, 1.5]),
     ),
     max_size=18,
 )
@@ -57,7 +68,7 @@ def test_nothing_flies_by_accident(sink: str, steps: list[tuple[str, float]]) ->
         scene.quit_at(now)
         scene.run(after=3.0)  # and its monitor looks at all that was sent
         assert scene.sink.state(scene.clock.now()).stage in (Stage.IDLE.value, Stage.LEAVING.value)
-        engages = sum(name == "engage" for name, _ in steps)
+        engages = sum({"engage": 1, "impatient": 2}.get(name, 0) for name, _ in steps)
         assert len(scene.enables) <= engages, "only by an operator's act"
         assert scene.drone.cockpit.pilot in (Pilot.RC, Pilot.ONBOARD), "its pilot has it, or it hovers"
         assert scene.cable.unplugged or scene.cable.deaf or scene.drone.cockpit.pilot is Pilot.RC

@@ -35,6 +35,8 @@ from teleop.sources.presets import Presets
 from teleop.supervisor import Supervisor
 
 AXES = "\n".join(f"  {axis}: {{min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}}" for axis in STICKS)
+PAN = "  pan: {min: null, max: null, velocity: 60, acceleration: 240, jerk: 2400}"
+GIMBAL = "{type: gimbal, link: gimbal, mode: position, rate: 50}"
 VIRTUAL_RC = "{type: virtual-rc, link: drone}"
 FLIGHT = "{type: flight, link: drone, mode: velocity-body, full: {horizontal: 5, vertical: 2, yaw: 60}}"
 PROFILE = f"name: Sky\nlinks: {{drone: 'sim:'}}\naxes:\n{AXES}\nsinks: [SINK]\n"
@@ -180,8 +182,13 @@ def check_enables(enables: list[float], disables: list[float]) -> None:
 
 
 @contextmanager
-def sky(folder: Path, sink: str = VIRTUAL_RC) -> Iterator[Sky]:
-    (folder / "sky.yaml").write_text(PROFILE.replace("SINK", sink))
+def sky(folder: Path, sink: str = VIRTUAL_RC, gimbal: bool = False) -> Iterator[Sky]:
+    """A drone flown by this kind of sink, with a `gimbal` beside it whose pan is moved too."""
+    text = PROFILE.replace("SINK", sink)
+    if gimbal:
+        text = text.replace("'sim:'}", "'sim:', gimbal: 'sim:'}").replace("axes:\n", f"axes:\n{PAN}\n")
+        text = text.replace("sinks: [", f"sinks: [{GIMBAL}, ")
+    (folder / "sky.yaml").write_text(text)
     profile = load_profile(str(folder / "sky.yaml"))
     clock = StallingClock()
     made = Sky(clock)
@@ -199,5 +206,5 @@ def sky(folder: Path, sink: str = VIRTUAL_RC) -> Iterator[Sky]:
         assert flown is not None
         made.sink = flown
         flown.say = made.hear
-        made.loop = rig.loop(list(STICKS), [made.operator], [made.operator])
+        made.loop = rig.loop(list(profile.limits), [made.operator], [made.operator])
         yield made
