@@ -20,6 +20,7 @@ from teleop.sinks.drone import DroneSink
 from teleop.sinks.drone_state import DroneState
 
 WORD = "fly"
+HOVER = 10.0  # m
 Understood = Annotated[
     bool,
     Parameter(
@@ -67,10 +68,17 @@ class Aboard:
         self._now: Callable[[], float] = lambda: 0.0
 
     def board(self, rig: Rig, axes: Collection[Axis], say: Callable[[str], object], by_script: bool) -> None:
-        """`say` is for what the drone says; `by_script` engages it at the start."""
+        """`say` is for what the drone says; `by_script` engages it at the start.
+
+        A drone is flown up by its pilot before a script has it, so a simulated one is found in the air.
+        """
         self._drone, self._now = rig.drone(list(axes)), rig.clock.now
-        if self._drone:
-            self._drone.say, self._drone.by_script = say, by_script
+        if self._drone is None:
+            return
+        self._drone.say, self._drone.by_script = say, by_script
+        for simulated in rig.simulated_drones.values() if by_script else ():
+            simulated.cockpit.flight.hover(HOVER)
+            say(f"the simulated drone hovers at {HOVER:g} m")
 
     def state(self) -> DroneState | None:
         return self._drone.state(self._now()) if self._drone else None

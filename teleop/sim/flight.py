@@ -147,6 +147,11 @@ class Flight:
         if self.airborne and way:
             self._point(math.copysign(TURN, way), self.time + abs(way) / TURN)
 
+    def hover(self, height: float) -> None:
+        """It has been flown up to `height` (m) before, and stands still there."""
+        self.motors = self.airborne = True
+        self._climb = Climb(self.time, height)
+
     def start_motors(self) -> None:
         self.motors = not self.crashed
 

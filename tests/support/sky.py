@@ -111,8 +111,7 @@ class Sky:
 
     def airborne(self, height: float = 30.0) -> None:
         """The drone hovers already, flown up by its pilot."""
-        self.drone.cockpit.flight.start_motors()
-        self.drone.cockpit.flight.rise_to(height)
+        self.drone.cockpit.flight.hover(height)
 
     def of(self, kind: type[Kind]) -> list[tuple[float, Kind]]:
         """What was sent of a kind, by seconds after the start."""
