@@ -90,7 +90,7 @@ class Engagement:
         if self.stage is not Stage.IDLE:
             return "it is engaged" if self.stage in HELD else "it is still being given back"
         if (left := self._taken + GAP - now) > SLACK:
-            return f"{self._what} may be taken again in {left:.1f} s: twice within {GAP:g} s would lock the drone"
+            return f"wait {left:.1f} s: twice within {GAP:g} s would lock the drone"
         return ""
 
     def engage(self, now: float) -> None:

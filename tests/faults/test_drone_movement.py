@@ -134,12 +134,13 @@ def test_what_it_does_by_itself_is_not_contradicted_until_a_stick_is_moved(tmp_p
         scene.airborne(5.0)
         scene.engage_at(READY)
         scene.tell_at(READY + 1, "land")
-        scene.at(READY + 3, lambda: setattr(scene, "landing", scene.drone.cockpit.status))
+        statuses: list[Status] = []
+        scene.at(READY + 3, lambda: statuses.append(scene.drone.cockpit.status))
         scene.hold_at(READY + 3.5, stick_throttle=0.5)
         scene.quit_at(READY + 5)
         scene.run()
     assert [message.task for _, message in scene.of(drone.Task)] == [TaskKind.LAND]
-    assert scene.landing is Status.LANDING
+    assert statuses == [Status.LANDING]
     silent = [time for time, _ in scene.of(Move) if READY + 1.1 < time < READY + 3.4]
     assert silent == []
     assert any(time > READY + 3.5 for time, _ in scene.of(Move))

@@ -159,7 +159,7 @@ def test_a_pilot_who_takes_it_back_is_told_to_have_it() -> None:
 def test_the_first_taking_waits_as_long_as_any_other() -> None:
     said: list[str] = []
     engagement = Engagement("virtual RC", 0.05, 100.0, said.append)
-    assert "in 1.5 s" in engagement.refusal(100.5)
+    assert "wait 1.5 s" in engagement.refusal(100.5)
     assert engagement.refusal(102.0) == ""
 
 
