@@ -97,13 +97,13 @@ def play(
 
 
 def _refuse_to_fly(speed: str, staging: StagingOptions, trim: TrimOptions) -> None:
-    """Raises UsageError for what makes a move of a drone's sticks another one."""
+    """Raises DocumentError for what makes a move of a drone's sticks another one."""
     if percentage("--speed", speed) != 1:
-        raise UsageError(f"--speed {speed}: a drone's sticks held for longer or shorter fly it somewhere else")
+        raise DocumentError([f"--speed {speed}: a drone's sticks held for longer or shorter fly it somewhere else"])
     if staging.start_at is not None:
-        raise UsageError(f"--start-at {staging.start_at}: a drone flies its moves from their beginning")
+        raise DocumentError([f"--start-at {staging.start_at}: a drone flies its moves from their beginning"])
     if trim.trim:
-        raise UsageError("--trim: a drone's sticks are not moved aside; fly it by hand in teleop live")
+        raise DocumentError(["--trim: a drone's sticks are not moved aside; fly it by hand in teleop live"])
 
 
 def _trimmed(file: str, target: Path, axes: Sequence[Axis], profile: Profile) -> TrimmedFile:
