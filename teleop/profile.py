@@ -17,7 +17,7 @@ from pydantic import Field
 from teleop.document import Document, DocumentError, Wrong, mapping, number, read_document
 from teleop.links.url import LinkUrlError, parse
 from teleop.motion import Axis, Limits
-from teleop.profile_sinks import DRONES, Magnitude, SinkSection, sink_rules
+from teleop.profile_sinks import DRONES, FlightSection, Magnitude, SinkSection, VirtualRcSection, sink_rules
 from teleop.section import Finite, Section
 from teleop.shipped import find
 from teleop.sources.handling import PresetsSection, SticksSection
@@ -63,6 +63,12 @@ class Profile(Section):
     def drones(self) -> frozenset[str]:
         """The names of the links that end at a drone."""
         return frozenset(section.link for section in self.sinks if section.type in DRONES)
+
+    @property
+    def encrypted(self) -> frozenset[str]:
+        """Those of them over which the app's key encrypts."""
+        drones = (section for section in self.sinks if isinstance(section, VirtualRcSection | FlightSection))
+        return frozenset(section.link for section in drones if section.encrypted)
 
     @property
     def limits(self) -> Mapping[Axis, Limits]:

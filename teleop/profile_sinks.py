@@ -110,11 +110,12 @@ class VirtualRcSection(Section):
     """A Matrice 100 flown as by a remote control. `go_home` is what that channel says for going home, if any.
 
     With `back_to_rc` the drone obeys its RC again when virtual RC ends, and otherwise behaves as without any. At
-    `low_battery` (%) it is given back.
+    `low_battery` (%) it is given back. `encrypted` is by the app's key (credentials).
     """
 
     type: Literal["virtual-rc"]
     link: str
+    encrypted: bool = False
     back_to_rc: bool = True
     rate: Literal[20] = 20  # Hz: osdk-facts.md, Safety
     low_battery: LowBattery = 25
@@ -139,6 +140,7 @@ class FlightSection(Section):
 
     type: Literal["flight"]
     link: str
+    encrypted: bool = False
     mode: Literal["velocity-body", "velocity-ground", "tilt", "tilt-ground", "offset-body", "offset-ground"]
     vertical: Literal["velocity", "height"] = "velocity"
     yaw: Literal["rate", "angle"] = "rate"

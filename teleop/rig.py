@@ -12,9 +12,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
-from teleop.credentials import load_credentials
+from teleop.credentials import APP_KEY, load_credentials
 from teleop.dji.drone import Activate
+from teleop.dji.encryption import Cipher
 from teleop.dji.onboard_session import OnboardSession
+from teleop.document import DocumentError
 from teleop.links import open_link, parse
 from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, Loop
 from teleop.motion import Axis, Limits
@@ -129,7 +131,7 @@ def open_rig(profile: Profile, clock: Clock) -> Iterator[Rig]:
             session = OnboardSession(first_sequence=_unlike_the_last()) if name in profile.drones else None
             if parse(url).kind == "sim":
                 if name in profile.drones:
-                    far = drones[name] = SimulatedDrone(now=clock.now())
+                    far = drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
                 else:
                     far = simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile))
                 connections[name] = Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
@@ -189,8 +191,19 @@ def _flight(section: FlightSection, connection: Connection, limits: Mapping[Axis
 
 def _drone(section: VirtualRcSection | FlightSection, grip: Grip, connection: Connection) -> Device:
     activation = Activate(0) if connection.simulated else load_credentials().activation()
-    sink = DroneSink(grip, Telemetry(connection, activation), connection.opened, section.low_battery)
+    telemetry = Telemetry(connection, activation, _cipher(section.encrypted))
+    sink = DroneSink(grip, telemetry, connection.opened, section.low_battery)
     return Device(MOVES[section.type], sink, sink, follow=None)
+
+
+def _cipher(encrypted: bool) -> Cipher | None:
+    """What encrypts, by the app's key; raises DocumentError where there is none."""
+    if not encrypted:
+        return None
+    credentials = load_credentials()
+    if credentials.cipher is None:
+        raise DocumentError([f"encrypted: true wants the app's key: in {APP_KEY}, or key in {credentials.place}"])
+    return credentials.cipher
 
 
 BUILDERS: Mapping[str, Callable[..., Device]] = {

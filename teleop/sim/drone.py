@@ -30,6 +30,7 @@ from teleop.dji.drone_words import (
     ModeChannel,
     TaskKind,
 )
+from teleop.dji.encryption import Cipher
 from teleop.dji.frame import Frame
 from teleop.dji.message import FieldError, Message
 from teleop.dji.movement import COMBINATIONS, Horizontal, Move, Vertical, Yaw
@@ -51,11 +52,19 @@ Handler = Callable[[Any], Message | None]
 class SimulatedDrone:
     """A drone on the ground with its RC in F mode. `yaw` is in deg, `battery` in %, `health` the GPS's, 0..5.
 
-    `mirrors`: see Beacon. While `acknowledges` is False, requests are obeyed and their acknowledgements get lost.
+    `mirrors`: see Beacon. With `cipher` all that follows its activation is encrypted. While `acknowledges` is False,
+    requests are obeyed and their acknowledgements get lost.
     """
 
     def __init__(
-        self, *, now: float = 0.0, yaw: float = 0.0, battery: float = 100.0, health: int = 5, mirrors: bool = False
+        self,
+        *,
+        now: float = 0.0,
+        yaw: float = 0.0,
+        battery: float = 100.0,
+        health: int = 5,
+        mirrors: bool = False,
+        cipher: Cipher | None = None,
     ) -> None:
         self.counts: Counter[str] = Counter()  # messages by name as they were understood; "refused" those not obeyed
         self.cockpit = Cockpit(now, math.radians(yaw), battery)
@@ -63,6 +72,7 @@ class SimulatedDrone:
         self.activated = False
         self._beacon = Beacon(mirrors, health)
         self._session = OnboardSession()
+        self._cipher = cipher
         self._outgoing = bytearray()
         self._acknowledged: dict[int, tuple[int, bytes]] = {}  # by session: the last sequence, and what was said to it
         self._booted = -math.inf
@@ -121,6 +131,7 @@ class SimulatedDrone:
         self._pass(now)
         self._booted = now + seconds
         self.activated = False
+        self._session.cipher = None
         self._beacon.end()
         self._outgoing.clear()
         self.cockpit = Cockpit(now, self.cockpit.pose.yaw, self.cockpit.battery)
@@ -178,6 +189,7 @@ class SimulatedDrone:
 
     def _activate(self, _message: drone.Activate) -> Message:
         self.activated = True
+        self._session.cipher = self._cipher
         self._beacon.begin(self.cockpit.time)
         return drone.ActivateAck(ActivationCode.OK)
 

@@ -16,7 +16,9 @@ from typing import Any
 from teleop.dji import drone
 from teleop.dji.broadcast import PARTS, Broadcast
 from teleop.dji.drone_words import Code, Rate
+from teleop.dji.encryption import Cipher
 from teleop.dji.message import Message
+from teleop.dji.onboard_session import OnboardSession
 from teleop.ports import DeviceError, LinkError
 from teleop.sinks.connection import Answer, Connection
 
@@ -41,10 +43,10 @@ SLOW_FRESH = 3.0  # s, of one that comes once a second
 
 
 class Telemetry:
-    """`activation` is the message that activates the drone."""
+    """`activation` is the message that activates the drone; with `cipher` all that follows it is encrypted."""
 
-    def __init__(self, connection: Connection, activation: drone.Activate) -> None:
-        self._connection = connection
+    def __init__(self, connection: Connection, activation: drone.Activate, cipher: Cipher | None = None) -> None:
+        self._connection, self._cipher = connection, cipher
         self._steps: Sequence[Message] = (drone.Version(), activation, RATES)
         self._step = 0
         self._asked = False
@@ -88,6 +90,8 @@ class Telemetry:
             self._fault = DeviceError(f"the drone {verb}: {words}")
         else:
             self._step, self._asked = self._step + 1, False
+            if self._step == 2 and isinstance(self._connection.session, OnboardSession):  # activated
+                self._connection.session.cipher = self._cipher
 
     def _heard(self, push: Message, now: float) -> None:
         for part in PARTS:

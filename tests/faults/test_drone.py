@@ -12,9 +12,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from sky import READY, Sky, sky
+from sky import READY, VIRTUAL_RC, Sky, sky
 
 from teleop.dji.virtual_rc import NEUTRAL, Sticks
+from teleop.document import DocumentError
 from teleop.sim.controls import Pilot, Switch
 from teleop.sinks.engagement import LAST_NEUTRALS, Stage
 from teleop.sources.inputs import Command
@@ -338,3 +339,25 @@ def test_the_loop_ends_idle_when_nobody_ever_engaged(tmp_path: Path) -> None:
         assert scene.sink.state(scene.clock.now()).stage == Stage.IDLE.value
     assert scene.of(Sticks) == []
     assert scene.enables == scene.disables == []
+
+
+def test_it_is_flown_encrypted_by_the_apps_key(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("cryptography")
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    encrypted = VIRTUAL_RC.replace("link", "encrypted: true, link")
+    with (
+        pytest.raises(DocumentError, match="encrypted: true wants the app's key: in TELEOP_DJI_APP_KEY"),
+        sky(tmp_path, encrypted),
+    ):
+        pass
+    monkeypatch.setenv("TELEOP_DJI_APP_KEY", "5a" * 32)
+    with sky(tmp_path, encrypted) as scene:
+        fly(scene)
+        scene.at(BREAKS, lambda: scene.keys.press(Command.DISENGAGE))
+        scene.quit_at(BREAKS + 3)
+        scene.run()
+    assert scene.ended.result is Result.DONE
+    assert scene.of(Sticks) == [], "nobody without the key can read them"
+    assert scene.pilot(BREAKS - 0.1) is Pilot.VIRTUAL
+    assert scene.pilot(BREAKS + 1) is Pilot.RC
+    assert scene.drone.cockpit.pose.north > 10
