@@ -17,7 +17,8 @@ from teleop.document import DocumentError
 from teleop.journal import Frame, Journal
 from teleop.loop import Loop, StallError
 from teleop.ports import Clock, LinkError, Sink
-from teleop.profile import CameraSection, Profile
+from teleop.profile import Profile
+from teleop.profile_sinks import CameraSection
 from teleop.rig import open_rig
 from teleop.sinks.shutter import ShutterSink
 from teleop.sources.carriage import Glide, Steps
