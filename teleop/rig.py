@@ -42,10 +42,12 @@ from teleop.sinks.focus import FocusReporter, FocusSink
 from teleop.sinks.gimbal import Angles, PositionSink
 from teleop.sinks.gimbal_speed import SpeedSink
 from teleop.sinks.gimbal_stick import StickSink
-from teleop.sinks.grips import Grip, MovementGrip, VirtualRcGrip
+from teleop.sinks.grips import Grip
+from teleop.sinks.movement import MovementGrip
 from teleop.sinks.preflight import Site
 from teleop.sinks.stall import StallGuard
 from teleop.sinks.telemetry import Telemetry
+from teleop.sinks.virtual_rc import VirtualRcGrip
 from teleop.sinks.wiring import Wiring
 
 DRONE_KEEP_ALIVE = 0.05  # s: virtual RC wants its sticks 20 times a second, moving or not

@@ -26,25 +26,20 @@ from teleop.dji.drone_words import (
     ControlCode,
     ControlOrder,
     CurrentMode,
-    GearChannel,
-    ModeChannel,
     TaskKind,
 )
 from teleop.dji.encryption import Cipher
 from teleop.dji.frame import Frame
 from teleop.dji.message import FieldError, Message
-from teleop.dji.movement import COMBINATIONS, Horizontal, Move, Vertical, Yaw
-from teleop.dji.movement import Frame as MoveFrame
+from teleop.dji.movement import COMBINATIONS, Move
 from teleop.dji.onboard import SESSION
 from teleop.dji.onboard_session import OnboardSession
-from teleop.dji.virtual_rc import CENTRE, DEFLECTION, Sticks, VirtualRc
+from teleop.dji.virtual_rc import Sticks, VirtualRc
 from teleop.sim.beacon import Beacon
 from teleop.sim.cockpit import Cockpit
-from teleop.sim.controls import Controls, Switch
-from teleop.sim.flight import Flight
+from teleop.sim.controls import Switch
+from teleop.sim.orders import controls, move
 
-SWITCHES = {ModeChannel.P: Switch.P, ModeChannel.A: Switch.A, ModeChannel.F: Switch.F}
-HOVER = 50.0  # % of thrust that neither climbs nor sinks
 VERSION = "M100 SIMULATED 03.01.10.00"
 Handler = Callable[[Any], Message | None]
 
@@ -253,35 +248,3 @@ NOT_ACTIVATED: dict[type[Message], Message] = {
     drone.Task: drone.TaskAck(Code.NOT_ACTIVATED),
     drone.Arm: drone.ArmAck(ArmCode.NOT_ACTIVATED),
 }
-
-
-def controls(sticks: Sticks) -> Controls:
-    """What the channels of the virtual RC say."""
-    roll, pitch, throttle, yaw = (
-        (channel - CENTRE) / DEFLECTION for channel in (sticks.roll, sticks.pitch, sticks.throttle, sticks.yaw)
-    )
-    mode, gear = SWITCHES[ModeChannel(sticks.mode)], sticks.gear == GearChannel.UP
-    return Controls(roll, pitch, throttle, yaw, mode, gear)
-
-
-def move(flight: Flight, message: Move) -> None:
-    """What a movement command has the drone do; vertical is positive up."""
-    to_north = message.frame == MoveFrame.GROUND
-    if message.yaw_control == Yaw.RATE:
-        flight.turn(math.radians(message.yaw))
-    else:
-        flight.face(math.radians(message.yaw))
-    match message.horizontal:
-        case Horizontal.TILT:
-            flight.lean(math.radians(message.x), math.radians(message.y), to_north=to_north)
-        case Horizontal.VELOCITY:
-            flight.fly(complex(message.x, message.y), to_north=to_north)
-        case _:
-            flight.seek(complex(message.x, message.y), to_north=to_north)
-    match message.vertical:
-        case Vertical.VELOCITY:
-            flight.climb(message.z)
-        case Vertical.POSITION:
-            flight.rise_to(message.z)
-        case _:
-            flight.climb((message.z - HOVER) / 50 * 4)

@@ -342,7 +342,6 @@ def test_the_loop_ends_idle_when_nobody_ever_engaged(tmp_path: Path) -> None:
 
 
 def test_it_is_flown_encrypted_by_the_apps_key(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("cryptography")
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
     encrypted = VIRTUAL_RC.replace("link", "encrypted: true, link")
     with (

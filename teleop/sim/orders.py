@@ -1,0 +1,46 @@
+"""What the two ways to fly a drone say, in terms of its flight: channels of the virtual RC, and movement commands."""
+
+from __future__ import annotations
+
+import math
+
+from teleop.dji.drone_words import GearChannel, ModeChannel
+from teleop.dji.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.virtual_rc import CENTRE, DEFLECTION, Sticks
+from teleop.sim.controls import Controls, Switch
+from teleop.sim.flight import Flight
+
+SWITCHES = {ModeChannel.P: Switch.P, ModeChannel.A: Switch.A, ModeChannel.F: Switch.F}
+HOVER = 50.0  # % of thrust that neither climbs nor sinks
+
+
+def controls(sticks: Sticks) -> Controls:
+    """What the channels of the virtual RC say."""
+    roll, pitch, throttle, yaw = (
+        (channel - CENTRE) / DEFLECTION for channel in (sticks.roll, sticks.pitch, sticks.throttle, sticks.yaw)
+    )
+    mode, gear = SWITCHES[ModeChannel(sticks.mode)], sticks.gear == GearChannel.UP
+    return Controls(roll, pitch, throttle, yaw, mode, gear)
+
+
+def move(flight: Flight, message: Move) -> None:
+    """What a movement command has the drone do; vertical is positive up."""
+    to_north = message.frame == Frame.GROUND
+    if message.yaw_control == Yaw.RATE:
+        flight.turn(math.radians(message.yaw))
+    else:
+        flight.face(math.radians(message.yaw))
+    match message.horizontal:
+        case Horizontal.TILT:
+            flight.lean(math.radians(message.x), math.radians(message.y), to_north=to_north)
+        case Horizontal.VELOCITY:
+            flight.fly(complex(message.x, message.y), to_north=to_north)
+        case _:
+            flight.seek(complex(message.x, message.y), to_north=to_north)
+    match message.vertical:
+        case Vertical.VELOCITY:
+            flight.climb(message.z)
+        case Vertical.POSITION:
+            flight.rise_to(message.z)
+        case _:
+            flight.climb((message.z - HOVER) / 50 * 4)
