@@ -14,6 +14,7 @@ from importlib.metadata import version
 from cyclopts import App, CycloptsError
 
 import teleop
+from teleop.cli.staging_options import joined
 from teleop.document import DocumentError, UnplayableError
 from teleop.ports import TeleopError, UsageError
 
@@ -52,7 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def run(arguments: Sequence[str]) -> int:
     """Do what was typed; its exit code."""
     debug = "--debug" in arguments  # of every command, those that have no options of their own included
-    arguments = [argument for argument in arguments if argument != "--debug"]
+    arguments = joined([argument for argument in arguments if argument != "--debug"])
     logging.basicConfig(level=logging.DEBUG if debug else logging.WARNING, format="teleop: %(message)s")
     try:
         return app(arguments, print_error=False, exit_on_error=False, result_action="return_int_as_exit_code_else_zero")

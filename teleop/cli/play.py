@@ -84,7 +84,7 @@ def play(
     if flown:
         _refuse_to_fly(speed, staging, trim)
     ask_to_fly(performance.title, axes, i_understand)
-    rate, stage = percentage("--speed", speed), staging.staging(performance)
+    rate, stage = percentage("--speed", speed), staging.staging(performance, clock, descriptor is not None)
     try:
         source = SequenceSource(performance, sequence_limits(profile.limits, left), rate, staging=stage)
     except NoRunUp as error:

@@ -60,6 +60,8 @@ class SequenceRun:
             status = aboard.status if is_flown(axes) else None
             taking = recording(self.take, profile.name, title, limits, status, patient=self.patient)
             recorder = stack.enter_context(taking)
+            if source.staging.trigger is not None:
+                source.staging.trigger.open(stack)
             rig = stack.enter_context(open_rig(profile, self.clock))
             aboard.board(rig, axes, tell, by_script=True)
             watchers = self._watchers(stack, rig, conductor, extras)

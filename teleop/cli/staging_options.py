@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from teleop.ports import UsageError
+from teleop.clock import VirtualClock
+from teleop.ports import Clock, UsageError
 from teleop.sources.times import seconds
 
 if TYPE_CHECKING:
     from teleop.sources.sequence_file import Performance
-    from teleop.sources.staging import Staging
+    from teleop.sources.staging import Staging, Trigger
 
 KEY = "key"  # as in key3, the third keyframe
 
@@ -39,8 +40,16 @@ class StagingOptions:
         int | None, Parameter(help="So often, and say how far each pass lay from the first.", show_default=False)
     ] = None
 
-    def staging(self, performance: Performance) -> Staging:
-        """The staging asked for; raises UsageError for what this performance has not."""
+    trigger: Annotated[
+        str | None,
+        Parameter(help="What starts it in place: key, osc:9000/go, mtc, timecode:01:00:00:00, time:18:30:00."),
+    ] = None
+
+    def staging(self, performance: Performance, clock: Clock, keys: bool) -> Staging:
+        """The staging asked for; raises UsageError for what this performance has not.
+
+        `clock` is the run's, and `keys` whether there is a terminal.
+        """
         from teleop.sources.staging import Staging
 
         if self.passes is not None and (self.loop or self.passes < 1):
@@ -48,7 +57,8 @@ class StagingOptions:
         back = performance.back_to_one if self.back_to_one is None else self.back_to_one
         preroll = performance.preroll if self.preroll is None else _time("preroll", self.preroll, performance.fps)
         passes = math.inf if self.loop else self.passes or 1
-        return Staging(preroll, self._start_at(performance), passes, self.passes is not None, back)
+        trigger = None if self.trigger is None else _trigger(self.trigger, clock, keys)
+        return Staging(preroll, self._start_at(performance), passes, self.passes is not None, back, trigger)
 
     def _start_at(self, performance: Performance) -> float:
         text = self.start_at
@@ -59,6 +69,28 @@ class StagingOptions:
         if time >= performance.duration:
             raise UsageError(f"--start-at {text}: the move is over at {performance.duration:g} s")
         return time
+
+
+def _trigger(text: str, clock: Clock, keys: bool) -> Trigger:
+    from teleop.sources.triggers import KeyTrigger, read_trigger
+
+    if isinstance(clock, VirtualClock):
+        raise UsageError(f"--trigger {text}: comes in real time; leave out --fast")
+    trigger = read_trigger(text, clock.now)
+    if isinstance(trigger, KeyTrigger) and not keys:
+        raise UsageError("--trigger key: there is no terminal to press it on")
+    return trigger
+
+
+def joined(arguments: Sequence[str]) -> list[str]:
+    """What was typed, with `--trigger time 18:30:00` made one word of, as it is for programs."""
+    result: list[str] = []
+    for argument in arguments:
+        if result[-2:-1] == ["--trigger"] and result[-1] in ("time", "timecode", "osc") and ":" in argument:
+            result[-1] += f":{argument}"
+        else:
+            result.append(argument)
+    return result
 
 
 def _key(text: str, keys: Sequence[float]) -> float:

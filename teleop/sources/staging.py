@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -13,6 +14,10 @@ class Trigger(Protocol):
     @property
     def again(self) -> bool:
         """Whether each pass waits for it, not only the first one."""
+        ...
+
+    def open(self, stack: ExitStack) -> None:
+        """Listen for it until the stack is left. Raises TeleopError where that cannot be."""
         ...
 
     def arm(self, now: float) -> None:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import signal
+import socket
 import time
 from collections.abc import Iterator
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -85,6 +87,12 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
         (["play", "reveal", "--start-at", "key9"], 2, "--start-at key9: there is key1..key5"),
         (["play", "reveal", "--start-at", "20s"], 2, "--start-at 20s: the move is over at 15 s"),
         (["play", "reveal", "--start-at", "96f"], 2, "--start-at 96f: is 96f, in frames, which needs fps"),
+        (["play", "reveal", "--trigger", "now"], 2, "--trigger now: must be key, osc:9000/go, mtc"),
+        (["play", "reveal", "--trigger", "key"], 2, "--trigger key: there is no terminal"),
+        (["play", "reveal", "--trigger", "time", "18:30", "--fast"], 2, "comes in real time; leave out --fast"),
+        (["play", "reveal", "--trim", "--fast"], 2, "--trim: a hand keeps its own time"),
+        (["play", "reveal", "--trim-out", "x.yaml"], 2, "--trim-out: goes with --trim"),
+        (["play", "reveal", "--trim", "--trim-share", "100%"], 2, "must be a percentage between 0 and 100"),
         (["play", "reveal", "--preroll", "soon"], 2, "--preroll soon: must be a time"),
         (["play", "reveal", "--passes", "0"], 2, "--passes: must be at least 1"),
         (["play", "reveal", "--passes", "3", "--loop"], 2, "--passes: goes without --loop"),
@@ -172,6 +180,30 @@ def test_a_sequence_that_waits_for_somebody_needs_somebody(tmp_path: Path) -> No
     fast = teleop("play", "wait.yaml", "--fast", cwd=tmp_path)
     assert fast.returncode == 0
     assert "--fast: nobody is waited for" in fast.stderr
+
+
+def test_a_move_waits_in_place_for_its_trigger_and_starts_at_once(tmp_path: Path) -> None:
+    (tmp_path / "short.yaml").write_text("keyframes: [{at: 0, pan: 0}, {at: 1, pan: 5}]\n")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        sender.bind(("127.0.0.1", 0))
+        port = sender.getsockname()[1]
+    with running("play", str(tmp_path / "short.yaml"), "--trigger", f"osc:{port}/go") as process:
+        wait_for(process, f"waits for OSC /go on 127.0.0.1:{port}")
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            sender.sendto(b"nonsense", ("127.0.0.1", port))
+            sender.sendto(b"/go\0,\0\0\0", ("127.0.0.1", port))
+        out, _ = process.communicate(timeout=20)
+    assert process.returncode == 0
+    assert "5.000" in out
+
+
+def test_a_signal_ends_a_run_that_waits_for_its_trigger() -> None:
+    later = f"{datetime.now() + timedelta(hours=6):%H:%M:%S}"
+    with running("play", "reveal", "--trigger", "time", later) as process:
+        wait_for(process, f"waits for {later}")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=10)
+    assert process.returncode == 130
 
 
 def test_debug_shows_where_an_error_came_from() -> None:

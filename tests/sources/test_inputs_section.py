@@ -97,7 +97,8 @@ def test_a_rig_without_inputs_has_none(tmp_path: Path) -> None:
             "{controls: {X: {press: halt}}}",
             28,
             "controls.X.press must be one of stop, clear, enable, slower, faster, range, recall, "
-            "store, delete, recenter, record, shutter, tell, engage, disengage, quit, not 'halt'",
+            "store, delete, recenter, record, shutter, tell, engage, disengage, quit, pause, next, previous, go, keep, "
+            "not 'halt'",
         ),
         (
             "{controls: {X: {press: recall}}}",

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from teleop.dji.catalogue import find
 from teleop.motion import Axis
+from teleop.sources import play_keys
 from teleop.sources.inputs import Command, Press
 from teleop.sources.keys import DRONE_WORDS, HELP, KEYS, PREFIXES, Act, KeyReader, Step
 
@@ -19,6 +20,8 @@ def typed(text: str) -> list[Act]:
 def test_every_command_has_a_key() -> None:
     acts = [
         *KEYS.values(),
+        *play_keys.KEYS.values(),
+        *play_keys.TRIM_KEYS.values(),
         *DRONE_WORDS.values(),
         *(act for _, answers in PREFIXES.values() for act in answers.values()),
     ]

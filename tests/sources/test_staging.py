@@ -1,6 +1,7 @@
 """What stands around a move: a start in mid move, passes, a loop, the way back, and the trigger it waits for."""
 
 import math
+from contextlib import ExitStack
 
 import pytest
 from at_once import AtOnce
@@ -27,6 +28,8 @@ class Button:
 
     def __init__(self, again: bool = True) -> None:
         self.again, self.pulled, self.armed = again, False, 0
+
+    def open(self, stack: ExitStack) -> None: ...
 
     def arm(self, now: float) -> None:
         self.armed += 1

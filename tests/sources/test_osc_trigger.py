@@ -1,0 +1,100 @@
+"""A start by OSC, over a real UDP port on this computer: the right message, and nothing else, however it looks."""
+
+import socket
+from contextlib import ExitStack
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pythonosc.osc_bundle_builder import IMMEDIATELY, OscBundleBuilder
+from pythonosc.osc_message_builder import OscMessageBuilder
+from waiting import wait_until
+
+from teleop.ports import DeviceError, UsageError
+from teleop.sources.osc_trigger import OscTrigger
+
+
+def free_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def message(address: str, *arguments) -> bytes:
+    builder = OscMessageBuilder(address)
+    for argument in arguments:
+        builder.add_arg(argument)
+    return builder.build().dgram
+
+
+def bundle(address: str) -> bytes:
+    builder = OscBundleBuilder(IMMEDIATELY)
+    whole = OscMessageBuilder(address)
+    builder.add_content(whole.build())
+    return builder.build().dgram
+
+
+def send(port: int, data: bytes) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        sender.sendto(data, ("127.0.0.1", port))
+
+
+@pytest.mark.parametrize("data", [message("/go"), message("/go", 1), message("/go", 1.0, "x"), bundle("/go")])
+def test_its_message_fires_it(data):
+    port = free_port()
+    trigger = OscTrigger("127.0.0.1", port, "/go")
+    with ExitStack() as stack:
+        trigger.open(stack)
+        trigger.arm(0.0)
+        assert trigger.said(0.0) == f"OSC /go on 127.0.0.1:{port}"
+        assert not trigger.fired(0.0)
+        send(port, data)
+        wait_until(lambda: trigger.fired(0.0), "the trigger")
+        trigger.arm(1.0)
+        assert not trigger.fired(1.0)  # what came before does not count
+
+
+def test_other_messages_a_button_let_go_and_noise_do_not_and_it_goes_on_listening():
+    port = free_port()
+    trigger = OscTrigger("127.0.0.1", port, "/go")
+    with ExitStack() as stack:
+        trigger.open(stack)
+        trigger.arm(0.0)
+        for data in (
+            message("/gone"),
+            message("/go", 0),
+            message("/go", False),
+            b"",
+            b"/go",
+            b"#bundle\0\0\1",
+            b"x" * 9000,
+        ):
+            send(port, data)
+        wait_until(lambda: trigger.ignored >= 4, "noise ignored")
+        assert not trigger.fired(0.0)
+        send(port, message("/go"))
+        wait_until(lambda: trigger.fired(0.0), "the trigger")
+
+
+@given(st.binary(max_size=200))
+def test_no_packet_hurts(data):
+    trigger = OscTrigger("127.0.0.1", 1, "/go")
+    trigger._hear(data)
+    trigger._hear(b"#bundle\0" + data)
+    assert not trigger.fired(0.0) or b"/go" in data
+
+
+def test_a_port_that_is_taken_is_said():
+    port = free_port()
+    with ExitStack() as stack:
+        OscTrigger("127.0.0.1", port, "/go").open(stack)
+        with pytest.raises(DeviceError, match=f"cannot listen on 127.0.0.1:{port}: Address already in use"):
+            OscTrigger("127.0.0.1", port, "/go").open(stack)
+    with ExitStack() as stack:  # and is free again afterwards
+        OscTrigger("127.0.0.1", port, "/go").open(stack)
+
+
+def test_a_missing_extra_is_a_line_that_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "pythonosc.osc_packet", None)
+    with pytest.raises(UsageError, match=r"pip install 'rs-teleop\[osc\]'"):
+        OscTrigger("127.0.0.1", 9000, "/go")
