@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import itertools
+import time
 from itertools import pairwise
 from pathlib import Path
 
+import kill_server
 import pytest
 from at_once import AtOnce
 from shoot_bench import Keys, SlowBook, Stage, small_disk
 
+from teleop.clock import SystemClock
 from teleop.dji.camera import CameraCommand, Command
 from teleop.journal import Frame
 from teleop.loop import PERIOD
 from teleop.motion import Axis
-from teleop.profile import ShootingSection
+from teleop.profile import ShootingSection, load_profile
 from teleop.sources.inputs import Command as Key
 from teleop.sources.inputs import Press
+from teleop.sources.timelapse_file import load_timelapse
 from teleop.supervisor import Result
 
 PAUSE = Press(Key.PAUSE)
@@ -305,3 +310,19 @@ def test_signals_end_the_wait_for_a_link(stage: Stage) -> None:
     stage.clock.hook = lambda now: stage.shooting.interrupt("SIGTERM received") if now > 1100 else None
     ended = stage.shoot()
     assert (ended.result, list(ended.reasons)) == (Result.INTERRUPTED, ["SIGTERM received"])
+
+
+def test_steps_of_the_wall_clock_move_no_frame(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    (stage.folder / "quick.yaml").write_text(kill_server.PROFILE.replace("virtual:quick", "sim:"))
+    (stage.folder / "quick-shoot.yaml").write_text(kill_server.FILE)
+    stage.profile = load_profile(str(stage.folder / "quick.yaml"))
+    quick = load_timelapse(str(stage.folder / "quick-shoot.yaml"), stage.profile.limits, "the rig")
+    assert quick is not None
+    stage.timelapse, stage.clock = quick, SystemClock()
+    wall, steps = time.time, itertools.cycle([0.0, 3600.0, -7200.0, 1e9])
+    monkeypatch.setattr(time, "time", lambda: wall() + next(steps))
+    assert stage.shoot(patient=False).result is Result.DONE
+    assert len(stage.shots) == kill_server.FRAMES
+    missed = stage.shooting.progress.missed
+    took = stage.shots[-1].time - stage.shots[0].time
+    assert took == pytest.approx((kill_server.FRAMES - 1 + missed) * 0.05, abs=0.05)

@@ -19,7 +19,7 @@ from teleop.clock import VirtualClock
 from teleop.journal import ENDING, Journal, Shoot, open_journal
 from teleop.ports import Clock, Sink
 from teleop.profile import Profile
-from teleop.shooting import Ended, Shooting
+from teleop.shooting import Ended, Shooting, camera_link
 from teleop.sinks.recorder import recording
 from teleop.sinks.tally import Tally
 from teleop.sources.inputs import Command, Press
@@ -45,6 +45,7 @@ def shoot(
     path = Path(Path(file).stem + ENDING)
     belongs = Shoot(Path(file).name, timelapse.identity, timelapse.frames)
     descriptor = None if virtual else terminal()
+    camera_link(profile)  # refused before a journal is begun
     with ExitStack() as stack:
         journal = stack.enter_context(
             open_journal(path, belongs, resume=asked.resume, restart=asked.restart, patient=virtual)
@@ -53,10 +54,13 @@ def shoot(
             recording(take, profile.name, timelapse.title, timelapse.limits, patient=virtual)
         )
         keys = None if descriptor is None else stack.enter_context(Keyboard(descriptor, PlayKeys(SHOOT_KEYS)))
+        watchers: list[Sink] = [each for each in (recorder, keys) if each is not None]
+        shooting = Shooting(
+            timelapse, profile, time, journal, lambda line: view.say(line), watchers, keys, asked.in_doubt
+        )
+        view = ShootView(timelapse.title, path.absolute().parent, shooting.progress, options.json, bool(keys))
         tally = Tally(lambda: shooting.begin)
-        view = ShootView(timelapse.title, path.absolute().parent, lambda: shooting.progress, options.json, bool(keys))
-        watchers: list[Sink] = [tally, *([] if recorder is None else [recorder]), *([] if keys is None else [keys])]
-        shooting = Shooting(timelapse, profile, time, journal, view.say, [*watchers, view], keys, asked.in_doubt)
+        watchers += [tally, view]
         if not options.json:
             print(f"{summary(timelapse)}; journal {path}", file=sys.stderr)
         sys.setswitchinterval(SWITCH_INTERVAL)

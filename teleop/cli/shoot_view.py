@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 import shutil
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -25,13 +24,13 @@ from teleop.sources.progress import Progress
 
 REDRAWS = 4  # a second
 EVERY = 60.0  # s between two lines, at most, while frames are shot
-HELP = "space pause between frames  Ctrl-C stop, --resume goes on"
+STOP = "Ctrl-C stop, --resume goes on"
 
 
 class ShootView:
     """A sink that only shows. `folder` is where the journal is written, `progress` how far the shoot is."""
 
-    def __init__(self, title: str, folder: Path, progress: Callable[[], Progress], silent: bool, keys: bool) -> None:
+    def __init__(self, title: str, folder: Path, progress: Progress, silent: bool, keys: bool) -> None:
         self._title, self._folder, self._progress, self._keys = title, folder, progress, keys
         self._silent = silent
         self._now = -math.inf
@@ -66,7 +65,7 @@ class ShootView:
     def write(self, tick: Tick) -> None:
         self._now = tick.time
         if self._live is None and not self._silent:
-            self._line(tick.time, self._progress())
+            self._line(tick.time, self._progress)
 
     def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
         return None
@@ -79,19 +78,19 @@ class ShootView:
             print("  ".join(_parts(progress, now, self._folder)), file=sys.stderr)
 
     def _draw(self) -> RenderableType:
-        progress = self._progress()
+        progress = self._progress
         grid = Table.grid(padding=(0, 2))
         bar = ProgressBar(total=progress.slots.frames, completed=progress.shot, width=30)
         grid.add_row(self._title, bar, *_parts(progress, self._now, self._folder))
-        note = HELP if self._keys else "Ctrl-C stop, --resume goes on"
-        return Group(grid, Text(f"{_doing(progress, self._now)}  {note}", style="dim"))
+        space = f"space {'go on' if progress.pausing else 'pause between frames'}  " if self._keys else ""
+        return Group(grid, Text(f"{_doing(progress, self._now)}  {space}{STOP}", style="dim"))
 
 
 def _parts(progress: Progress, now: float, folder: Path) -> list[str]:
     """Frames shot, time left, clip so far, what went wrong, room on the disk."""
     parts = [f"{progress.shot} of {progress.slots.frames} frames"]
     if math.isfinite(progress.due) and math.isfinite(now):
-        parts.append(f"{clock(max(0.0, progress.left(now)))} left")
+        parts.append(f"{clock(progress.left(now))} left")
     if progress.clip is not None and progress.fps:
         parts.append(f"clip {progress.clip:.2f} of {progress.slots.frames / progress.fps:.2f} s")
     parts += [f"{count} {name}" for name, count in progress.troubles.items() if count or name == "missed slots"]

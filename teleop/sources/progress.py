@@ -35,7 +35,7 @@ class Progress:
 
     def left(self, now: float) -> float:
         """Seconds until the last frame."""
-        return self.due - now + self.slots.at(self.slots.frames - 1) - self.slots.at(self.frame)
+        return max(0.0, self.due - now) + self.slots.at(self.slots.frames - 1) - self.slots.at(self.frame)
 
     @property
     def clip(self) -> float | None:

@@ -18,7 +18,7 @@ def teleop(*arguments: str, stdin: str = "", cwd: Path | None = None) -> subproc
 
 
 @contextmanager
-def running(*arguments: str) -> Iterator[subprocess.Popen[str]]:
+def running(*arguments: str, cwd: Path | None = None) -> Iterator[subprocess.Popen[str]]:
     """A command in the background, killed when the block ends if it still runs then."""
     process = subprocess.Popen(
         [TELEOP, *arguments],
@@ -27,6 +27,7 @@ def running(*arguments: str) -> Iterator[subprocess.Popen[str]]:
         stderr=subprocess.PIPE,
         text=True,
         bufsize=1,
+        cwd=cwd,
     )
     try:
         yield process

@@ -141,7 +141,8 @@ class Stage:
     """
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.folder, self.clock = folder, Hours()
+        self.folder = folder
+        self.clock: Any = Hours()
         self.gimbals: list[CountingGimbal] = []
         self.said: list[str] = []
         self.executor: Executor | None = None
