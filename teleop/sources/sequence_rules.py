@@ -12,7 +12,7 @@ from teleop.sources.cues import cue_rules
 from teleop.sources.easing import ease_rules
 from teleop.sources.panorama import panorama_limits, panorama_rules
 from teleop.sources.timelapse_section import is_timelapse, timelapse_rules
-from teleop.sources.times import frames, percentage, seconds
+from teleop.sources.times import frame_rate, frames, percentage, seconds
 
 AXES = tuple(axis.value for axis in Axis)
 When = Callable[[Any], float]  # a time as written -> seconds, or output frames
@@ -23,13 +23,13 @@ DEVICES = {"camera": "camera", "follow": "gimbal", "send": "gimbal"}  # what per
 
 def file_rules(data: Any) -> Iterator[Wrong]:
     """Times that are times and in order, keyframes that say something."""
-    fps = number(mapping(data).get("fps"))
+    fps = frame_rate(mapping(data).get("fps"))
     when = frames if is_timelapse(data) else partial(seconds, fps=fps)
     before: tuple[int, float] | None = None
     free: dict[str, tuple[int, float]] = {}  # axis -> the keyframe that holds it, and until when
     for index, frame in enumerate(sequence(data, "keyframes")):
         frame = mapping(frame)
-        if not any(axis in frame for axis in AXES):
+        if all(frame.get(axis) is None for axis in AXES):
             yield ("keyframes", index), f"names no axis ({', '.join(AXES[:4])})"
         at, wrong = _time(frame, "at", when)
         hold, wrong_hold = _time(frame, "hold", when)

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from teleop.document import Location, Wrong, mapping, number, sequence
 from teleop.section import Section
-from teleop.sources.times import frames, seconds
+from teleop.sources.times import frame_rate, frames, seconds
 from teleop.sources.written import Interval, Settle, Time
 
 MOST = 100_000  # frames: more than an hour of clip
@@ -78,7 +78,7 @@ def timelapse_rules(data: Any) -> Iterator[Wrong]:
     for where, ease in _eases(data):
         if isinstance(ease, str) and ease.strip()[-1:] in ("s", "m", "h") and ease[:1].isdigit():
             yield where, f"must be in output frames here (24f), or a share or a name, not {ease!r}"
-    section, fps = mapping(data, "timelapse"), number(mapping(data).get("fps"))
+    section, fps = mapping(data, "timelapse"), frame_rate(mapping(data).get("fps"))
     for name in ("exposure", "prefocus", "post", "delay"):
         yield from _duration(section, fps, name)
     interval = section.get("interval")

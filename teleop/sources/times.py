@@ -81,6 +81,14 @@ def frames(value: Any) -> float:
     raise ValueError(f"must be in output frames (240 or 240f), not {value!r}")
 
 
+def frame_rate(given: Any) -> float | None:
+    """What stands at `fps`, for rules that run beside pydantic; of a rate that is none, some rate: it has its error."""
+    if given is None:
+        return None
+    usable = isinstance(given, int | float) and not isinstance(given, bool) and 0 < given <= 1000
+    return float(given) if usable else 24.0
+
+
 def percentage(value: Any) -> float:
     """`30%` as 0.3. Raises ValueError with what would be right."""
     match = _PERCENT.fullmatch(value.strip()) if isinstance(value, str) else None

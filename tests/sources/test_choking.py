@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 import time
 from pathlib import Path
 
 import pytest
 from command import teleop
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from sequences import LIMITS, load, problems_of
 from teleop.document import DocumentError
@@ -88,3 +91,45 @@ def test_what_is_no_file_is_not_waited_for(tmp_path: Path) -> None:
             load_performance(str(tmp_path / name), LIMITS, "the rig")
     with pytest.raises(DocumentError, match=r"/dev/zero: is no file"):
         load_performance("/dev/zero", LIMITS, "the rig")
+
+
+_WORDS = """
+0 1 -1 3s 96f 00:01:00;02 null true [] {} 30% 1e308 .inf .nan reveal lock operator record stop bounce soft
+"""
+_VALUES = st.sampled_from([*_WORDS.split(), "[54, 38]", "{arrive: 1s}", "gimbal stiffness", "9" * 300])
+
+
+def _section(*keys: str) -> st.SearchStrategy[str]:
+    pairs = st.lists(st.tuples(st.sampled_from(keys), _VALUES), max_size=5, unique_by=lambda pair: pair[0])
+    return pairs.map(lambda given: "{" + ", ".join(f"{key}: {value}" for key, value in given) + "}")
+
+
+_SECTIONS = {
+    "keyframes": ("at", "pan", "tilt", "focus", "hold", "pass", "ease"),
+    "cues": ("at", "camera", "follow", "recenter", "send", "wait"),
+    "include": ("move", "at", "speed"),
+    "panorama": ("fov", "overlap", "pan", "tilt", "every", "settle", "at"),
+    "repeat": ("times", "mode"),
+    "timelapse": ("frames", "interval", "exposure", "settle"),
+}
+_LISTS = ("keyframes", "cues", "include")
+
+
+@st.composite
+def documents(draw: st.DrawFn) -> str:
+    lines = [f"{key}: {draw(_VALUES)}" for key in ("fps", "tension", "ease", "preroll") if draw(st.booleans())]
+    for key, keys in _SECTIONS.items():
+        sections = draw(st.lists(_section(*keys), max_size=3 if key in _LISTS else 1))
+        if sections:
+            lines.append(f"{key}: [{', '.join(sections)}]" if key in _LISTS else f"{key}: {sections[0]}")
+    return "\n".join(lines) + "\n"
+
+
+@given(documents())
+@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_any_document_is_a_performance_or_has_errors_with_places(tmp_path: Path, text: str) -> None:
+    try:
+        load(tmp_path, text)
+    except DocumentError as error:
+        for problem in error.problems:
+            assert re.search(r"\.yaml:\d+:\d+: ", problem) or "the file is empty" in problem, problem
