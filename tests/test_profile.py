@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from teleop.document import DocumentError
-from teleop.motion import Axis
+from teleop.motion import STICKS, Axis
 from teleop.profile import load_profile
 from teleop.shipped import find, folder
 
@@ -182,3 +182,13 @@ def test_what_is_wrong_with_a_drone_is_said_where_it_stands(tmp_path: Path, old:
 
 def test_the_shipped_drones_are_right() -> None:
     assert load_profile("m100").drones == load_profile("sim-drone").drones == {"drone"}
+
+
+@pytest.mark.parametrize("name", ["m100", "sim-drone"])
+def test_the_pad_that_a_shipped_drone_suggests_can_be_used(tmp_path: Path, name: str) -> None:
+    text = (folder("profiles") / f"{name}.yaml").read_text()
+    before, after = text.split("# inputs:")
+    inputs = "".join(line.removeprefix("# ") + "\n" for line in after.splitlines() if line)
+    (tmp_path / "rig.yaml").write_text(f"{before}\ninputs:\n{inputs}")
+    [pad] = load_profile(str(tmp_path / "rig.yaml")).inputs
+    assert {control.axis for control in pad.controls.values() if control} >= set(STICKS)

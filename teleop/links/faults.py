@@ -18,6 +18,7 @@ _ANY = ""
 _NO_PORT = "no port {channel}: is the adapter plugged in? `teleop devices` lists the ports"
 _IN_USE = "{channel} is in use by another program"
 _GONE = "the adapter is gone: plug it in, then start again"
+_HUNG_UP = "returned no data"  # pyserial's words, without a number, for a port whose device is gone
 _UP = "sudo ip link set {channel} up type can bitrate {bitrate}"
 _VIRTUAL_UP = "sudo ip link add dev {channel} type vcan; sudo ip link set {channel} up"
 
@@ -73,7 +74,7 @@ def link_failed(address: LinkAddress, error: BaseException) -> LinkError:
 def _explain(address: LinkAddress, error: BaseException, advice: Mapping[tuple[str, int], str]) -> LinkError:
     cause = system_error(error)
     if cause is None or cause.errno is None:
-        return LinkError(f"{address}: {_first_line(error)}")
+        return LinkError(f"{address}: {_GONE if _HUNG_UP in str(error) else _first_line(error)}")
     virtual = address.interface == "socketcan" and address.channel.startswith("vcan")
     family = "vcan" if virtual else address.interface
     text = advice.get((family, cause.errno)) or advice.get((_ANY, cause.errno))

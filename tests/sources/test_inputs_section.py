@@ -190,3 +190,35 @@ def test_all_of_it_comes_at_once(tmp_path: Path) -> None:
 )
 def test_what_has_another_shape_is_an_error_and_no_exception(tmp_path: Path, inputs: str) -> None:
     assert problems(tmp_path, f"inputs: {inputs}\n")
+
+
+DRONE = """
+  stick_pitch: {min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}
+sinks:
+  - {type: gimbal, link: gimbal, mode: position, rate: 50}
+  - {type: virtual-rc, link: drone}
+"""
+
+
+@pytest.mark.parametrize(
+    ("control", "problem"),
+    [
+        ("{press: engage}", "controls.X must be held: a drone is engaged, and told, by hold"),
+        ("{press: tell, words: drone arm}", "controls.X must be held"),
+        ("{axis: stick_pitch, by: position}", "controls.X must be let go with the hand"),
+        ("{axis: stick_pitch, rest: high}", "controls.X must be let go with the hand"),
+        ("{press: disengage, hold: engage}", ""),
+        ("{press: disengage, hold: tell, words: drone arm}", ""),
+        ("{axis: stick_pitch}", ""),
+    ],
+)
+def test_a_drone_is_told_by_holding_and_flown_by_what_is_let_go(tmp_path: Path, control: str, problem: str) -> None:
+    links = RIG.replace('"virtual:test"}', '"virtual:test", drone: "sim:"}')
+    text = links[: links.index("sinks:")].rstrip() + DRONE
+    (tmp_path / "rig.yaml").write_text(f"{text}inputs: [{{controls: {{X: {control}}}}}]\n")
+    found = []
+    try:
+        load_profile(str(tmp_path / "rig.yaml"))
+    except DocumentError as error:
+        found = error.problems
+    assert [problem in each for each in found] == ([True] if problem else [])
