@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import json
+import math
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from command import running, teleop
 from terminal import terminal
 
+from teleop.cli.flying import HOVER
 from teleop.motion import Axis
+from teleop.sim.beacon import EARTH
+from teleop.takes.messages import Messages
 from teleop.takes.take import read_take
 
 SEQUENCE = """
@@ -22,6 +29,13 @@ keyframes:
 """
 STICKS = "time,stick_pitch\n0,0\n1,0.5\n6,0\n7,0\n"
 RIG = "--rig", "sim-drone"
+
+
+def said_by_drone(take: Path) -> Iterator[tuple[float, dict[str, Any]]]:
+    """What a take has of it, with the times."""
+    for line in Messages(take):
+        if line.topic == "/drone":
+            yield line.time, json.loads(line.data)
 
 
 @pytest.fixture
@@ -60,13 +74,27 @@ def test_one_sequence_moves_sticks_gimbal_and_focus_on_one_clock(sequence: str, 
     assert motion[Axis.PAN][0][-1] == pytest.approx(90)
 
 
-def test_a_take_has_what_the_drone_said(sequence: str, tmp_path: Path) -> None:
-    from mcap.reader import make_reader
+def test_the_shipped_fly_by_keeps_looking_at_what_it_passes(tmp_path: Path) -> None:
+    """Its header says where that is; how far it has flown is what the simulated drone says of itself."""
+    take = tmp_path / "take.mcap"
+    ran = teleop("play", "fly-by", *RIG, "--fast", "--i-understand", "--take", str(take))
+    assert ran.returncode == 0, ran.stderr
+    motion = read_take(take)
+    ahead = above = 0.0
+    for time, state in said_by_drone(take):
+        ahead, above = math.radians(state["latitude"] - 52.5) * EARTH, state["height"] - HOVER
+        if ahead > 0.1:  # the rig is in place; pan goes by at 17 deg/s, and a tenth of a second is how old a place is
+            pan, tilt = (np.interp(time, motion.times, motion.motion[axis][0]) for axis in (Axis.PAN, Axis.TILT))
+            assert pan == pytest.approx(math.degrees(math.atan2(10, 15 - ahead)), abs=3)
+            assert tilt == pytest.approx(-math.degrees(math.atan2(4 + above, math.hypot(10, 15 - ahead))), abs=1)
+    assert ahead == pytest.approx(30, abs=0.5)
+    assert above == pytest.approx(2, abs=0.3)
 
+
+def test_a_take_has_what_the_drone_said(sequence: str, tmp_path: Path) -> None:
     take = tmp_path / "take.mcap"
     assert teleop("play", sequence, *RIG, "--fast", "--i-understand", "--take", str(take)).returncode == 0
-    with take.open("rb") as stream:
-        said = [json.loads(message.data) for _, _, message in make_reader(stream).iter_messages(topics=["/drone"])]
+    said = [state for _, state in said_by_drone(take)]
     stages = [state["stage"] for state in said]
     assert list(dict.fromkeys(stages)) == ["taking", "engaged", "leaving"] or stages[0] == "idle"
     assert 60 < len(said) < 200, "ten times a second"

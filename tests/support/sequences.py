@@ -17,7 +17,7 @@ LIMITS = {
     Axis.TILT: Limits(-56, 146, 90, 180, 900),
     Axis.FOCUS: Limits(0, 1, 0.5, 2, 10),
 }
-RIGS = {"drone-and-gimbal": "sim-drone"}  # of shipped sequences that the simulated rig cannot play
+RIGS = {"fly-by": "sim-drone"}  # of shipped sequences that the simulated rig cannot play
 FLYING = {**LIMITS, Axis.STICK_THROTTLE: STICK, Axis.STICK_YAW: STICK}
 
 
