@@ -10,12 +10,13 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from teleop.cli.flying import is_flown
 from teleop.cli.options import DEFAULTS, Options, warn
 from teleop.cli.timelapse_words import facts, summary
 from teleop.motion import Limits
 from teleop.planner.move import Peaks
-from teleop.planner.warp import at_most
 from teleop.profile import Profile
+from teleop.sources.playback import fastest
 from teleop.sources.sequence_file import Performance
 
 
@@ -29,13 +30,12 @@ def check(
     profile, performance, timelapse = options.compiled(file)
     if timelapse is not None:
         warn(performance)
-    most = at_most(performance.move, profile.limits)
+    most = 1.0 if is_flown(performance.move.tracks) else fastest(performance.move, profile.limits)
     asked = {axis.value: _share(peaks, profile.limits[axis]) for axis, peaks in performance.move.peaks().items()}
     if options.json:
         found = {"ok": True, "title": performance.title, "duration": performance.duration, "axes": asked}
-        speed = None if math.isinf(most) else most
         cues = [{"at": cue.at, "name": cue.name} for cue in performance.cues]
-        found |= {"cues": cues, "speed_at_most": speed, "warnings": list(performance.warnings)}
+        found |= {"cues": cues, "speed_at_most": most, "warnings": list(performance.warnings)}
         print(json.dumps(found if timelapse is None else {**found, "timelapse": facts(timelapse)}))
     else:
         _print(performance, profile, asked)
@@ -44,7 +44,9 @@ def check(
         if performance.cues:
             counted = Counter(cue.name for cue in performance.cues)
             print(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
-        if math.isfinite(most):
+        if is_flown(performance.move.tracks):
+            print("It is flown at its own speed only.")
+        else:
             print(f"It can be played at most at {math.floor(100 * most)} % of its speed.")
     return 0
 

@@ -184,6 +184,11 @@ class Playback:
         self._pace, self._search, self._found = pace, None, None
 
 
+def fastest(move: Move, limits: Mapping[Axis, Limits]) -> float:
+    """The highest speed at which `move` can be played; what it was written for is always possible."""
+    return max(WRITTEN, min(at_most(move, limits), FASTEST))
+
+
 def allowed(rate: float, most: float) -> None:
     """Raises PlanError when the move cannot be played at `rate`."""
     if not 0 <= rate <= most:
