@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from teleop.sources.staging import Staging, Trigger
 
 KEY = "key"  # as in key3, the third keyframe
+_TRIGGER = re.compile(r"--trigger[ =](time|timecode|osc)")
+_WHAT = {"time": re.compile(r"\d+:"), "timecode": re.compile(r"\d+:"), "osc": re.compile(r"([^:/\s]+:)?\d+/")}
 
 
 @Parameter(name="*")
@@ -86,7 +89,8 @@ def joined(arguments: Sequence[str]) -> list[str]:
     """What was typed, with `--trigger time 18:30:00` made one word of, as it is for programs."""
     result: list[str] = []
     for argument in arguments:
-        if result[-2:-1] == ["--trigger"] and result[-1] in ("time", "timecode", "osc") and ":" in argument:
+        kind = _TRIGGER.fullmatch(" ".join(result[-2:])) or _TRIGGER.fullmatch(" ".join(result[-1:]))
+        if kind and _WHAT[kind[1]].match(argument):
             result[-1] += f":{argument}"
         else:
             result.append(argument)

@@ -39,6 +39,7 @@ class Conductor:
     ) -> None:
         self._sequence, self._keys, self._trimming, self._keep = sequence, keys, trimming, keep
         self._note = self._stopped = ""
+        self._noted = sequence.phase  # when that was
         playback = sequence.playback
         self._asked: Mapping[Command, Callable[[float], None]] = {
             Command.PAUSE: self._pause,
@@ -64,6 +65,8 @@ class Conductor:
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         self._hear(now)
         demand, acts = self._sequence.read(now)
+        if self._noted is not self._sequence.phase:
+            self._note, self._noted = "", self._sequence.phase
         if self._trimming:
             demand = self._trimmed(self._trimming, demand)
         return (dict.fromkeys(demand, Halt()), ()) if self._stopped else (demand, acts)

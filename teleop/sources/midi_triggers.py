@@ -34,18 +34,22 @@ def open_port(name: str, listener: Listener) -> Any:
         import mido
         import rtmidi  # noqa: F401 - mido finds it when it is needed, and says little where it is missing
     except ImportError:
-        raise UsageError("--trigger mtc: needs mido and python-rtmidi: pip install 'rs-teleop[midi]'") from None
+        raise UsageError(
+            "--trigger: MIDI timecode needs mido and python-rtmidi: pip install 'rs-teleop[midi]'"
+        ) from None
     if sys.platform == "linux" and not os.path.exists(SEQUENCER):
-        raise DeviceError(f"--trigger mtc: this computer has no MIDI ({SEQUENCER} is missing): sudo modprobe snd-seq")
+        raise DeviceError(f"--trigger: this computer has no MIDI ({SEQUENCER} is missing): sudo modprobe snd-seq")
     try:
         names = mido.get_input_names()  # type: ignore[attr-defined] - made by mido when its backend is loaded
         found = [each for each in names if name in each]
         if len(found) != 1:
             there = f"there are {', '.join(names)}" if names else "there is none"
-            raise UsageError(f"--trigger mtc: which MIDI input? Write mtc:NAME, a part of its name; {there}")
+            raise UsageError(
+                f"--trigger: which MIDI input? Write mtc:NAME or timecode:...@NAME, a part of its name; {there}"
+            )
         return mido.open_input(found[0], callback=listener)  # type: ignore[attr-defined]
     except OSError as error:
-        raise DeviceError(f"--trigger mtc: no MIDI: {error}") from None
+        raise DeviceError(f"--trigger: no MIDI: {error}") from None
 
 
 class _MidiTrigger:

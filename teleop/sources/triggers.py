@@ -24,6 +24,10 @@ _TIMECODE = re.compile(r"([01]\d|2[0-3]):([0-5]\d):([0-5]\d)[:;]([0-2]\d)(?:@(.+
 _OSC = re.compile(r"(?:([^:/\s]+):)?(\d{1,5})(/\S*)")
 
 
+class WrittenError(ValueError):
+    """What stands after a trigger's kind is not what that needs; the text says what would be right."""
+
+
 class KeyTrigger:
     """The operator's go, which any trigger obeys too, and nothing else."""
 
@@ -44,6 +48,7 @@ class ClockTrigger:
     """The next `text` (18:30 or 18:30:00) of this computer's wall clock, which decides: set, it comes sooner or later.
 
     A time that a change to summer time leaves out comes an hour later, one that there is twice comes the first time.
+    Raises WrittenError.
     """
 
     again = False
@@ -51,7 +56,7 @@ class ClockTrigger:
     def __init__(self, text: str, wall: Callable[[], float] = date) -> None:
         match = _TIME.fullmatch(text)
         if match is None:
-            raise UsageError(f"--trigger time:{text}: must be a time of day, as in time:18:30:00")
+            raise WrittenError("must be a time of day, as in time:18:30:00")
         hour, minute, second = (int(part or 0) for part in match.groups())
         self._wall = wall
         now = datetime.fromtimestamp(wall())
@@ -80,21 +85,24 @@ class ClockTrigger:
 def read_trigger(text: str, now: Callable[[], float]) -> Trigger:
     """The trigger that is written so; `now` is the loop's clock. Raises UsageError with what would be right."""
     kind, _, rest = text.partition(":")
-    if kind not in _BUILDERS:
-        raise UsageError(f"--trigger {text}: must be {KINDS}")
-    return _BUILDERS[kind](rest, now)
+    try:
+        if kind not in _BUILDERS:
+            raise WrittenError(f"must be {KINDS}")
+        return _BUILDERS[kind](rest, now)
+    except WrittenError as error:
+        raise UsageError(f"--trigger {text}: {error}") from None
 
 
 def _key(rest: str, _now: Callable[[], float]) -> Trigger:
     if rest:
-        raise UsageError(f"--trigger key:{rest}: is just key; it is the enter key")
+        raise WrittenError("is just key; it is the enter key")
     return KeyTrigger()
 
 
 def _osc(rest: str, _now: Callable[[], float]) -> Trigger:
     match = _OSC.fullmatch(rest)
     if match is None or not 0 < int(match[2]) < 65536:
-        raise UsageError(f"--trigger osc:{rest}: must be a port and an address, as in osc:9000/go")
+        raise WrittenError("must be a port and an address, as in osc:9000/go")
     from teleop.sources.osc_trigger import OscTrigger
 
     return OscTrigger(match[1] or "127.0.0.1", int(match[2]), match[3])
@@ -109,7 +117,7 @@ def _mtc(rest: str, now: Callable[[], float]) -> Trigger:
 def _timecode(rest: str, now: Callable[[], float]) -> Trigger:
     match = _TIMECODE.fullmatch(rest)
     if match is None:
-        raise UsageError(f"--trigger timecode:{rest}: must be a timecode, as in timecode:01:00:00:00")
+        raise WrittenError("must be a timecode, as in timecode:01:00:00:00")
     from teleop.sources.midi_triggers import TimecodeTrigger
 
     return TimecodeTrigger(Label(*(int(part) for part in match.groups()[:4])), match[5] or "", now)

@@ -57,7 +57,7 @@ def test_each_kind_as_it_is_written(text, kind):
     ],
 )
 def test_what_is_none_is_refused_with_what_would_be_right(text):
-    with pytest.raises(UsageError, match=r"(must be|is just) "):
+    with pytest.raises(UsageError, match=f"^--trigger {text}: (must be|is just) "):
         read_trigger(text, lambda: 0.0)
 
 
@@ -70,6 +70,10 @@ def test_two_words_are_as_good_as_one():
         "--loop",
     ]
     assert joined(["--trigger", "timecode", "01:00:00:00", "x"]) == ["--trigger", "timecode:01:00:00:00", "x"]
+    assert joined(["--trigger=time", "18:30", "x"]) == ["--trigger=time:18:30", "x"]
+    for what in ("9000/go", "0.0.0.0:9000/go"):
+        assert joined(["--trigger", "osc", what, "x"]) == ["--trigger", f"osc:{what}", "x"]
+    assert joined(["--trigger", "osc", "./x.yaml"]) == ["--trigger", "osc", "./x.yaml"]
     assert joined(["--trigger", "key", "a:b"]) == ["--trigger", "key", "a:b"]
     assert joined(["play", "time", "1:2"]) == ["play", "time", "1:2"]
 
