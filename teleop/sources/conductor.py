@@ -61,6 +61,7 @@ class Conductor:
 
     def start(self, now: float, motion: Motion) -> None:
         self._sequence.start(now, motion)
+        self._noted = self._sequence.phase
 
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         self._hear(now)

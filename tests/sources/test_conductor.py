@@ -121,7 +121,7 @@ def test_before_the_move_begins_keys_are_answered_and_do_nothing():
 def test_what_was_said_before_the_move_is_not_said_while_it_plays():
     show = Show()
     again = Conductor(show.sequence, show.keys)
-    show.sequence.start(0.0, {Axis.PAN: State(20.0)})
+    again.start(0.0, {Axis.PAN: State(20.0)})
     show.keys.pressed += [PAUSE]
     again.read(DT)
     assert again.note == "the move has not begun"
