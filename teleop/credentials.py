@@ -16,7 +16,8 @@ from typing import Final
 
 from teleop.dji.drone import Activate
 from teleop.dji.encryption import Cipher, CipherError, key_from_hex
-from teleop.document import Document, DocumentError, read_document
+from teleop.document import Document, DocumentError
+from teleop.yaml_text import read_document
 
 APP_ID: Final = "TELEOP_DJI_APP_ID"
 APP_KEY: Final = "TELEOP_DJI_APP_KEY"
@@ -87,7 +88,7 @@ def _environment_key(environment: Mapping[str, str], otherwise: bytes | None) ->
 
 def _read(file: Path) -> Credentials:
     document = read_document(file)
-    if problems := list(_problems(document)):
+    if problems := [*document.flawed(), *_problems(document)]:
         raise DocumentError(problems)
     key = document.data.get("key")
     return Credentials(str(file), document.data.get("app_id"), None if key is None else bytes.fromhex(key))

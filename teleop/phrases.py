@@ -15,14 +15,17 @@ def nearest(word: str, known: Sequence[str]) -> str:
     return f"; did you mean {near[0]}?" if near else ""
 
 
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
+    """What stands in a file, shortened, as it may be written there."""
+    if value is None:
+        return "empty"
     text = repr(value) if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
     return text if len(text) <= 40 else text[:37] + "..."
 
 
 def _kind(what: str) -> Phrase:
     def phrase(_: Mapping[str, Any], given: Any) -> str:
-        return f"must be {what}, not {'empty' if given is None else _shown(given)}"
+        return f"must be {what}, not {shown(given)}"
 
     return phrase
 
@@ -40,7 +43,7 @@ def _bound(words: str, key: str) -> Phrase:
 def _one_of(context: Mapping[str, Any], given: Any) -> str:
     expected = str(context.get("expected") or context.get("expected_tags") or "")
     words = expected.replace("'", "").replace(" or ", ", ").split(", ")
-    return f"must be one of {', '.join(words)}, not {_shown(given)}{nearest(str(given), words)}"
+    return f"must be one of {', '.join(words)}, not {shown(given)}{nearest(str(given), words)}"
 
 
 PHRASES: Mapping[str, Phrase] = {
@@ -60,11 +63,12 @@ PHRASES: Mapping[str, Phrase] = {
     "model_attributes_type": _kind("a mapping"),
     "list_type": _kind("a list"),
     "too_short": lambda context, _given: f"must have at least {context['min_length']}",
+    "string_too_long": lambda context, _given: f"must be at most {context['max_length']} characters",
     "string_too_short": lambda _context, _given: "must not be empty",
     "literal_error": _one_of,
     "enum": _one_of,
     "union_tag_invalid": lambda context, _given: (
-        f"type must be one of {str(context['expected_tags']).replace(chr(39), '')}, not {_shown(context['tag'])}"
+        f"type must be one of {str(context['expected_tags']).replace(chr(39), '')}, not {shown(context['tag'])}"
     ),
     "union_tag_not_found": lambda _context, _given: "needs a type",
     "value_error": lambda context, _given: str(context["error"]),

@@ -14,7 +14,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from teleop.document import Document, DocumentError, Wrong, mapping, number, read_document
+from teleop.document import Document, DocumentError, Wrong, mapping, number
 from teleop.links.url import LinkUrlError, parse
 from teleop.motion import Axis, Limits
 from teleop.profile_sinks import DRONES, FlightSection, Magnitude, SinkSection, VirtualRcSection, sink_rules
@@ -22,6 +22,7 @@ from teleop.section import Finite, Section
 from teleop.shipped import find
 from teleop.sources.handling import PresetsSection, SticksSection
 from teleop.sources.inputs_section import InputSection, input_rules
+from teleop.yaml_text import read_document
 
 AxisName = Annotated[Axis, Field(strict=False)]
 

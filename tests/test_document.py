@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import Field
 
-from teleop.document import DocumentError, mapping, number, parse_document, read_document, sequence
+from teleop.document import DocumentError, mapping, number, sequence
 from teleop.section import Section
+from teleop.yaml_text import parse_document, read_document
 
 
 class Part(Section):
@@ -74,6 +75,38 @@ def test_a_key_that_stands_twice_is_refused() -> None:
     assert problems_of("count: 1\nparts: []\ncount: 2\n") == ["f.yaml:3:1: count stands here for the second time"]
 
 
+def test_what_the_text_has_that_is_not_used_is_reported_with_the_rest() -> None:
+    text = "parts:\n  - &a {size: 1, size: -2}\n  - {<<: *a, size: x}\n? [x]\n: 1\ncount: !n 1.5\n"
+    assert problems_of(text) == [
+        "f.yaml:2:18: parts[0].size stands here for the second time",
+        "f.yaml:2:24: parts[0].size must be positive",
+        "f.yaml:3:6: parts[1].<< would merge, which YAML 1.2 does not: write out what it adds",
+        "f.yaml:3:20: parts[1].size must be a number, not 'x'",
+        "f.yaml:4:3: has a key that is not a word",
+        "f.yaml:6:8: count has a tag, !n; no tags are used here",
+        "f.yaml:6:8: count must be a whole number, not 1.5",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("parts: []\ncount: \x07", "2:8: not YAML: a control character, U+0007"),
+        ("parts: []\r\r\ncount: \x9f", "3:8: not YAML: a control character, U+009F"),
+        ("parts: []\nname: a\u2028b", "2:8: not YAML: a control character, U+2028"),
+        ("parts:\n\t- {size: 1}", "2:1: not YAML: a tab; indent with spaces"),
+        ("parts: []\n---\nparts: []", "2:1: not YAML: a second document begins here, and a file holds one"),
+        ('parts: [{size: 1, name: "\\e[31m"}]', "1:25: parts[0].name has a control character, U+001B"),
+        ('parts: [{size: 1, "\\e[31m": 2}]', "1:19: parts[0] has a key that is not a word"),
+        ('parts: []\n"a\\nb": 2', "2:1: has a key that is not a word"),
+    ],
+)
+def test_what_would_not_be_seen_on_a_screen_has_a_place_and_is_not_shown(text: str, problem: str) -> None:
+    with pytest.raises(DocumentError) as caught:
+        parse_document(text, "f.yaml").check(Whole)
+    assert caught.value.problems == [f"f.yaml:{problem}"]
+
+
 def test_callers_rules_are_reported_with_the_rest() -> None:
     document = parse_document("parts: []\ncount: x\n", "f.yaml")
     with pytest.raises(DocumentError) as caught:
@@ -122,9 +155,15 @@ def test_a_file_that_is_missing_huge_or_not_text_is_refused(tmp_path) -> None:
     (tmp_path / "huge.yaml").write_bytes(b"a: " + b"x" * 5_000_000)
     with pytest.raises(DocumentError, match="larger than 4 MB"):
         read_document(tmp_path / "huge.yaml")
-    (tmp_path / "binary.yaml").write_bytes(b"\xff\xfe\xfa")
-    with pytest.raises(DocumentError, match="not UTF-8"):
-        read_document(tmp_path / "binary.yaml")
+    for raw, said in (
+        (b"title: a\nname: caf\xe9\n", "2:10: is not UTF-8 text but has a byte 0xE9; save it as UTF-8"),
+        ("a: 1".encode("utf-16"), "1:1: is not UTF-8 text but has UTF-16; save it as UTF-8"),
+    ):
+        (tmp_path / "binary.yaml").write_bytes(raw)
+        with pytest.raises(DocumentError, match=rf"binary.yaml:{said}"):
+            read_document(tmp_path / "binary.yaml")
+    (tmp_path / "marked.yaml").write_bytes(b"\xef\xbb\xbfa: 1\r\n")
+    assert read_document(tmp_path / "marked.yaml").data == {"a": 1}
 
 
 @given(st.text(max_size=200))

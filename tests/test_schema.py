@@ -11,12 +11,13 @@ import pytest
 from command import teleop
 from jsonschema import Draft202012Validator
 
-from teleop.document import DocumentError, parse_document
+from teleop.document import DocumentError
 from teleop.profile import Profile
 from teleop.schema import KINDS, schema
 from teleop.shipped import folder
 from teleop.sources.sequence_rules import file_rules
 from teleop.sources.sequence_section import SequenceSection
+from teleop.yaml_text import parse_document
 
 SHIPPED = [
     (kind, file)

@@ -11,7 +11,7 @@ from typing import Any
 
 from teleop.document import Wrong, mapping, sequence
 from teleop.motion import Axis
-from teleop.phrases import nearest
+from teleop.phrases import nearest, shown
 from teleop.planner.ramp import LONGEST_SHARE, NAMES, SMOOTH, Ramp
 from teleop.sources.times import seconds
 
@@ -43,7 +43,7 @@ def ramp(value: Any, fps: float | None) -> Ramp | None:
         return Ramp(seconds=seconds(value, fps))
     except ValueError as error:
         wrong = str(error)
-    raise ValueError(f"must be {_WRITTEN}, not {value!r}" if wrong.startswith("must be a time") else wrong)
+    raise ValueError(f"must be {_WRITTEN}, not {shown(value)}" if wrong.startswith("must be a time") else wrong)
 
 
 def ramps(value: Any, fps: float | None, otherwise: Ramps = (None, None)) -> Ramps:

@@ -13,7 +13,6 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 
-from teleop.document import read_document
 from teleop.motion import Axis
 from teleop.shipped import find, folder
 from teleop.sources.hid_backend import DeviceInfo
@@ -29,6 +28,7 @@ from teleop.sources.inputs_section import (
     PadSection,
     control_rules,
 )
+from teleop.yaml_text import read_document
 
 STICKS = frozenset({(0x01, 0x04), (0x01, 0x05), (0x01, 0x08)})  # joystick, gamepad, multi-axis controller
 MULTI_AXIS = (0x01, 0x08)

@@ -22,10 +22,11 @@ from typing import Any
 
 from pydantic import Field
 
-from teleop.document import Wrong, mapping, number, read_document
+from teleop.document import Wrong, mapping, number
 from teleop.motion import Axis, Limits
 from teleop.ports import UsageError
 from teleop.section import PositionsSection, Section
+from teleop.yaml_text import read_document
 
 DIGITS = 4  # behind the point: finer than any gimbal measures
 PATIENCE = 5.0  # s to wait at the end for a disk that does not answer

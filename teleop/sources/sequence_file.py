@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from teleop.document import DocumentError, UnplayableError, path_text
 from teleop.motion import Axis, Limits
@@ -79,7 +78,7 @@ def load_performance(
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
         if sticks := [axis for axis in move.tracks if axis in STICKS]:
             warnings.append(document.problem(("fit",), f"does so to {', '.join(sticks)} too: the drone flies further"))
-    title, preroll = sheet.title or Path(document.name).stem, seconds(sheet.preroll, sheet.fps)
+    title, preroll = sheet.called(document.name), seconds(sheet.preroll, sheet.fps)
     done = [timed.cue for timed in cues]
     return Performance(title, move, done, warnings, keys, preroll, sheet.back_to_one, sheet.fps)
 

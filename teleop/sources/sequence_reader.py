@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from teleop.document import Document, DocumentError, mapping, read_document, sequence
+from teleop.document import Document, DocumentError, mapping, sequence
 from teleop.motion import Axis, Limits
 from teleop.shipped import find, is_bare
 from teleop.sources.sequence_rules import STICKS, file_rules, rig_rules
@@ -20,6 +20,7 @@ from teleop.sources.sequence_script import Block, Place, Script, finish, joined
 from teleop.sources.sequence_section import SequenceSection
 from teleop.sources.timelapse_section import is_timelapse
 from teleop.sources.times import percentage, seconds
+from teleop.yaml_text import read_document
 
 DEEPEST = 8  # files within files
 MOST_FILES = 200  # each counted as often as it is included

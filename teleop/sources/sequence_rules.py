@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from typing import Any
@@ -127,7 +128,7 @@ def rig_rules(
     for index, frame in enumerate(sequence(data, "keyframes")):
         for axis in AXES:
             position = number(mapping(frame).get(axis))
-            if position is None:
+            if position is None or not math.isfinite(position):
                 continue
             if axis not in by_name:
                 yield ("keyframes", index, axis), f"cannot be: {rig} has no {axis}; it has {', '.join(by_name)}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import ConfigDict, Field
@@ -15,6 +16,7 @@ from teleop.sources.timelapse_section import TimelapseSection
 from teleop.sources.written import Ease, Percentage, Time
 
 PREROLL = 0.5  # s at rest on the first keyframe before the start, unless the file says otherwise
+LONGEST_TITLE = 200  # characters: it stands in a line of the screen
 
 Deflection = Annotated[Finite, Field(ge=-1, le=1)]
 
@@ -81,7 +83,7 @@ class SequenceSection(Section):
 
     model_config = one_of("keyframes", "panorama", "include")
 
-    title: str = ""
+    title: Annotated[str, Field(max_length=LONGEST_TITLE)] = ""
     fps: Annotated[float, Field(gt=0, le=1000)] | None = None
     tension: Annotated[float, Field(ge=0, le=1)] = 0.0
     ease: Ease = None
@@ -94,3 +96,7 @@ class SequenceSection(Section):
     panorama: PanoramaSection | None = None
     include: list[IncludeSection] = Field(default_factory=list)
     cues: list[CueSection] = Field(default_factory=list)
+
+    def called(self, file: str) -> str:
+        """The title in one line, else the file's name without its ending."""
+        return " ".join(self.title.split()) or Path(file).stem

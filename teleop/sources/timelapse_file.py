@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from teleop.document import Document, DocumentError, UnplayableError, read_document
+from teleop.document import Document, DocumentError, UnplayableError
 from teleop.motion import Axis, Limits
 from teleop.planner.findings import Infeasible
 from teleop.planner.keyframes import Key, stretch
@@ -31,6 +30,7 @@ from teleop.sources.slots import Slots
 from teleop.sources.timelapse_budget import Phases, budget
 from teleop.sources.timelapse_section import TimelapseSection, is_timelapse
 from teleop.sources.times import seconds
+from teleop.yaml_text import read_document
 
 SHOWN_AT = 24.0  # frames a second, of a rehearsal where the file does not say it
 
@@ -156,7 +156,7 @@ def _compiled(
     remarks = [line_at(document, remark.last, str(remark)) for remark in [*move.overshoots, *move.long_ramps]]
     remarks += [document.problem(("timelapse", "interval"), text) for text in warnings]
     return Timelapse(
-        sheet.title or Path(document.name).stem,
+        sheet.called(document.name),
         sheet.fps,
         slots,
         path,

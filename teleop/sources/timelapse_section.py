@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from teleop.document import Location, Wrong, mapping, number, sequence
+from teleop.phrases import shown
 from teleop.section import Section
 from teleop.sources.times import frame_rate, frames, seconds
 from teleop.sources.written import Interval, Settle, Time
@@ -77,7 +78,7 @@ def timelapse_rules(data: Any) -> Iterator[Wrong]:
             yield (name,), f"has no place beside timelapse: {reason}"
     for where, ease in _eases(data):
         if isinstance(ease, str) and ease.strip()[-1:] in ("s", "m", "h") and ease[:1].isdigit():
-            yield where, f"must be in output frames here (24f), or a share or a name, not {ease!r}"
+            yield where, f"must be in output frames here (24f), or a share or a name, not {shown(ease)}"
     section, fps = mapping(data, "timelapse"), frame_rate(mapping(data).get("fps"))
     for name in ("exposure", "prefocus", "post", "delay"):
         yield from _duration(section, fps, name)
@@ -126,7 +127,7 @@ def _mapping_rules(
         elif positive is not None:
             yield from _duration(value, fps, key, (name,), positive=positive)
         elif not 0 < (number(value[key]) or 0) <= 100:
-            yield ("timelapse", name, key), f"must be a rate above 0 deg/s, not {value[key]!r}"
+            yield ("timelapse", name, key), f"must be a rate above 0 deg/s, not {shown(value[key])}"
 
 
 def _duration(

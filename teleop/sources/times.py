@@ -8,6 +8,8 @@ import math
 import re
 from typing import Any
 
+from teleop.phrases import shown
+
 _PARTS = re.compile(r"(?:(\d+(?:\.\d+)?)h)?(?:(\d+(?:\.\d+)?)m)?(?:(\d+(?:\.\d+)?)s)?")
 _FRAMES = re.compile(r"(\d+)f")
 _TIMECODE = re.compile(r"(\d+):([0-5]\d):([0-5]\d)([:;])(\d+)")
@@ -31,7 +33,7 @@ def seconds(value: Any, fps: float | None) -> float:
     """
     time = _seconds(value, fps)
     if time > LONGEST:
-        raise ValueError(f"must be at most {LONGEST / 86400:g} days, not {value!r}"[:200])
+        raise ValueError(f"must be at most {LONGEST / 86400:g} days, not {shown(value)}")
     return time
 
 
@@ -49,7 +51,7 @@ def _seconds(value: Any, fps: float | None) -> float:
     if match := _TIMECODE.fullmatch(text):
         hours, minutes, whole, mark, number = match.groups()
         return _timecode(text, (int(hours), int(minutes), int(whole), int(number)), _needed(fps, text), mark == ";")
-    raise ValueError(f"must be a time ({_WRITTEN}), not {value!r}"[:200])
+    raise ValueError(f"must be a time ({_WRITTEN}), not {shown(value)}")
 
 
 def _timecode(text: str, parts: tuple[int, int, int, int], fps: float, drop: bool) -> float:
@@ -78,7 +80,7 @@ def frames(value: Any) -> float:
         return float(value)
     if isinstance(value, str) and (match := _FRAMES.fullmatch(value.strip())):
         return float(match[1])
-    raise ValueError(f"must be in output frames (240 or 240f), not {value!r}")
+    raise ValueError(f"must be in output frames (240 or 240f), not {shown(value)}")
 
 
 def frame_rate(given: Any) -> float | None:
@@ -93,7 +95,7 @@ def percentage(value: Any) -> float:
     """`30%` as 0.3. Raises ValueError with what would be right."""
     match = _PERCENT.fullmatch(value.strip()) if isinstance(value, str) else None
     if not match:
-        raise ValueError(f"must be a percentage (30%), not {value!r}")
+        raise ValueError(f"must be a percentage (30%), not {shown(value)}")
     return float(match[1]) / 100
 
 

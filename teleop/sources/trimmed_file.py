@@ -14,10 +14,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from teleop.document import Document, DocumentError, Location, mapping, number, read_document, sequence
+from teleop.document import Document, DocumentError, Location, mapping, number, sequence
 from teleop.motion import Axis, Limits, State
 from teleop.ports import DeviceError, UsageError
 from teleop.shipped import find
+from teleop.yaml_text import read_document
 
 PLACES = 4  # decimals of a key, in degrees or of 0..1: finer than any rig
 _TOKEN = re.compile(r"[^\s,\]}#]+")

@@ -180,3 +180,19 @@ def test_a_program_plans_a_sequence_for_a_rig_in_one_call(tmp_path: Path) -> Non
     assert move.duration == 4
     assert move.at(4)[Axis.PAN].position == 20
     assert teleop.plan("reveal").duration == 15
+
+
+def test_a_title_stands_in_one_line_of_a_screen(tmp_path: Path) -> None:
+    text = "keyframes: [{at: 0, pan: 0}]\n"
+    assert load(tmp_path, "title: |\n  Two\n  lines\n" + text).title == "Two lines"
+    assert load(tmp_path, "title: ' '\n" + text).title == "shoot"
+    assert problems_of(tmp_path, f"title: {'x' * 201}\n{text}") == [
+        "shoot.yaml:1:8: title must be at most 200 characters"
+    ]
+
+
+def test_what_is_empty_is_called_so(tmp_path: Path) -> None:
+    assert problems_of(tmp_path, "keyframes:\n  - {at: , pan: 1, hold: ~}\n") == [
+        "shoot.yaml:2:10: keyframes[0].at must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty",
+        "shoot.yaml:2:26: keyframes[0].hold must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty",
+    ]
