@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,12 @@ import pytest
 from command import teleop
 from jsonschema import Draft202012Validator
 
-from teleop.document import DocumentError
+from teleop.document import Document, DocumentError
 from teleop.profile import Profile
 from teleop.schema import KINDS, schema
 from teleop.shipped import folder
 from teleop.sources.sequence_rules import file_rules
+from teleop.sources.sequence_script import Script
 from teleop.sources.sequence_section import SequenceSection
 from teleop.yaml_text import parse_document
 
@@ -105,6 +107,11 @@ WRONG = [
     "keyframes: 3",
     "include: [{move: reveal}]",
     "include: [{move: reveal, at: 0, speed: 2}]",
+    "keyframes: [{at: 1e308, pan: 1}]",
+    "keyframes: [{at: 0, pan: 1, ease: 60%}]",
+    "keyframes: [{at: 0, pan: 1, hold: 1000000000}]",
+    "panorama: {fov: [54, 38], pan: [0, 9], tilt: [0, 9], every: 3s, overlap: 91%}",
+    "timelapse: {frames: 9, interval: 0, exposure: 0}\nkeyframes: [{at: 0, pan: 1}]",
     "panorama: {fov: [54], pan: [0, 9], tilt: [0, 9], every: 3s}",
     "panorama: {fov: [54, 0], pan: [0, 9], tilt: [0, 9], every: 3s}",
     "panorama: {fov: [54, 38], pan: [0, 9], tilt: [0, 9], every: 3s, overlap: 30}",
@@ -132,6 +139,59 @@ def test_what_is_right_is_accepted_by_both(text: str) -> None:
 def test_what_is_wrong_is_refused_by_both(text: str) -> None:
     assert errors("sequence", text)
     assert is_refused(text)
+
+
+VALUES = """[
+  0, 1, -1, 1.5, -0.0, 1e308, .inf, .nan, 0x10, null, true, [], {}, '', text, reveal, record, lock, operator, bounce,
+  soft, smooth, stop, 3s, 4.5s, 1m30s, 2h, 1h2m3s, 1000000h, 96f, 0f, 00:01:00;02, 00:61:00:00, 12:30, '3', '4 s',
+  '  3s ', 1e3s, ٣s, 5%, 50%, 50.1%, 60%, 90%, 91%, 100%, 100.00%, 500%, 030%, 30.5%, 30 %, [54, 38], [0, 90], [200, 3],
+  [1], {arrive: 1s}, {arrive: soft, leave: 30%}, {arrive: x}, {from: 2s, to: 3s}, {from: 0, to: 3s},
+  {below: 0.1, at_most: 2s},
+]"""
+KEYS = {
+    "keyframes": ({"at": 0, "tilt": 1}, "at pan focus hold pass ease stick_yaw"),
+    "cues": ({"at": 0}, "at camera follow recenter send wait"),
+    "include": ({"move": "reveal", "at": 0}, "move at speed"),
+    "panorama": (
+        {"fov": [54, 38], "pan": [0, 90], "tilt": [0, 40], "every": 3},
+        "fov overlap pan tilt every settle exposure at",
+    ),
+    "repeat": ({"times": 2, "mode": "loop"}, "times mode"),
+    "timelapse": (
+        {"frames": 9, "interval": 3, "exposure": 0.1},
+        "frames interval exposure settle mode lead_in delay prefocus post",
+    ),
+    "": ({}, "title fps tension ease fit preroll back_to_one"),
+}
+"""Each section with what it needs, and what may stand in it."""
+
+
+def documents(section: str) -> Iterator[dict[str, Any]]:
+    """Sound ones, but for what stands at one key."""
+    needed, keys = KEYS[section]
+    for key, value in product(keys.split(), parse_document(VALUES, "values").data):
+        given = {"at": 0, "camera": "stop"} if section == "cues" and key == "at" else needed
+        of_section = {**given, key: value}
+        data = {"fps": 29.97, "keyframes": [{"at": 0, "tilt": 1}]}
+        listed = section in ("keyframes", "cues", "include")
+        yield {**data, **(of_section if not section else {section: [of_section] if listed else of_section})}
+
+
+@pytest.mark.parametrize("section", KEYS)
+def test_whatever_stands_at_a_key_is_read_or_refused_and_no_editor_is_stricter(section: str) -> None:
+    validator = Draft202012Validator(schema("sequence"))
+    accepted = 0
+    for data in documents(section):
+        document = Document("f.yaml", data, dict.fromkeys([("cues", 0), ("keyframes", 0)], (1, 1)))
+        try:
+            sheet = document.check(SequenceSection, file_rules(data))
+        except DocumentError:
+            continue
+        accepted += 1
+        assert not list(validator.iter_errors(data)), data
+        if sheet.timelapse is None:
+            Script.of(document, sheet).own_blocks()  # reads every value again, and raises nothing
+    assert accepted > 2
 
 
 @pytest.mark.parametrize(

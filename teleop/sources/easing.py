@@ -18,7 +18,7 @@ from teleop.sources.times import seconds
 Ramps = tuple[Ramp | None, Ramp | None]  # arrival and departure; None: as smooth as can be
 ENDS = ("arrive", "leave")
 
-_SHARE = re.compile(r"(\d+(?:\.\d+)?)\s*%")
+_SHARE = re.compile(r"([0-9]+(?:\.[0-9]+)?)\s*%")
 _WRITTEN = f"1.5s, 25%, {SMOOTH}, {' or '.join([', '.join([*NAMES][:-1]), [*NAMES][-1]])}"
 
 

@@ -19,11 +19,10 @@ from teleop.motion import Axis, Limits
 from teleop.planner.waypoints import Key
 from teleop.section import Finite, Section
 from teleop.sources.times import percentage, seconds
-from teleop.sources.written import Percentage, Time
+from teleop.sources.written import MOST_OVERLAP, Overlap, Time
 
 WHERE = "panorama"
 MOST = 2000  # frames
-MOST_OVERLAP = 0.9
 BIGGEST = 1e6  # deg: what is beyond is for others to refuse
 ROUNDING = 1e-9  # of a frame: what is that close to a whole number is one
 TIMES = ("at", "every", "settle", "exposure")
@@ -41,7 +40,7 @@ class PanoramaSection(Section):
     """
 
     fov: Angles
-    overlap: Percentage = "30%"
+    overlap: Overlap = "30%"
     pan: Pair
     tilt: Pair
     every: Time

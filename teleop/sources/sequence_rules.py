@@ -58,9 +58,10 @@ def file_rules(data: Any) -> Iterator[Wrong]:
     yield from panorama_rules(data, fps)
     for index, cue in enumerate(sequence(data, "cues")):
         yield from cue_rules(cue, ("cues", index))
-        for key in ("at", "recenter"):
-            if mapping(cue).get(key) is not None and (wrong := _time(mapping(cue), key, when)[1]):
-                yield ("cues", index, key), wrong
+        if wrong := _time(mapping(cue), "at", when)[1]:
+            yield ("cues", index, "at"), wrong
+        if mapping(cue).get("recenter") is not None and (wrong := _time(mapping(cue), "recenter", when)[1]):
+            yield ("cues", index, "recenter"), wrong
     for index, entry in enumerate(sequence(data, "include")):
         yield from _include_rules(mapping(entry), ("include", index), when)
 

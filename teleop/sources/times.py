@@ -10,13 +10,13 @@ from typing import Any
 
 from teleop.phrases import shown
 
-_PARTS = re.compile(r"(?:(\d+(?:\.\d+)?)h)?(?:(\d+(?:\.\d+)?)m)?(?:(\d+(?:\.\d+)?)s)?")
-_FRAMES = re.compile(r"(\d+)f")
-_TIMECODE = re.compile(r"(\d+):([0-5]\d):([0-5]\d)([:;])(\d+)")
+_PARTS = re.compile(r"(?:([0-9]+(?:\.[0-9]+)?)h)?(?:([0-9]+(?:\.[0-9]+)?)m)?(?:([0-9]+(?:\.[0-9]+)?)s)?")
+_FRAMES = re.compile(r"([0-9]+)f")
+_TIMECODE = re.compile(r"([0-9]+):([0-5][0-9]):([0-5][0-9])([:;])([0-9]+)")
 LONGEST = 31 * 86400.0  # s
 LONGEST_TEXT = 40  # characters: what is longer is no time, and a number of so many digits no number
 DROPPED = {29.97: 2, 59.94: 4}  # fps, nominally -> frame numbers left out in a minute
-_PERCENT = re.compile(r"(\d{1,6}(?:\.\d{1,6})?)\s*%")
+_PERCENT = re.compile(r"([0-9]{1,6}(?:\.[0-9]{1,6})?)\s*%")
 TIME_WRITTEN = rf"^\s*(?=\S)({_PARTS.pattern}|{_FRAMES.pattern}|{_TIMECODE.pattern})\s*$"
 FRAMES_WRITTEN = rf"^\s*({_FRAMES.pattern})\s*$"
 PERCENTAGE_WRITTEN = rf"^\s*({_PERCENT.pattern})\s*$"

@@ -10,28 +10,39 @@ from typing import Annotated, Any
 
 from pydantic import WithJsonSchema
 
-from teleop.planner.ramp import NAMES, SMOOTH
-from teleop.sources.times import FRAMES_WRITTEN, PERCENTAGE_WRITTEN, TIME_WRITTEN
+from teleop.planner.ramp import LONGEST_SHARE, NAMES, SMOOTH
+from teleop.sources.times import FRAMES_WRITTEN, LONGEST, PERCENTAGE_WRITTEN, TIME_WRITTEN
 
-_PERCENTAGE = {"type": "string", "pattern": PERCENTAGE_WRITTEN}
-_TIME = {"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": TIME_WRITTEN}]}
+MOST_OVERLAP = 0.9
+
+_TIME = {"anyOf": [{"type": "number", "minimum": 0, "maximum": LONGEST}, {"type": "string", "pattern": TIME_WRITTEN}]}
 _FRAMES = {"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": FRAMES_WRITTEN}]}
-_RAMP = {"anyOf": [{"enum": [SMOOTH, *NAMES]}, _PERCENTAGE, *_TIME["anyOf"]]}
+
+
+def _share_to(most: float) -> dict[str, Any]:
+    """A percentage up to `most`, which is a share that is whole in tens."""
+    tens = round(10 * most)
+    pattern = rf"^\s*0{{0,4}}({tens}0(\.0+)?|[0-{tens - 1}]?[0-9](\.[0-9]+)?)\s*%\s*$"
+    return {"type": "string", "pattern": pattern}
 
 
 def _mapping(required: list[str], **properties: Any) -> dict[str, Any]:
     return {"type": "object", "properties": properties, "required": required, "additionalProperties": False}
 
 
+_RAMP = {"anyOf": [{"enum": [SMOOTH, *NAMES]}, _share_to(LONGEST_SHARE), *_TIME["anyOf"]]}
+_SPAN = {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": LONGEST}, _TIME["anyOf"][1]]}
+
 Time = Annotated[Any, WithJsonSchema({**_TIME, "examples": [4, "4s", "1m30s", "96f", "00:00:04:00"]})]
-Percentage = Annotated[Any, WithJsonSchema({**_PERCENTAGE, "examples": ["30%"]})]
+Percentage = Annotated[Any, WithJsonSchema({"type": "string", "pattern": PERCENTAGE_WRITTEN, "examples": ["30%"]})]
+Overlap = Annotated[Any, WithJsonSchema({**_share_to(MOST_OVERLAP), "examples": ["30%"]})]
 Ease = Annotated[
     Any,
     WithJsonSchema({"anyOf": [*_RAMP["anyOf"], _mapping([], arrive=_RAMP, leave=_RAMP)], "examples": ["1.5s", "25%"]}),
 ]
 Interval = Annotated[
     Any,
-    WithJsonSchema({"anyOf": [*_TIME["anyOf"], _mapping(["from", "to"], **{"from": _TIME, "to": _TIME})]}),
+    WithJsonSchema({"anyOf": [*_SPAN["anyOf"], _mapping(["from", "to"], **{"from": _SPAN, "to": _SPAN})]}),
 ]
 Settle = Annotated[
     Any,

@@ -74,6 +74,7 @@ def test_each_kind_becomes_what_its_device_is_told(tmp_path: Path) -> None:
         ("at: 0, send: gimbal track", "6:19: cues[0].send would have the gimbal move by itself, against the keyframes"),
         ("at: 0, send: 3", "6:19: cues[0].send must be text, not 3"),
         ("send: gimbal angles", "6:5: cues[0].at is missing"),
+        ("at: , camera: stop", "6:10: cues[0].at must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty"),
     ],
 )
 def test_what_is_wrong_with_a_cue_is_said_at_its_place(tmp_path: Path, cue: str, problem: str) -> None:
