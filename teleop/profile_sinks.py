@@ -16,7 +16,7 @@ from teleop.dji.virtual_rc import CENTRE, DEFLECTION
 from teleop.document import Location, Wrong, mapping, number, sequence
 from teleop.links.url import LinkUrlError, parse
 from teleop.motion import STICKS, Axis
-from teleop.section import Section
+from teleop.section import NoTruth, Section
 
 AXES = frozenset(axis.value for axis in Axis)
 MIN_SPEED_RATE = 5  # Hz: a gimbal forgets a speed after 0.5 s
@@ -33,7 +33,8 @@ FLIGHT_MODES: Mapping[str, tuple[Horizontal, Frame]] = {
 
 Magnitude = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
-Rate = Literal[1, 2, 4, 5, 10, 20, 25, 50, 100]  # Hz: whole numbers of the loop's ticks
+Rate = Annotated[Literal[1, 2, 4, 5, 10, 20, 25, 50, 100], NoTruth]  # Hz: whole numbers of the loop's ticks
+Sign = Annotated[Literal[1, -1], NoTruth]
 Angle = Literal["pan", "tilt", "roll"]
 Channel = Annotated[int, Field(ge=CENTRE - DEFLECTION, le=CENTRE + DEFLECTION)]
 LowBattery = Annotated[int, Field(ge=10, le=90)]
@@ -72,7 +73,7 @@ class GimbalSection(Section):
     delay: Annotated[float, Field(ge=0, le=0.5)] = 0.0
     gains: GainsSection = GainsSection()
     follow: Annotated[float, Field(gt=0, le=180)] = 5.0
-    signs: dict[Angle, Literal[1, -1]] = Field(default_factory=dict)
+    signs: dict[Angle, Sign] = Field(default_factory=dict)
     mapping: dict[Literal["yaw", "roll", "pitch"], Angle] = Field(
         default_factory=lambda: {"yaw": "pan", "roll": "roll", "pitch": "tilt"}
     )

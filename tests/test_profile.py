@@ -61,6 +61,8 @@ def test_a_good_profile_gives_the_limits_of_each_axis(tmp_path: Path) -> None:
             "mode: warp",
             "rig.yaml:12:40: sinks[0].mode must be one of position, speed, stick, not 'warp'",
         ),
+        ("rate: 50", "rate: true", "rig.yaml:12:56: sinks[0].rate must be a number, not true"),
+        ("rate: 50", "rate: 50, signs: {pan: true}", "rig.yaml:12:73: sinks[0].signs.pan must be a number, not true"),
         (
             "rate: 50",
             "rate: 30",

@@ -26,6 +26,29 @@ def file_rules(data: Any) -> Iterator[Wrong]:
     """Times that are times and in order, keyframes that say something."""
     fps = frame_rate(mapping(data).get("fps"))
     when = frames if is_timelapse(data) else partial(seconds, fps=fps)
+    yield from _keyframe_rules(data, when)
+    yield from _stick_rules(data)
+    if isinstance(data, dict) and not data.keys() & {"keyframes", "include", "panorama"}:
+        yield ("keyframes",), "is missing"
+    if is_timelapse(data):
+        yield from ease_rules(data, 1.0)  # a ramp of 24f takes 24 frames
+        yield from timelapse_rules(data)
+        return
+    yield from ease_rules(data, fps)
+    if wrong := _time(mapping(data), "preroll", when)[1]:
+        yield ("preroll",), wrong
+    yield from panorama_rules(data, fps)
+    for index, cue in enumerate(sequence(data, "cues")):
+        yield from cue_rules(cue, ("cues", index))
+        if wrong := _time(mapping(cue), "at", when)[1]:
+            yield ("cues", index, "at"), wrong
+        if mapping(cue).get("recenter") is not None and (wrong := _time(mapping(cue), "recenter", when)[1]):
+            yield ("cues", index, "recenter"), wrong
+    for index, entry in enumerate(sequence(data, "include")):
+        yield from _include_rules(mapping(entry), ("include", index), when)
+
+
+def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
     before: tuple[int, float] | None = None
     free: dict[str, tuple[int, float]] = {}  # axis -> the keyframe that holds it, and until when
     for index, frame in enumerate(sequence(data, "keyframes")):
@@ -45,25 +68,6 @@ def file_rules(data: Any) -> Iterator[Wrong]:
             yield from _hold_rules(index, frame, at, free, when)
         before = (index, at)
         free.update({axis: (index, at + (hold or 0)) for axis in AXES if axis in frame})
-    yield from _stick_rules(data)
-    if isinstance(data, dict) and not data.keys() & {"keyframes", "include", "panorama"}:
-        yield ("keyframes",), "is missing"
-    if is_timelapse(data):
-        yield from ease_rules(data, 1.0)  # a ramp of 24f takes 24 frames
-        yield from timelapse_rules(data)
-        return
-    yield from ease_rules(data, fps)
-    if wrong := _time(mapping(data), "preroll", partial(seconds, fps=fps))[1]:
-        yield ("preroll",), wrong
-    yield from panorama_rules(data, fps)
-    for index, cue in enumerate(sequence(data, "cues")):
-        yield from cue_rules(cue, ("cues", index))
-        if wrong := _time(mapping(cue), "at", when)[1]:
-            yield ("cues", index, "at"), wrong
-        if mapping(cue).get("recenter") is not None and (wrong := _time(mapping(cue), "recenter", when)[1]):
-            yield ("cues", index, "recenter"), wrong
-    for index, entry in enumerate(sequence(data, "include")):
-        yield from _include_rules(mapping(entry), ("include", index), when)
 
 
 def _include_rules(entry: Mapping[str, Any], here: Location, when: When) -> Iterator[Wrong]:
