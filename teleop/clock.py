@@ -7,6 +7,9 @@ from __future__ import annotations
 
 import time
 
+EXACT = 0.003  # s: a wait as short as that is for a moment that is to be met, not for waking up some time after it
+AWAKE = 0.0002  # s of such a wait that are not slept, because a sleep ends that much late
+
 
 class SystemClock:
     """The machine's monotonic clock, in seconds; a step of the wall clock does not move it."""
@@ -20,8 +23,10 @@ class SystemClock:
 
 
 def _sleep_until(moment: float) -> None:
+    awake = AWAKE if moment - time.monotonic() < EXACT else 0.0
     while (remaining := moment - time.monotonic()) > 0:
-        time.sleep(remaining)
+        if remaining > awake:
+            time.sleep(remaining - awake)
 
 
 class VirtualClock:

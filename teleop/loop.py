@@ -4,7 +4,10 @@ Ticks lie on a grid of absolute times, so a late one does not delay the next; th
 went by and makes one legal step of that length. While nothing moves and no source will change its mind, the loop
 sleeps over ticks, but never past the keep-alive. Only this module decides what a fault means: whatever is raised
 anywhere in a tick, by whomever, becomes a reason to ramp to rest, release and end with a result that is not DONE.
-Nothing a piece does can keep a run from ending: stopping and releasing have their own longest times.
+Nothing a piece does can keep a run from ending: stopping and releasing (`releasing`) have their own longest times.
+
+A tick is prepared a little before its moment (LEAD) and its commands leave at the moment itself: how long reading,
+planning and reporting took, which varies, is then not heard in their spacing.
 
 After a stall the planner no longer knows where the axes are (`whereabouts`): the ramp to rest then starts from what
 two fresh readings say, and nothing is commanded before they are in.
@@ -20,18 +23,17 @@ from typing import Any, Protocol
 from teleop.motion import STICKS, Act, Axis, Demand, Halt, Limits, Motion, Reading, State, Tick, Wish
 from teleop.planner.stop import stop_phases, stop_state
 from teleop.ports import Clock, DeviceError, Interrupted, Reporter, Sink, Source, TeleopError
+from teleop.releasing import Release
 from teleop.supervisor import Event, Run, Supervisor
 from teleop.whereabouts import Whereabouts
 
 RATE = 100  # Hz
 PERIOD = 1 / RATE  # s
+LEAD = 0.002  # s before its moment a tick is prepared, so that commands leave evenly however long they took to make
 KEEP_ALIVE = 0.4  # s: the longest a resting loop sleeps; a gimbal forgets a speed after 0.5 s
 STALL = 0.25  # s: a tick later than this was not lateness but a stall; the gimbal has long stopped following
 FIRST_REPORT = 2.0  # s to wait for the first report of every axis in use
 STOP_SHARE, STOP_EXTRA = 2.0, 1.0  # a planner has so many times the fastest stop, and so many s, to come to rest
-RELEASE_PATIENCE = 0.5  # s to keep trying to give a device back over a link that fails
-RELEASE_LONGEST = 10.0  # s for all of giving back, whatever a sink still wants to do
-
 FAULTS = 8  # that are kept: one repeats every tick
 
 log = logging.getLogger(__name__)
@@ -86,8 +88,7 @@ class Loop:
         self._planner_failed = False  # while stopping
         self._stop_end = math.inf
         self._lost: Whereabouts | None = None  # since a stall, until they are found
-        self._release_due = dict.fromkeys(range(len(sinks)), -math.inf)  # sink -> when its next step is
-        self._release_end = self._release_limit = math.inf
+        self._giving_back = Release(sinks, PERIOD)
         self._turns: Mapping[Run, Callable[[float, int], None]] = {
             Run.WAITING: self._wait,
             Run.RUNNING: self._drive,
@@ -125,8 +126,9 @@ class Loop:
         if self._resting and running:
             wake = min(self._wake, self._time(self._ticks) + self._keep_alive)
             due = max(due, math.ceil((wake - self._origin) * RATE - 1e-6))
-        self._clock.sleep_until(self._time(due))
-        late = self._clock.now() - self._time(due)
+        early = self._time(due) - LEAD
+        self._clock.sleep_until(early)
+        late = self._clock.now() - early
         elapsed = due - self._ticks + max(0, math.floor(late * RATE + 1e-6))
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (Run.RUNNING, Run.STOPPING):
@@ -209,39 +211,28 @@ class Loop:
         return stop_state(self._motion[axis], limits.acceleration, limits.jerk, seconds)
 
     def _release(self, now: float, _steps: int) -> None:
-        """Each sink's own steps at its own times; one that fails is tried again until patience ends.
-
-        Reports go on meanwhile: what the links still hold back leaves, and the sinks hear what is answered.
-        """
-        failed = object()
-        if math.isinf(self._release_limit):
-            self._release_end, self._release_limit = now + RELEASE_PATIENCE, now + RELEASE_LONGEST
+        """Reports go on meanwhile: what the links still hold back leaves, and the sinks hear what is answered."""
         self._report(now)
-        for index, due in list(self._release_due.items()):
-            if now < due - PERIOD / 2:
-                continue
-            again = self._guarded(self._sinks[index].release, now, default=failed)
-            if again is failed and now < self._release_end:
-                again = now + PERIOD
-            if again is None or again is failed:
-                del self._release_due[index]
-            else:
-                self._release_due[index] = again
-        if self._release_due and now > self._release_limit:
-            self._fault(TeleopError(f"not everything could be given back within {RELEASE_LONGEST:g} s"))
-            self._release_due.clear()
-        if not self._release_due:
+        if self._giving_back.step(now, self._guarded):
             self.supervisor.happened(Event.RELEASED)
 
     def _report(self, now: float) -> None:
+        """Where the axes are, asked while the tick of `now` is prepared."""
         for reporter in self._reporters:
-            self._reported.update(self._guarded(reporter.report, now, default={}))
+            self._reported.update(self._guarded(reporter.report, now - LEAD, default={}))
 
     def _emit(self, now: float, demand: Demand, actions: Sequence[Act]) -> None:
         self._report(now)
         tick = Tick(now, self._motion, demand, actions, dict(self._reported))
+        if self._guarded(self._missed, now):
+            return  # nobody is to hear it so much later; the next tick finds that the computer stalled
         for sink in self._sinks:
             self._guarded(sink.write, tick)
+
+    def _missed(self, now: float) -> bool:
+        """Wait for the moment of a tick that is prepared; whether it is long past."""
+        self._clock.sleep_until(now)
+        return self._clock.now() - now > STALL
 
     def _guarded(self, call: Callable[..., Any], *arguments: Any, default: Any = None) -> Any:
         """Whatever goes wrong in `call` becomes a fault, so that the other sinks are still served and the run stops.

