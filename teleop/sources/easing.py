@@ -73,7 +73,7 @@ def ease_rules(data: Any, fps: float | None) -> Iterator[Wrong]:
 
 
 def _naming(frames: Sequence[Mapping[str, Any]], axis: Axis) -> Sequence[int]:
-    return [index for index, frame in enumerate(frames) if axis.value in frame]
+    return [index for index, frame in enumerate(frames) if frame.get(axis.value) is not None]
 
 
 def _wrong(where: tuple[str | int, ...], value: Any, fps: float | None) -> Iterator[Wrong]:

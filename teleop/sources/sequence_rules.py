@@ -67,7 +67,7 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
         else:
             yield from _hold_rules(index, frame, at, free, when)
         before = (index, at)
-        free.update({axis: (index, at + (hold or 0)) for axis in AXES if axis in frame})
+        free.update({axis: (index, at + (hold or 0)) for axis in AXES if frame.get(axis) is not None})
 
 
 def _include_rules(entry: Mapping[str, Any], here: Location, when: When) -> Iterator[Wrong]:
@@ -86,7 +86,7 @@ def _stick_rules(data: Any) -> Iterator[Wrong]:
         named = [
             (index, number(mapping(frame)[stick]))
             for index, frame in enumerate(sequence(data, "keyframes"))
-            if stick in mapping(frame)
+            if mapping(frame).get(stick) is not None
         ]
         for which, (index, position) in (("first", named[0]), ("last", named[-1])) if named else ():
             if position:
@@ -97,7 +97,7 @@ def _hold_rules(
     index: int, frame: Mapping[str, Any], at: float, free: Mapping[str, tuple[int, float]], when: When
 ) -> Iterator[Wrong]:
     for axis, (holder, end) in free.items():
-        if axis in frame and at < end:
+        if frame.get(axis) is not None and at < end:
             yield (
                 ("keyframes", index, "at"),
                 f"must be after keyframes[{holder}] has held {axis} (until {_said(end, when)})",

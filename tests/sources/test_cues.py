@@ -169,6 +169,9 @@ def test_a_drone_is_taken_over_and_left_with_its_sticks_in_the_middle(tmp_path: 
         f"shoot.yaml:2:{where}: keyframes[0].{stick} must be 0 in its first key, where the drone is to hover",
         f"shoot.yaml:4:{where}: keyframes[2].{stick} must be 0 in its last key, where the drone is to hover",
     ]
+    hidden = text.replace("at: 0,", "at: 0, pan: 1}\n  - {at: 1,") + f"  - {{at: 7, pan: 2, {stick}: ~}}\n"
+    hidden = hidden.replace("at: 0,", f"at: 0, {stick}: ~,")
+    assert [line.partition(" ")[2][:12] for line in problems_of(tmp_path, hidden)] == ["keyframes[1]", "keyframes[3]"]
     flown = load(tmp_path, text.replace("0.1", "0").replace("-0.2", "0"))
     assert flown.move.at(3.0)[Axis(stick)].position == pytest.approx(0.4)
     with pytest.raises(DocumentError, match=r"must be at most 1"):

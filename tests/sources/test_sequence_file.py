@@ -196,3 +196,8 @@ def test_what_is_empty_is_called_so(tmp_path: Path) -> None:
         "shoot.yaml:2:10: keyframes[0].at must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty",
         "shoot.yaml:2:26: keyframes[0].hold must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty",
     ]
+
+
+def test_an_axis_that_is_empty_is_not_there(tmp_path: Path) -> None:
+    text = "keyframes:\n  - {at: 0, pan: 0, tilt: ~, hold: 3}\n  - {at: 2, pan: ~, tilt: 5}\n  - {at: 5, pan: 9}\n"
+    assert load(tmp_path, text).duration == 5
