@@ -53,7 +53,9 @@ class Conductor:
     def note(self) -> str:
         """What the operator is to know now, in a line or two."""
         playback = self._sequence.playback
-        pace = "paused" if playback.paused else f"{playback.chosen:.0%}"
+        pace = f"{playback.chosen:.0%}"
+        if playback.paused:
+            pace = "paused" if playback.chosen == 1 else f"paused, goes on at {pace}"
         line = ARMED_HELP if self._sequence.phase is Phase.ARMED else f"{pace}  {HELP}"
         line = WAITING_HELP if self._sequence.waiting else line
         line = playback.refusal or self._note or (line if self._keys else "no terminal: Ctrl-C stops")

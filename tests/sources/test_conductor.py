@@ -80,6 +80,9 @@ def test_space_pauses_and_goes_on():
     assert show.run(5) == here
     assert show.conductor.note == f"paused  {HELP}"
     assert show.conductor.next_change(show.now) <= show.now + 0.05
+    show.press(SLOWER)
+    assert show.conductor.note == f"paused, goes on at 90%  {HELP}"
+    show.press(FASTER)
     show.press(PAUSE)
     assert show.run(1) > here
     assert show.conductor.note == f"100%  {HELP}"
