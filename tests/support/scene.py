@@ -19,7 +19,7 @@ import can.interfaces
 import pytest
 from faulty_bus import FaultyBus, register
 
-from teleop.clock import VirtualClock
+from teleop.clock import SystemClock, VirtualClock
 from teleop.dji import gimbal
 from teleop.dji.message import Message
 from teleop.dji.session import Session
@@ -71,6 +71,18 @@ class StallingClock(VirtualClock):
             self.hook(self.now())
 
 
+class RealClock(SystemClock):
+    """The machine's own time, with the hook."""
+
+    def __init__(self) -> None:
+        self.hook: Callable[[float], None] = lambda _now: None
+
+    def sleep_until(self, time: float) -> None:
+        while (now := self.now()) < time:
+            super().sleep_until(min(now + LOOK, time))
+            self.hook(self.now())
+
+
 class Mover:
     """A source that moves pan and tilt for `seconds`, and has something done to it at BREAKS."""
 
@@ -103,7 +115,7 @@ class Watcher:
 class Scene:
     """`wire` is every message to the gimbal with its time, `rates` its rates (deg/s) with theirs."""
 
-    def __init__(self, mode: str, rig: Rig, clock: StallingClock, far: Link) -> None:
+    def __init__(self, mode: str, rig: Rig, clock: StallingClock | RealClock, far: Link) -> None:
         self.mode, self.rig, self.clock, self._far = mode, rig, clock, far
         self.bus = FaultyBus.opened[-1]
         self.gimbal = SimulatedGimbal()
@@ -163,13 +175,22 @@ class Scene:
         yaw, pitch = next((yaw, pitch) for time, yaw, pitch in self.rates if time >= self.broken_at)
         assert (yaw, pitch) == (pytest.approx(SPEEDS[Axis.PAN], abs=2), pytest.approx(SPEEDS[Axis.TILT], abs=2))
 
-    def assert_no_lurch(self, lunge: float = 0.0) -> None:
-        """Once it was broken, the gimbal never went faster than it did, nor back, by more than `lunge` (deg/s)."""
+    def assert_no_lurch(self, lunge: float = 0.0, regains: float = SLACK) -> None:
+        """Once it was broken, the gimbal never went faster than it did, nor back, by more than `lunge` (deg/s).
+
+        Nor did an axis that had slowed down, or stopped, set out again: it gains `regains` deg/s at the most.
+        """
         slack = SLACK + lunge
-        for time, yaw, pitch in self.rates:
-            if time >= self.broken_at:
-                assert -slack <= yaw <= SPEEDS[Axis.PAN] + slack, f"{time - self.broken_at:.3f} s: yaw {yaw}"
-                assert SPEEDS[Axis.TILT] - slack <= pitch <= slack, f"{time - self.broken_at:.3f} s: pitch {pitch}"
+        slowest = [abs(SPEEDS[Axis.PAN]), abs(SPEEDS[Axis.TILT])]
+        for time, *rates in self.rates:
+            if time < self.broken_at:
+                continue
+            since = f"{time - self.broken_at:.3f} s: {rates}, at the slowest {slowest}"
+            for index, axis in enumerate(SPEEDS):
+                onward = rates[index] * math.copysign(1.0, SPEEDS[axis])
+                assert -slack <= onward <= abs(SPEEDS[axis]) + slack, since
+                assert onward <= slowest[index] + regains, since
+                slowest[index] = min(slowest[index], max(onward, 0.0))
 
     def assert_no_jump(self) -> None:
         """What was commanded changed within the limits from each frame to the next, the correction's share included."""
@@ -201,13 +222,15 @@ class Scene:
 
 
 @contextmanager
-def scene(mode: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Scene]:
+def scene(
+    mode: str, folder: Path, monkeypatch: pytest.MonkeyPatch, clock: StallingClock | RealClock | None = None
+) -> Iterator[Scene]:
     register(monkeypatch)
     monkeypatch.setattr(can.interfaces, "VALID_INTERFACES", can.interfaces.VALID_INTERFACES | {"faulty"})
     channel = f"scene{next(_channels)}"
     text = PROFILE.replace("CHANNEL", channel).replace("MODE", mode).replace("DELAY", str(DELAYS[mode]))
     (folder / "rig.yaml").write_text(text)
-    clock = StallingClock()
+    clock = clock or StallingClock()
     far = open_link(f"virtual:{channel}", host=False, now=clock.now)
     try:
         with open_rig(load_profile(str(folder / "rig.yaml")), clock) as rig:
