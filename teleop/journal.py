@@ -122,8 +122,8 @@ class Journal:
             else:
                 self._database.execute("INSERT OR REPLACE INTO frames VALUES (?, ?)", (note.frame, note.state.value))
                 self.frames[note.frame] = note.state
-        except sqlite3.Error as error:
-            self.trouble = f"{self.path} cannot be written: {error}"
+        except Exception as error:  # noqa: BLE001 - a thread that ended unseen would let slot after slot be missed
+            self.trouble = f"{self.path} cannot be written: {error or type(error).__name__}"
         else:
             note.safe = True
 

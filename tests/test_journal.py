@@ -126,3 +126,22 @@ def test_a_folder_that_cannot_be_written_is_said(path: Path) -> None:
     said = "cannot be used: unable to open database file"
     with pytest.raises(UsageError, match=said), open_journal(path.parent / "nowhere" / "x.journal", SHOOT):
         pass
+
+
+def test_whatever_fails_in_its_thread_is_said_and_keeps_nobody_waiting(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Broken:
+        def execute(self, *_arguments: object) -> None:
+            raise ZeroDivisionError("a defect")
+
+        def close(self) -> None: ...
+
+    with open_journal(path, SHOOT) as journal:
+        monkeypatch.setattr(journal, "_database", Broken())
+        note = journal.note(0, Frame.BEGUN)
+        wait_until(lambda: journal.trouble, "trouble")
+        assert journal.trouble == f"{path} cannot be written: a defect"
+        assert not note.safe
+        assert not journal.note(1, Frame.BEGUN).safe
+        journal.catch_up()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import time
 from itertools import pairwise
 from pathlib import Path
@@ -16,7 +17,7 @@ from teleop.clock import SystemClock
 from teleop.dji.camera import CameraCommand, Command
 from teleop.journal import Frame
 from teleop.loop import PERIOD
-from teleop.motion import Axis
+from teleop.motion import Axis, Tick
 from teleop.profile import ShootingSection, load_profile
 from teleop.sources.inputs import Command as Key
 from teleop.sources.inputs import Press
@@ -132,11 +133,37 @@ def test_a_continuous_move_is_paused_and_resumed_along_its_path(stage: Stage) ->
     assert stage.silences() < AWAKE
 
 
-def test_settling_is_measured(stage: Stage) -> None:
-    stage.write(5, "4s", "  settle: {below: 0.05, at_most: 1.5s}\n")
+@pytest.mark.parametrize(
+    ("trembling", "settled_after", "unsettled"),
+    [
+        pytest.param(0.0, (0.15, 0.35), 0, id="still at once"),
+        pytest.param(1.0, (1.1, 1.35), 0, id="still after a second"),
+        pytest.param(9.0, (1.5, 1.5 + PERIOD), 5, id="never still"),
+    ],
+)
+def test_settling_is_measured(
+    stage: Stage, trembling: float, settled_after: tuple[float, float], unsettled: int
+) -> None:
+    stage.write(5, "6s", "  settle: {below: 0.05, at_most: 1.5s}\n")
+    stage.prepare = lambda each: setattr(
+        each, "trembles", lambda since: 0.2 * math.sin(30 * since) if since < trembling else 0.0
+    )
+    began, took = [0.0], []
+
+    def watch(tick: Tick) -> None:
+        settling = stage.shooting.progress.phase == "settle"
+        if not settling and began[0]:
+            took.append(tick.time - began[0])
+        began[0] = (began[0] or tick.time) if settling else 0.0
+
+    stage.watch = watch
     stage.shoot()
     assert_on_time(stage)
-    assert stage.shooting.progress.unsettled == 0
+    assert stage.shooting.progress.unsettled == unsettled
+    assert len(took) == 5
+    for seconds in took:
+        assert settled_after[0] <= seconds + 1e-6
+        assert seconds <= settled_after[1] + 2 * TICK
 
 
 def stopping_at(stage: Stage, frame: int, phase: str) -> None:

@@ -75,14 +75,25 @@ def perform(
             error_table(tally)
         for extra in extras:
             extra.print()
-        for name, connection in rig.connections.items():
-            if troubles := _troubles(connection.counts):
-                print(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")
-        if take is not None:
-            print(take)
-            if take.trouble:
-                print(f"teleop: {take.trouble}", file=sys.stderr)
+        print_links({name: connection.counts for name, connection in rig.connections.items()})
+        print_take(take)
     return EXIT_CODES[ended.result]
+
+
+def print_links(links: Mapping[str, Mapping[str, int]]) -> None:
+    """What went wrong on each link without ending the run."""
+    for name, counts in links.items():
+        if troubles := _troubles(counts):
+            print(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")
+
+
+def print_take(take: Recorder | None) -> None:
+    """What was recorded, if anything was to be, and what could not be."""
+    if take is None:
+        return
+    print(take)
+    if take.trouble:
+        print(f"teleop: {take.trouble}", file=sys.stderr)
 
 
 def commands(rig: Rig, say: Callable[[str], object]) -> list[Sink]:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from teleop.cli.display import error_table
 from teleop.cli.options import Options
-from teleop.cli.perform import EXIT_CODES, SWITCH_INTERVAL, signals_to
+from teleop.cli.perform import EXIT_CODES, SWITCH_INTERVAL, print_links, print_take, signals_to
 from teleop.cli.shoot_options import ShootOptions
 from teleop.cli.shoot_view import ShootView, free
 from teleop.cli.timelapse_words import clock, summary
@@ -70,15 +70,15 @@ def shoot(
             ended = shooting.run()
         gc.unfreeze()
         if recorder is not None:
-            recorder.finish(ended.result, ended.reasons)
+            recorder.finish(ended.result, ended.reasons, shooting.links)
         journal.catch_up()
         if options.json:
             facts = {} if recorder is None else {"take": recorder.facts}
             print(json.dumps({**_report(ended, shooting, journal, tally), **facts}))
         else:
             _print(ended, shooting, journal, tally)
-            if recorder is not None:
-                print(recorder)
+            print_links(shooting.links)
+            print_take(recorder)
     return EXIT_CODES[ended.result]
 
 

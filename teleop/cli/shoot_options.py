@@ -33,8 +33,9 @@ class ShootOptions:
     def check(self, file: str, timelapse: bool) -> None:
         """Raises DocumentError where these do not go with the file or with each other."""
         asked = [name for name in ("rehearse", "resume", "restart") if getattr(self, name)]
-        if asked and not timelapse:
-            raise DocumentError([f"--{asked[0]}: {file} is no timelapse"])
+        in_doubt = ["in-doubt"] if self.in_doubt != NOTHING_ASKED.in_doubt else []
+        if not timelapse and (unfit := asked + in_doubt):
+            raise DocumentError([f"--{unfit[0]}: {file} is no timelapse"])
         if len(asked) > 1:
             raise DocumentError([f"--{asked[0]} and --{asked[1]} do not go together"])
 

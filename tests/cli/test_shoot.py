@@ -93,22 +93,41 @@ def test_a_shoot_goes_on_where_a_signal_left_it_and_only_the_same_shoot_does(
     assert report["seconds"] < 11 * 1.2
 
 
-@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="mounting a small disk needs root")
-def test_a_full_disk_stops_the_shoot_before_the_frame_that_it_cannot_note(folder: Path) -> None:
-    if shutil.which("unshare") is None:
-        pytest.skip("no `unshare` command (Debian: util-linux)")
+def with_small_disk(folder: Path, kilobytes: int, command: str) -> subprocess.CompletedProcess[str]:
+    """A shell command in `folder`, where `small` is a disk of so many kB that is empty at first."""
+    if not hasattr(os, "geteuid") or os.geteuid() != 0 or shutil.which("unshare") is None:
+        pytest.skip("mounting a small disk needs root, and `unshare` (Debian: util-linux)")
     small = folder / "small"
     small.mkdir()
-    script = f"mount -t tmpfs -o size=72k none {small} && cd {small} && exec {TELEOP} play ../dusk.yaml --fast --json"
-    command = ["unshare", "--mount", "sh", "-c", script]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    script = f"mount -t tmpfs -o size={kilobytes}k none {small} && cd {folder} && {command}"
+    arguments = ["unshare", "--mount", "sh", "-c", script]
+    done = subprocess.run(arguments, capture_output=True, text=True, check=False, timeout=60)
     if "permission denied" in done.stderr.lower() or "not permitted" in done.stderr.lower():
         pytest.skip(f"mounting is not permitted here: {done.stderr.strip()}")
+    return done
+
+
+def test_a_full_disk_stops_the_shoot_before_the_frame_that_it_cannot_note(folder: Path) -> None:
+    done = with_small_disk(folder, 72, f"cd small && exec {TELEOP} play ../dusk.yaml --fast --json")
     assert done.returncode == 1, done.stderr
     report = json.loads(done.stdout)
     assert "dusk.journal cannot be written: " in report["reasons"][0]
     assert report["reasons"][0].endswith(" has not been shot")
     assert 0 < report["shot"] < 12
+
+
+def test_a_take_that_cannot_be_written_is_said_and_every_frame_is_shot(folder: Path) -> None:
+    done = with_small_disk(folder, 8, f"exec {TELEOP} play dusk.yaml --fast --take small/dusk.mcap")
+    assert done.returncode == 0, done.stderr
+    assert "12 of 12 frames shot" in done.stdout
+    assert "teleop: small/dusk.mcap: No space left on device: " in done.stderr
+
+
+def test_a_take_of_a_shoot_says_what_its_link_counted(folder: Path) -> None:
+    report = shot(folder, "--take", "dusk.mcap")
+    info = json.loads(teleop("take", "info", "dusk.mcap", "--json", cwd=folder).stdout)
+    assert info["links"] == report["links"]
+    assert info["links"]["gimbal"]["frames_out"] > 0
 
 
 @pytest.mark.parametrize(
@@ -117,6 +136,7 @@ def test_a_full_disk_stops_the_shoot_before_the_frame_that_it_cannot_note(folder
         (["dusk.yaml", "--speed", "50%"], "dusk.yaml is shot, not played: --speed and its kin go with --rehearse only"),
         (["dusk.yaml", "--resume", "--restart"], "--resume and --restart do not go together"),
         (["reveal", "--resume"], "--resume: reveal is no timelapse"),
+        (["reveal", "--in-doubt", "skip"], "--in-doubt: reveal is no timelapse"),
         (["dusk.yaml", "--resume", "--fast"], "--resume: there is nothing to resume: no dusk.journal in "),
         (["dusk.yaml", "--rig", "./blind.yaml"], "Simulated rig has no camera to shoot with"),
     ],

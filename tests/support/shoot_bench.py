@@ -6,6 +6,7 @@ import resource
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -49,7 +50,10 @@ class Shot(NamedTuple):
 
 
 class CountingGimbal(SimulatedGimbal):
-    """Keeps every press, and every message with its time; `camera_says` may refuse (a code) or be silent (None)."""
+    """Keeps every press, and every message with its time; `camera_says` may refuse (a code) or be silent (None).
+
+    `trembles` is by how much the yaw that it tells is off, in deg, so many s after it was last sent elsewhere.
+    """
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)
@@ -59,6 +63,8 @@ class CountingGimbal(SimulatedGimbal):
         self.turned: list[tuple[float, float]] = []  # time, and the fastest rate
         self.camera_says: Callable[[int], int | None] = lambda _count: 0
         self.deaf: Callable[[float], bool] = lambda _now: False
+        self.trembles: Callable[[float], float] = lambda _since: 0.0
+        self._sent_away, self._aim = 0.0, 0.0  # when (s), and to which yaw (deg)
         self._listening = Session()
         self._presses = 0
 
@@ -78,7 +84,12 @@ class CountingGimbal(SimulatedGimbal):
                 return SILENT if says is None else ReturnCode(says)
             angles, rates = self.angles, self.rates
             self.shots.append(Shot(self._now, angles.yaw, angles.pitch, max(map(abs, rates))))
-        return super()._obey(message)
+        if isinstance(message, gimbal.Position) and message.yaw != self._aim:
+            self._sent_away, self._aim = self._now, message.yaw
+        answer = super()._obey(message)
+        if isinstance(answer, gimbal.AnglesReply):
+            return replace(answer, yaw=answer.yaw + self.trembles(self._now - self._sent_away))
+        return answer
 
     def _reply(self, frame, answer) -> None:
         if answer is not SILENT:
