@@ -190,7 +190,7 @@ ROWS = [
         lambda s, _: stalled(s, 0.45),
         "the computer stalled for 0.44 s",
         within=2.3,
-        regains=2 * SLACK,  # it is found at its old speed, and forgets that while it is being found
+        regains=10.0,  # it is found at its old speed, and forgets that while it is being found
     ),
     Row("600 ms stall of the process", lambda s, _: stalled(s, 0.6), "the computer stalled for 0.59 s", within=2.3),
     Row("suspended for an hour", lambda s, _: stalled(s, 3600.0), "the computer stalled for 3599.99 s", within=3602.0),
