@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
-from cyclopts import Parameter
+from cyclopts import Parameter, Token
 
 from teleop.document import DocumentError, UnplayableError
 from teleop.profile import Profile, load_profile
@@ -17,6 +18,14 @@ from teleop.sinks.recorder import ENDING
 if TYPE_CHECKING:
     from teleop.sources.sequence_file import Performance
     from teleop.sources.timelapse_file import Timelapse
+
+
+def whole(_type: Any, tokens: Sequence[Token]) -> int:
+    """What is typed as a whole number, and nothing that would have to be rounded to one."""
+    try:
+        return int(tokens[0].value)
+    except ValueError:
+        raise ValueError("It must be a whole number.") from None
 
 
 @Parameter(name="*")

@@ -14,7 +14,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from teleop.cli.options import DEFAULTS, Options
+from teleop.cli.options import DEFAULTS, Options, whole
 from teleop.cli.send_drone import send_drone
 from teleop.cli.send_help import print_help
 from teleop.cli.sending import opened, tell
@@ -66,6 +66,7 @@ def send(
         Parameter(
             help="How often to ask again without a reply: 2, and 0 for what must not be done twice.",
             validator=Number(gte=0),
+            converter=whole,
             show_default=False,
         ),
     ] = None,

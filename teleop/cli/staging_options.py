@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.options import whole
 from teleop.clock import VirtualClock
 from teleop.ports import Clock, UsageError
 from teleop.sources.times import seconds
@@ -40,7 +41,8 @@ class StagingOptions:
     ] = None
     loop: Annotated[bool, Parameter(help="Over and over, until stopped.", negative=(), show_default=False)] = False
     passes: Annotated[
-        int | None, Parameter(help="So often, and say how far each pass lay from the first.", show_default=False)
+        int | None,
+        Parameter(help="So often, and say how far each pass lay from the first.", converter=whole, show_default=False),
     ] = None
 
     trigger: Annotated[

@@ -117,6 +117,8 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
         (["play", "reveal", "--trim", "--trim-share", "100%"], 2, "must be a percentage between 0 and 100"),
         (["play", "reveal", "--preroll", "soon"], 2, "--preroll soon: must be a time"),
         (["play", "reveal", "--passes", "0"], 2, "--passes: must be at least 1"),
+        (["play", "reveal", "--passes", "1.5"], 2, "--passes: It must be a whole number"),
+        (["send", "angles", "--retries", "0.5"], 2, "--retries: It must be a whole number"),
         (["play", "reveal", "--passes", "3", "--loop"], 2, "--passes: goes without --loop"),
         (["play", "./nothing.yaml"], 2, "no such file"),
         (["play", "reveal", "--rig", "smi"], 2, "did you mean sim?"),
