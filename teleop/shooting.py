@@ -93,6 +93,8 @@ class Shooting:
         while True:
             before = self.progress.shot
             self._settle_doubt()
+            if self._journal.next >= self._timelapse.frames:
+                return self._finished()
             ended, faults, reached = self._one_run()
             fruitless = 0 if self.progress.shot > before else fruitless + 1
             if ended.result is not Result.FAILED or not self._may_go_on(faults, reached, waiting, fruitless):
@@ -103,6 +105,14 @@ class Shooting:
                 self._say(f"{ended.reasons[0]}: {said} on at frame {self._journal.next}")
             if not self._rests(RETRY if waiting else 0.0):
                 return Ended(Result.INTERRUPTED, [self._interrupted])
+
+    def _finished(self) -> Ended:
+        """The last frame is behind, and all that was left was to write that down."""
+        note = self._journal.finish()
+        self._journal.catch_up()
+        if note.safe:
+            return Ended(Result.DONE, [])
+        return Ended(Result.FAILED, [self._journal.trouble or f"{self._journal.path}: the disk does not answer"])
 
     def _one_run(self) -> tuple[Ended, Sequence[BaseException], bool]:
         """How it ended, what was raised in it, and whether the rig was reached."""

@@ -15,9 +15,10 @@ from shoot_bench import Keys, SlowBook, Stage, small_disk
 
 from teleop.clock import SystemClock
 from teleop.dji.camera import CameraCommand, Command
-from teleop.journal import Frame
+from teleop.journal import Frame, Note
 from teleop.loop import PERIOD
 from teleop.motion import Axis, Tick
+from teleop.ports import UsageError
 from teleop.profile import ShootingSection, load_profile
 from teleop.sources.inputs import Command as Key
 from teleop.sources.inputs import Press
@@ -353,3 +354,39 @@ def test_steps_of_the_wall_clock_move_no_frame(stage: Stage, monkeypatch: pytest
     missed = stage.shooting.progress.missed
     took = stage.shots[-1].time - stage.shots[0].time
     assert took == pytest.approx((kill_server.FRAMES - 1 + missed) * 0.05, abs=0.05)
+
+
+def test_a_shoot_that_was_killed_after_its_last_frame_has_nothing_left_to_shoot(stage: Stage) -> None:
+    stage.write(6, "2s")
+    with stage.journal() as journal:
+        for frame in range(6):
+            journal.note(frame, Frame.DONE)
+    assert stage.shoot(resume=True).result is Result.DONE
+    assert stage.shots == []
+    assert stage.shooting.progress.shot == 6
+    with pytest.raises(UsageError, match="has been finished"), stage.journal(resume=True):
+        pass
+
+
+def test_a_last_frame_in_doubt_may_be_passed_over(stage: Stage) -> None:
+    stage.write(6, "2s")
+    stage.prepare = lambda gimbal: setattr(gimbal, "camera_says", lambda count: None if count == 5 else 0)
+    assert stage.shoot().result is Result.FAILED
+    assert stage.shoot(resume=True, in_doubt="skip").result is Result.DONE
+    assert len(stage.shots) == 5
+    assert stage.shooting.progress.doubtful == [5]
+
+
+def test_an_end_that_cannot_be_written_down_is_no_lost_frame(stage: Stage) -> None:
+    stage.write(6, "2s")
+    with stage.journal() as journal:
+        book = SlowBook(journal, stage, held={})
+
+        def full() -> Note:
+            journal.trouble = "dusk.journal cannot be written: full"
+            return Note(None, Frame.DONE)
+
+        book.finish = full  # type: ignore[attr-defined]  # in front of the journal's own
+        ended = stage.shoot(book)
+    assert (ended.result, len(stage.shots)) == (Result.FAILED, 6)
+    assert ended.reasons[0] == "dusk.journal cannot be written: full; the shoot is past its last frame all the same"

@@ -95,7 +95,7 @@ def _print(ended: Ended, shooting: Shooting, journal: Journal, tally: Tally) -> 
     if ended.result is not Result.DONE:
         if journal.in_doubt is not None:
             print(f"Frame {journal.in_doubt} is in doubt: its shutter was due just when the shoot stopped.")
-        left = clock(progress.slots.at(progress.slots.frames - 1) - progress.slots.at(journal.next))
+        left = clock(max(0.0, progress.slots.at(progress.slots.frames - 1) - progress.slots.at(journal.next)))
         print(f"--resume goes on at frame {journal.next}, with {left} of shooting left ({journal.path})")
 
 

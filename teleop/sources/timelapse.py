@@ -13,14 +13,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Protocol
 
-from teleop.journal import Frame, Note
+from teleop.journal import Note
 from teleop.loop import PERIOD
 from teleop.motion import Act, Demand, Exposure, Follow, Motion, Outcome, Step, Tick
-from teleop.ports import DeviceError, Interrupted, TeleopError
+from teleop.ports import Interrupted
 from teleop.sources.carriage import Carriage
 from teleop.sources.inputs import Command, Input
+from teleop.sources.ledger import Book, Ledger
 from teleop.sources.phases import TRANSITIONS, Event, Phase
 from teleop.sources.progress import Progress
 from teleop.sources.stillness import Stillness
@@ -30,19 +30,8 @@ LEAD = 0.1  # s before a shutter at which its frame is written down: a commit ta
 LATE_SHARE = 0.2  # of an interval, by which a frame may be late before its slot is missed
 SILENCE = 0.7  # s after which a camera that has not answered is judged: a lost link has been found out by then
 LOOK = 0.2  # s between two looks at the keys while nothing else happens
-PATIENCE = 10  # frames in a row without a picture, after which going on is pointless
 _GRID = 100  # Hz
 _INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
-
-
-class Book(Protocol):
-    """Where frames are written down; `teleop.journal.Journal`, or a fake of it."""
-
-    trouble: str
-
-    def note(self, frame: int | None, state: Frame) -> Note: ...
-
-    def finish(self) -> Note: ...
 
 
 class TimelapseSource:
@@ -63,14 +52,14 @@ class TimelapseSource:
         slot: float = -math.inf,
         keys: Input | None = None,
     ) -> None:
-        self._timelapse, self._carriage, self._book, self._keys = timelapse, carriage, book, keys
+        self._timelapse, self._carriage, self._keys = timelapse, carriage, keys
+        self._ledger = Ledger(book, progress, timelapse.go_on)
         self._phases, self._slots = timelapse.phases, timelapse.slots
         self.frame, self.phase, self.progress, self.slot = first, Phase.APPROACH, progress, slot
         self.begin = math.inf  # when the first frame of this run is due
         self._lead = max(LEAD, self._phases.prefocus)
         self._stillness = Stillness(self._phases.below)
         self._asked_to_pause = False
-        self._in_a_row = 0  # frames without a picture
         self._last: Note | None = None
         self._note: Note | None = None
         self._outcome: Outcome | None = None
@@ -131,13 +120,12 @@ class TimelapseSource:
         """What the camera said; written down at once."""
         if outcome.frame == self.frame and self._pressed < math.inf:
             self._outcome = outcome
-            if outcome.code == 0:
-                self._book.note(self.frame, Frame.DONE)
+            self._ledger.heard(outcome)
 
     def leave(self) -> None:
         """The run is over: a frame that was begun and whose shutter was not pressed is no longer in doubt."""
         if self.phase is Phase.PREFOCUS:
-            self._book.note(self.frame, Frame.UNSHOT)
+            self._ledger.unshot(self.frame)
 
     def due_at(self, frame: int, now: float) -> float:
         """When a frame is due, on the loop's clock."""
@@ -198,8 +186,7 @@ class TimelapseSource:
         if time > self._due + self._grace:
             self._miss(now)
         elif time >= self._due - self._lead - _INSTANT:
-            self._say_trouble()
-            self._note = self._book.note(self.frame, Frame.BEGUN)
+            self._note = self._ledger.begin(self.frame)
             if self._phases.prefocus:
                 self._acts.append(Exposure(self.frame, Step.FOCUS))
             self._happened(Event.DUE, now)
@@ -210,14 +197,14 @@ class TimelapseSource:
             self._happened(Event.RESUME, now)
 
     def _prefocus(self, now: float) -> None:
-        self._say_trouble()
+        self._ledger.check(self.frame)
         assert self._note is not None
         late = self._carriage.time(now) - self._due
         ready = self._note.safe and now >= self._since + self._phases.prefocus - _INSTANT
         if late > self._grace:
             if self._phases.prefocus:
                 self._acts.append(Exposure(self.frame, Step.RELEASE))
-            self._book.note(self.frame, Frame.UNSHOT)
+            self._ledger.unshot(self.frame)
             self._miss(now)
         elif ready and late >= -_INSTANT:
             self._acts.append(Exposure(self.frame, Step.PRESS))
@@ -239,29 +226,32 @@ class TimelapseSource:
         if outcome.code is None and now < self._pressed + SILENCE:
             return
         self._pressed, self._outcome = math.inf, None
-        if outcome.code == 0:
-            self.progress.shot += 1
-            self._in_a_row = 0
-        elif not self._without_picture(outcome):
+        if self._ledger.past(outcome):
+            self._go_on(now)
+        else:
             self._miss(now)
-            return
-        self._go_on(now)
 
     def _finish(self, now: float) -> None:
-        self._last = self._last or self._book.finish()
-        self._say_trouble()
+        self._last = self._last or self._ledger.finish()
+        self._ledger.check_end()
         if self._last.safe:
             self._happened(Event.WRITTEN, now)
 
     def _go_on(self, now: float) -> None:
-        if self.frame == self._slots.frames - 1:
-            self._happened(Event.LAST, now)
+        if self._was_last(now):
             return
-        self.frame += 1
-        self.progress.frame = self.frame
         spare = self._carriage.when(self._due, now) - now - self._lead - self._phases.settle
         stepped = self._carriage.step(now, self.frame, spare)
         self._happened(Event.STEP if stepped else Event.STAY, now)
+
+    def _was_last(self, now: float) -> bool:
+        """Whether there is no frame after this one; if there is, it is next."""
+        if self.frame == self._slots.frames - 1:
+            self._happened(Event.LAST, now)
+            return True
+        self.frame += 1
+        self.progress.frame = self.frame
+        return False
 
     def _miss(self, now: float) -> None:
         """The slot has passed without a picture."""
@@ -269,31 +259,6 @@ class TimelapseSource:
         if self._carriage.skip(self._slots.interval(self.frame)):
             self._happened(Event.MISSED, now)
             return
-        self.progress.lost.append(self.frame)
-        self._book.note(self.frame, Frame.MISSED)
-        if self.frame == self._slots.frames - 1:
-            self._happened(Event.LAST, now)
-        else:
-            self.frame += 1
-            self.progress.frame = self.frame
+        self._ledger.lost(self.frame)
+        if not self._was_last(now):
             self._happened(Event.MISSED, now)
-
-    def _without_picture(self, outcome: Outcome) -> bool:
-        """Whether the shoot is past the frame all the same. Raises DeviceError where that is to end it."""
-        self._in_a_row += 1
-        if outcome.code is None:
-            said = f"the camera did not answer at frame {self.frame}: whether it was shot is in doubt"
-        else:
-            said = f"the camera refused to shoot frame {self.frame} (return code {outcome.code:#04x})"
-            self.progress.refused += 1
-            self._book.note(self.frame, Frame.UNSHOT)
-        if not self._timelapse.go_on or self._in_a_row >= PATIENCE:
-            raise DeviceError(said)
-        if outcome.code is None:
-            self.progress.doubtful.append(self.frame)
-            self._book.note(self.frame, Frame.DOUBTFUL)
-        return outcome.code is None
-
-    def _say_trouble(self) -> None:
-        if self._book.trouble:
-            raise TeleopError(f"{self._book.trouble}; frame {self.frame} has not been shot")
