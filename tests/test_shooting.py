@@ -356,6 +356,18 @@ def test_steps_of_the_wall_clock_move_no_frame(stage: Stage, monkeypatch: pytest
     assert took == pytest.approx((kill_server.FRAMES - 1 + missed) * 0.05, abs=0.05)
 
 
+def test_q_ends_a_shoot_that_can_be_gone_on_with(stage: Stage) -> None:
+    stage.write(8, "2s")
+    stage.keys = Keys()
+    stage.keys.presses = [(1008.0, Press(Key.QUIT))]
+    ended = stage.shoot()
+    assert (ended.result, list(ended.reasons)) == (Result.INTERRUPTED, ["q pressed"])
+    assert 0 < len(stage.shots) < 8
+    stage.keys = None
+    assert stage.shoot(resume=True).result is Result.DONE
+    assert len(stage.shots) == 8
+
+
 def test_a_shoot_that_was_killed_after_its_last_frame_has_nothing_left_to_shoot(stage: Stage) -> None:
     stage.write(6, "2s")
     with stage.journal() as journal:
