@@ -1,31 +1,27 @@
-"""What an operator sees of a run: a bar, the time and each axis, drawn beside the control thread and never in it.
+"""What an operator sees of a run: a bar, the time and each axis; where there is no terminal a line each second.
 
-On a terminal a second thread redraws ten times a second from the latest tick; elsewhere a line is written each second,
-so that a log stays readable. Both go to stderr: stdout is for the result.
+It goes to stderr: stdout is for the result.
 """
 
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable
-from types import TracebackType
-from typing import Self
 
 from rich.console import Console, Group, RenderableType
-from rich.live import Live
 from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
+from teleop.cli.screen import Screen
 from teleop.motion import Axis, Tick
 from teleop.sinks.tally import Tally
 
 UNITS = {Axis.PAN: "deg", Axis.TILT: "deg", Axis.ROLL: "deg"}  # the others have none
-_REDRAWS = 10  # a second
+REDRAWS = 10  # a second
 
 
-class Display:
+class Display(Screen):
     """A sink that only shows. `begin` is when the run's own time is zero, `duration` its length in s, inf for none.
 
     `elapsed` is the run's own time at a time of the loop's, where it may go faster or slower, and `said` is what it is
@@ -42,39 +38,18 @@ class Display:
         note: Callable[[], str] | None = None,
         said: Callable[[float], str] | None = None,
     ) -> None:
-        self._title, self._duration, self._silent, self._note = title, duration, silent, note
+        super().__init__(title, silent, REDRAWS)
+        self._duration, self._note = duration, note
         self._doing = said
         self._elapsed = lambda now: elapsed(now) if elapsed and now >= begin() else now - begin()
         self._latest: Tick | None = None
         self._said = -math.inf
-        console = Console(stderr=True)
-        self._live = (
-            Live(console=console, get_renderable=self._draw, refresh_per_second=_REDRAWS)
-            if console.is_terminal and not silent
-            else None
-        )
-
-    def __enter__(self) -> Self:
-        if self._live:
-            self._live.start()
-        elif not self._silent:
-            print(self._title, file=sys.stderr)
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self._live:
-            self._live.stop()
 
     def write(self, tick: Tick) -> None:
         self._latest = tick
-        if self._live is None and not self._silent and tick.time - self._said >= 1:
+        if self._in_lines and tick.time - self._said >= 1:
             self._said = tick.time
-            print("  ".join([self._time(tick), *(_angle(tick, axis) for axis in tick.motion)]), file=sys.stderr)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
+            self._lines.say("  ".join([self._time(tick), *(_angle(tick, axis) for axis in tick.motion)]))
 
     def _time(self, tick: Tick) -> str:
         if self._doing:

@@ -55,11 +55,6 @@ def refuse_offsets(profile: Profile) -> None:
             raise UsageError(f"mode: {section.mode} is for sequences: teleop play; a stick is a velocity or a tilt")
 
 
-def tell(text: str) -> None:
-    """Say it where there is no operator's screen."""
-    print(f"teleop: {text}", file=sys.stderr)
-
-
 class Aboard:
     """The drone of a run, once its rig is open; until then, and in a rig without one, nothing."""
 

@@ -13,7 +13,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from teleop.cli.display import Display
-from teleop.cli.flying import Aboard, Understood, ask_to_fly, is_flown, refuse_offsets, tell
+from teleop.cli.flying import Aboard, Understood, ask_to_fly, is_flown, refuse_offsets
 from teleop.cli.hands import open_devices
 from teleop.cli.live_view import LiveView
 from teleop.cli.options import DEFAULTS, Options
@@ -68,7 +68,7 @@ def live(
             recording(take, profile.name, title, limits, status, patient=fast) as recorder,
             open_rig(profile, clock) as rig,
         ):
-            aboard.board(rig, axes, tell, by_script=True)
+            aboard.board(rig, axes, display.say, by_script=True)
             return perform(rig, axes, [replay], tally, display, options.json, recorder)
     with ExitStack() as stack:
         inputs, note = open_devices(stack, profile, clock, keyboard is not None, NOBODY)

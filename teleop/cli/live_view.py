@@ -8,7 +8,6 @@ it goes to stderr; stdout is for the result.
 from __future__ import annotations
 
 import math
-import sys
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
@@ -20,6 +19,7 @@ from rich.live import Live
 from rich.text import Text
 
 from teleop.cli.drone_rows import drone_rows, summary
+from teleop.cli.lines import Lines
 from teleop.cli.live_rows import Traffic, axis_rows, banner, help_rows, key_rows, said, state_rows, title_row
 from teleop.motion import Axis, Limits, Tick
 from teleop.sinks.drone_state import DroneState
@@ -77,7 +77,7 @@ class LiveView:
                 stack.callback(drawer.join)
                 stack.callback(self._over.set)
             elif not self._silent:
-                print(self._title, file=sys.stderr)
+                self._plain.lines.say(self._title)
             self._stack = stack.pop_all()
         return self
 
@@ -85,6 +85,7 @@ class LiveView:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._stack.close()
+        self._plain.lines.finish()
 
     def write(self, tick: Tick) -> None:
         if self._tick is None:
@@ -133,19 +134,20 @@ class Plain:
     """A line each second where there is no screen, and each message as it comes."""
 
     def __init__(self, title: str, drone: Callable[[], DroneState | None]) -> None:
+        self.lines = Lines()
         self._title, self._drone = title, drone
         self._next = -math.inf
         self._last: Said | None = None
 
     def show(self, tick: Tick, elapsed: float, status: Status) -> None:
         for message in reversed(self._new(status.messages)):
-            print(f"{elapsed:6.1f} s  {message.text}", file=sys.stderr)
+            self.lines.say(f"{elapsed:6.1f} s  {message.text}")
         if tick.time >= self._next:
             self._next = tick.time + 1
             angles = (f"{axis} {round(state.position, 3) + 0.0:+.3f}" for axis, state in tick.motion.items())
             drone = self._drone()
             flying = "" if drone is None else f"  {summary(drone)}"
-            print(f"{elapsed:6.1f} s  {'  '.join(angles)}{flying}{'  E-STOP' * status.stopped}", file=sys.stderr)
+            self.lines.say(f"{elapsed:6.1f} s  {'  '.join(angles)}{flying}{'  E-STOP' * status.stopped}")
 
     def _new(self, messages: Sequence[Said]) -> Sequence[Said]:
         until = messages.index(self._last) if self._last in messages else len(messages)

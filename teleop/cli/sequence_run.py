@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teleop.cli.display import Display
-from teleop.cli.flying import Aboard, is_flown, tell
+from teleop.cli.flying import Aboard, is_flown
 from teleop.cli.hands import open_devices
 from teleop.cli.passes import PassesReport
 from teleop.cli.perform import Extra, commands, perform
@@ -63,7 +63,6 @@ class SequenceRun:
             if source.staging.trigger is not None:
                 source.staging.trigger.open(stack)
             rig = stack.enter_context(open_rig(profile, self.clock))
-            aboard.board(rig, axes, tell, by_script=True)
             watchers = self._watchers(stack, rig, conductor, extras)
             display = Display(
                 title,
@@ -74,6 +73,7 @@ class SequenceRun:
                 conductor and (lambda: conductor.note),
                 source.said,
             )
+            aboard.board(rig, axes, display.say, by_script=True)
             tally, sources = Tally(lambda: source.begin), [conductor or source]
             return perform(rig, axes, sources, tally, display, self.as_json, recorder, watchers, extras)
 

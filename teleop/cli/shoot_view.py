@@ -1,23 +1,20 @@
 """What an operator sees of a shoot: a bar and the next frame on a terminal, a line now and then elsewhere.
 
-Drawn beside the control thread, as `display` is. Both go to stderr: stdout is for the result.
+It goes to stderr: stdout is for the result.
 """
 
 from __future__ import annotations
 
 import math
 import shutil
-import sys
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
-from rich.console import Console, Group, RenderableType
-from rich.live import Live
+from rich.console import Group, RenderableType
 from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
+from teleop.cli.screen import Screen
 from teleop.cli.timelapse_words import clock
 from teleop.motion import Tick
 from teleop.sources.progress import Progress
@@ -27,55 +24,26 @@ EVERY = 60.0  # s between two lines, at most, while frames are shot
 STOP = "Ctrl-C stop, --resume goes on"
 
 
-class ShootView:
+class ShootView(Screen):
     """A sink that only shows. `folder` is where the journal is written, `progress` how far the shoot is."""
 
     def __init__(self, title: str, folder: Path, progress: Progress, silent: bool, keys: bool) -> None:
-        self._title, self._folder, self._progress, self._keys = title, folder, progress, keys
-        self._silent = silent
+        super().__init__(title, silent, REDRAWS)
+        self._folder, self._progress, self._keys = folder, progress, keys
         self._now = -math.inf
         self._said = -math.inf, -1  # when the last line was written, and at how many hundredths
-        console = Console(stderr=True)
-        self._live = (
-            Live(console=console, get_renderable=self._draw, refresh_per_second=REDRAWS)
-            if console.is_terminal and not silent
-            else None
-        )
-
-    def __enter__(self) -> Self:
-        if self._live:
-            self._live.start()
-        elif not self._silent:
-            print(self._title, file=sys.stderr)
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self._live:
-            self._live.stop()
-
-    def say(self, text: str) -> None:
-        """A line that stays."""
-        if self._live:
-            self._live.console.print(Text(f"teleop: {text}"))
-        else:
-            print(f"teleop: {text}", file=sys.stderr)
 
     def write(self, tick: Tick) -> None:
         self._now = tick.time
-        if self._live is None and not self._silent:
+        if self._in_lines:
             self._line(tick.time, self._progress)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _line(self, now: float, progress: Progress) -> None:
         last, hundredth = self._said
         reached = 100 * progress.shot // progress.slots.frames
         if now - last >= EVERY or reached != hundredth:
             self._said = now, reached
-            print("  ".join(_parts(progress, now, self._folder)), file=sys.stderr)
+            self._lines.say("  ".join(_parts(progress, now, self._folder)))
 
     def _draw(self) -> RenderableType:
         progress = self._progress

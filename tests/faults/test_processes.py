@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from subprocess import Popen
+from subprocess import DEVNULL, PIPE, Popen
 
 import pytest
-from command import running
+from command import TELEOP, running
 from far_gimbal import FarGimbal, far_gimbal
 from network import own_network
 from waiting import wait_until
@@ -100,3 +102,36 @@ def test_a_process_that_is_stopped_leaves_the_gimbal_at_rest(
         speeds = [message for _, message in far.heard if isinstance(message, gimbal.Speed)]
         assert [speed.take_over for speed in speeds[-4:]] == [True, True, True, False]
         assert [speed.yaw for speed in speeds[-4:]] == [0, 0, 0, 0]
+
+
+def full_pipe() -> tuple[int, int]:
+    """A pipe that has no room left: the end to read from, and the one to write to."""
+    reading, writing = os.pipe()
+    os.set_blocking(writing, False)
+    with suppress(BlockingIOError):
+        while True:
+            os.write(writing, b"\n" * 512)
+    os.set_blocking(writing, True)
+    return reading, writing
+
+
+def test_a_log_that_nobody_reads_holds_up_neither_the_motion_nor_its_end(
+    far: FarGimbal, bus: str, tmp_path: Path
+) -> None:
+    (tmp_path / "rig.yaml").write_text((PROFILES / "sim.yaml").read_text().replace("mode: position", "mode: speed"))
+    (tmp_path / "sticks.csv").write_text(STICKS)
+    arguments = ["live", "--sticks", str(tmp_path / "sticks.csv"), "--rig", str(tmp_path / "rig.yaml")]
+    reading, writing = full_pipe()
+    command = [TELEOP, *arguments, "--link", f"gimbal={bus}"]
+    with Popen(command, stdin=DEVNULL, stdout=PIPE, stderr=writing, text=True) as process:
+        os.close(writing)
+        wait_until(lambda: sum(rate > 0.9 * SPEED for _, rate in far.turned) > 1000, "cruising for 2 s", patience=30)
+        process.send_signal(signal.SIGTERM)
+        wait_until(lambda: abs(far.rates.yaw) < 0.01 and not far.controlled, "rest, and given back")
+        with os.fdopen(reading) as log:
+            said = log.read()
+        process.communicate(timeout=20)
+    assert process.returncode == 130
+    cruising = [line for line in said.splitlines() if "pan" in line]
+    assert len(cruising) >= 2, "what there was no room for came when there was"
+    assert "stopped: SIGTERM received" in said
