@@ -39,7 +39,7 @@ class OnboardRegistry(Registry):
     def decode(self, frame: Frame, request: bytes = b"") -> Decoded:
         if not frame.is_reply:
             return super().decode(frame)
-        if not frame.data or frame.is_encrypted or not request:
+        if not frame.data or frame.is_encrypted or len(request) < 2:  # no command has less than its set and id
             return Decoded(Opaque(b"", frame.data), b"")
         for cls in self._classes[True].get(request, ()):
             message = cls.decode(frame.data)

@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from teleop.dji import drone
@@ -103,6 +103,7 @@ def acknowledged(session: int, sequence: int) -> Frame:
 
 
 @given(st.lists(frames, max_size=12), st.booleans())
+@example(bus=[Frame(b"\0", 2, 0), Frame(b"\x0e\0", 0x22, 0)], with_key=False)
 def test_restoring_the_drones_frames_gives_the_same_bytes(bus: list[Frame], with_key: bool) -> None:
     cipher = key if with_key else None
     transcriber = Transcriber(M100, cipher)

@@ -13,7 +13,7 @@ import sys
 import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -50,6 +50,11 @@ class AimedGimbal(SimulatedGimbal):
         super().receive(data, now)
 
 
+def kill(child: int) -> None:
+    with suppress(ProcessLookupError):  # it was over just now; its status says how
+        os.kill(child, signal.SIGKILL)
+
+
 @dataclass
 class Lane:
     """One folder, one gimbal, one server of children; `runs` are what each child left behind."""
@@ -76,7 +81,7 @@ class Lane:
         child = int(self.server.stdout.readline())
         end = time.monotonic() + life
         if not select.select([self.listener], [], [], life)[0]:  # killed before it had a link
-            os.kill(child, signal.SIGKILL)
+            kill(child)
             return int(self.server.stdout.readline())
         link, _ = self.listener.accept()
         with link:
@@ -88,7 +93,7 @@ class Lane:
         while True:
             left = end - time.monotonic()
             if left <= 0:
-                os.kill(child, signal.SIGKILL)
+                kill(child)
                 end = float("inf")
             if select.select([link], [], [], min(0.002, max(left, 0.0)))[0]:
                 try:
@@ -158,6 +163,7 @@ def shoot_to_the_end(where: Lane, chance: random.Random, kills: int) -> None:
         pressed = [where.frame_at(aim) for aim in where.gimbal.presses[before:]]
         if not (where.folder / "quick.journal").exists():
             assert pressed == []
+            assert os.WIFSIGNALED(status), (status, (where.folder / SAID).read_text())
             where.kills += 1
             continue
         done, doubt, finished = where.journal()

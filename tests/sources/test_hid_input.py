@@ -378,9 +378,8 @@ def test_two_inputs_do_not_share_a_device_and_the_first_has_the_choice() -> None
         backend.plug(other)
         wait_until(lambda: other.opened)
         assert (one.opened, other.opened) == (1, 1)
-        assert {hand.until(lambda held: held.trouble, index).trouble for index in (0, 1)} == {
-            "Logitech Dual Action: has not reported yet"
-        }
+        for index in (0, 1):
+            hand.until_trouble("Logitech Dual Action: has not reported yet", index)
 
 
 def test_an_enable_button_is_off_when_nothing_is_known() -> None:
