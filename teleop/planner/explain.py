@@ -1,8 +1,14 @@
 """Why keyframes cannot be met, in terms of what to change: the segment, the limit, by how much, and the time it needs.
 
-An elastic programme finds the fewest limits that would have to give. The segments it blames are then lengthened one
-after the other by bisection, each with the planner's own finest rule, the ones still to come left without limits:
-so each time is true for the planner that will be asked again, and all of them together make the move possible.
+An elastic programme finds the fewest limits that would have to give. The segments it blames are lengthened together,
+with the planner's own finest rule, until the leg is possible, and then each in turn is made as short as the others
+allow. So the times are found from the possible side: all of them together do, and less of any one does not. Shortening
+one against segments without limits instead gives times that nothing can follow: a key next to a soft limit is then met
+at a speed that cannot be stopped.
+
+What happens at one key is felt a few segments away, or a few stops, and no further: a change is tried on a window of
+the leg around it, between the velocities and accelerations that the solution so far has there. So the price of a
+finding does not grow with the number of keys.
 """
 
 from __future__ import annotations
@@ -15,12 +21,16 @@ import numpy as np
 from teleop.motion import Axis, Limits
 from teleop.planner.findings import Finding
 from teleop.planner.leg import Leg
+from teleop.planner.polynomial import Array
 from teleop.planner.quadratic import HEADROOM, Rule, least_factors, solve
 
 FINEST = Rule(pieces=8, directed=False)
 BLAMED = 1 + 1e-3  # a factor above this is a limit that gives, not the solver's tolerance
 PRECISION = 0.005  # relative, of the shortest time
+ROOM = 0.95  # a time that can be cut to this share has been found too long: less time is not always harder for the mesh
 LONGEST = 2.0**20  # times the duration asked for: nothing that time could mend needs more
+WIDE = 5  # segments, at least, on either side of the one that a window is about
+STOPS = 2.0  # and so many of the axis's longest stops
 LIMITS = ("velocity", "acceleration", "jerk")
 
 
@@ -32,52 +42,131 @@ def explain(axis: Axis, leg: Leg, wheres: Sequence[str], limits: Limits) -> list
     too_fast = np.abs(leg.steps) / (HEADROOM * limits.velocity * leg.durations)
     factors[:, 0] = np.maximum(factors[:, 0], too_fast)
     worst = factors.max(axis=1)
-    blamed = _culprits(
-        leg, limits, [i for i in np.argsort(-worst).tolist() if worst[i] > BLAMED or i == worst.argmax()]
-    )
-    findings = []
-    lengthened = leg
-    for position, segment in enumerate(blamed):
-        shortest = _shortest(lengthened, segment, limits, frozenset(blamed[position + 1 :]))
-        if shortest is not None:
-            lengthened = lengthened.stretched(segment, shortest)
-        limit = int(factors[segment].argmax())
-        findings.append(
-            Finding(
-                axis,
-                wheres[segment],
-                wheres[segment + 1],
-                LIMITS[limit],
-                float(factors[segment, limit]),
-                float(leg.durations[segment]),
-                shortest,
-            )
+    suspects = [i for i in np.argsort(-worst).tolist() if worst[i] > BLAMED or i == worst.argmax()]
+    times = _least_times(leg, _culprits(leg, limits, suspects), limits)
+    return [
+        Finding(
+            axis,
+            wheres[segment],
+            wheres[segment + 1],
+            LIMITS[int(factors[segment].argmax())],
+            float(factors[segment].max()),
+            float(leg.durations[segment]),
+            shortest,
         )
-    return findings
+        for segment, shortest in times.items()
+    ]
+
+
+class _Solution:
+    """A leg solved with the segments `relaxed` free of limits; of it only `states` (n + 1, 2) at the keys are kept.
+
+    Every change is tried on a window, and taken over where that can be solved.
+    """
+
+    def __init__(self, leg: Leg, states: Array, limits: Limits, relaxed: frozenset[int] = frozenset()) -> None:
+        self.leg, self.relaxed = leg, relaxed
+        self._states, self._limits = states, limits
+        velocity, acceleration, jerk = limits.velocity, limits.acceleration, limits.jerk
+        self._reach = STOPS * (velocity / acceleration + acceleration / jerk)
+
+    def lasting(self, segment: int, duration: float) -> bool:
+        """Have a segment last `duration` s, if that is possible."""
+        return self._change(segment, self.leg.stretched(segment, duration), self.relaxed)
+
+    def limited(self, segment: int) -> bool:
+        """Have the limits apply to a segment again, if that is possible."""
+        return self._change(segment, self.leg, self.relaxed - {segment})
+
+    def _change(self, segment: int, leg: Leg, relaxed: frozenset[int]) -> bool:
+        first, last = self._window(leg, segment)
+        inside = frozenset(other - first for other in relaxed if first <= other < last)
+        states = _solve(leg.window(first, last, self._states), self._limits, inside)
+        if states is None:
+            return False
+        self.leg, self.relaxed = leg, relaxed
+        self._states = np.concatenate([self._states[:first], states, self._states[last + 1 :]])
+        return True
+
+    def _window(self, leg: Leg, segment: int) -> tuple[int, int]:
+        """The keys between which a change of `segment` may be felt."""
+        start, end = leg.times[segment] - self._reach, leg.times[segment + 1] + self._reach
+        first = min(segment - WIDE, int(np.searchsorted(leg.times, start, "right")) - 1)
+        last = max(segment + 1 + WIDE, int(np.searchsorted(leg.times, end)))
+        return max(first, 0), min(last, len(leg.steps))
+
+
+def _solve(leg: Leg, limits: Limits, relaxed: frozenset[int] = frozenset()) -> Array | None:
+    """Velocity and acceleration (n + 1, 2) at the keys of the solved leg, None when there is no solution."""
+    solved = solve(leg, limits, FINEST, relaxed)
+    if solved is None:
+        return None
+    widths, coefficients = solved
+    starts = leg.times[0] + np.concatenate([[0.0], np.cumsum(widths[:-1])])
+    pieces = [int(np.abs(starts - time).argmin()) for time in leg.times[:-1]]
+    return np.concatenate([coefficients[pieces, 1:3] * (1, 2), leg.ends[1:]])
 
 
 def _culprits(leg: Leg, limits: Limits, suspects: list[int]) -> list[int]:
     """The suspects, in order, without those whose limits can be kept after all once the others have more time."""
-    guilty = set(suspects)
+    states = _solve(leg, limits, frozenset(suspects))
+    if states is None:
+        return sorted(suspects)
+    solution = _Solution(leg, states, limits, frozenset(suspects))
     for segment in reversed(suspects):
-        others = frozenset(guilty - {segment})
-        if others and solve(leg, limits, FINEST, others) is not None:
-            guilty.discard(segment)
-    return sorted(guilty)
+        if len(solution.relaxed) > 1:
+            solution.limited(segment)
+    return sorted(solution.relaxed)
 
 
-def _shortest(leg: Leg, segment: int, limits: Limits, relaxed: frozenset[int]) -> float | None:
-    """The least duration of `segment`, whole milliseconds up, with which the leg is possible."""
+def _least_times(leg: Leg, blamed: list[int], limits: Limits) -> dict[int, float | None]:
+    """Durations, whole milliseconds up, of the segments that need more time, with which the leg is possible.
 
-    def possible(duration: float) -> bool:
-        return solve(leg.stretched(segment, duration), limits, FINEST, relaxed) is not None
+    Those are the `blamed`, and where their time alone does not help, their neighbours, and so on. None for each of the
+    blamed when no time would help.
+    """
+    involved, solution = blamed, _possible(leg, blamed, limits)
+    while solution is None and len(involved) < len(leg.steps):
+        near = {segment + side for segment in involved for side in (-1, 0, 1)}
+        involved = [segment for segment in range(len(leg.steps)) if segment in near]
+        solution = _possible(leg, involved, limits)
+    if solution is None:
+        return dict.fromkeys(blamed)
+    for segment in involved:
+        _shorten(solution, segment, float(leg.durations[segment]))
+    for segment in involved:  # those that were shortened since may have left it some room
+        duration = float(solution.leg.durations[segment])
+        if solution.lasting(segment, max(float(leg.durations[segment]), ROOM * duration)):
+            _shorten(solution, segment, float(leg.durations[segment]))
+    return {
+        segment: float(duration)
+        for segment, (duration, asked) in enumerate(zip(solution.leg.durations, leg.durations, strict=True))
+        if segment in involved and duration > asked + 1e-9
+    }
 
-    low = high = float(leg.durations[segment])
-    while not possible(high):
-        low, high = high, high * 2
-        if high > LONGEST * leg.durations[segment]:
-            return None
+
+def _possible(leg: Leg, segments: list[int], limits: Limits) -> _Solution | None:
+    """The leg with these segments so many times longer that it is possible, None when no time would do."""
+    factor = 2.0
+    while factor <= LONGEST:
+        longer = leg
+        for segment in segments:
+            longer = longer.stretched(segment, factor * float(leg.durations[segment]))
+        states = _solve(longer, limits)
+        if states is not None:
+            return _Solution(longer, states, limits)
+        factor *= 2
+    return None
+
+
+def _shorten(solution: _Solution, segment: int, low: float) -> None:
+    """Give `segment` its least duration, `low` or longer, whole milliseconds unless the leg is on the solver's edge."""
+    if solution.lasting(segment, low):
+        return
+    high = float(solution.leg.durations[segment])
     while high > low * (1 + PRECISION):
         middle = math.sqrt(low * high)
-        low, high = (low, middle) if possible(middle) else (middle, high)
-    return math.ceil(high * 1000) / 1000
+        low, high = (low, middle) if solution.lasting(segment, middle) else (middle, high)
+    rounded = math.ceil(high * 1000) / 1000
+    while rounded < high * 1.05 and not solution.lasting(segment, rounded):
+        rounded = math.ceil(rounded * (1 + PRECISION) * 1000) / 1000

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +16,14 @@ NEAR = 1e-6  # of a leg: a ramp that ends nearer than this to a key, or to the o
 class Leg:
     """Times (n + 1,) in seconds and positions (n + 1,) in units of one axis; at rest at both ends only.
 
-    `ramps` are the seconds in which it is to get up to speed and to come to rest, None where that is left open.
+    `ramps` are the seconds in which it is to get up to speed and to come to rest, None where that is left open. A leg
+    that is a window of a longer one has `ends` (2, 2): velocity and acceleration at its first and at its last key.
     """
 
     times: Array
     positions: Array
     ramps: tuple[float, float] | None = None
+    ends: Array = field(default_factory=lambda: np.zeros((2, 2)))
 
     @property
     def durations(self) -> Array:
@@ -35,7 +37,7 @@ class Leg:
         """With one segment lasting `duration` and the later ones as they were."""
         later = self.times.copy()
         later[segment + 1 :] += duration - self.durations[segment]
-        return Leg(later, self.positions, self.ramps)
+        return replace(self, times=later)
 
     def part(self, first: int, last: int) -> Leg:
         """From one key to a later one, both rests, with as much of the ramps as there is time for."""
@@ -43,6 +45,10 @@ class Leg:
         half = float(times[-1] - times[0]) / 2
         ramps = None if self.ramps is None else (min(self.ramps[0], half), min(self.ramps[1], half))
         return Leg(times, self.positions[first : last + 1], ramps)
+
+    def window(self, first: int, last: int, states: Array) -> Leg:
+        """From one key to a later one, moving there as `states` (n + 1, 2) say, velocity and acceleration by key."""
+        return Leg(self.times[first : last + 1], self.positions[first : last + 1], None, states[[first, last]])
 
     def cuts(self) -> tuple[Array, NDArray[np.intp], Array]:
         """The segments, cut where the ramps end: durations (k,), the segment of each, and the ramp that it lies in.

@@ -60,7 +60,7 @@ class Programme:
         self.times = times
         self.known = np.full((count, 3), np.nan)
         self.known[keys, 0] = (leg.positions - self.origin) / self.scale
-        self.known[[0, -1], 1:] = 0.0
+        self.known[[0, -1], 1:] = leg.ends * times[[0, -1], None] ** (1, 2) / self.scale
         if rule.directed:
             self.known[keys[1:-1][self.direction[:-1] != self.direction[1:]], 1] = 0.0
         free = np.isnan(self.known).ravel()
