@@ -9,12 +9,16 @@ at a speed that cannot be stopped.
 What happens at one key is felt a few segments away, or a few stops, and no further: a change is tried on a window of
 the leg around it, between the velocities and accelerations that the solution so far has there. So the price of a
 finding does not grow with the number of keys.
+
+In a loop or a bounce the way between two keys is gone several times, and whoever changes one changes all: such twins
+are lengthened together, and are one finding.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -33,6 +37,8 @@ WIDE = 5  # segments, at least, on either side of the one that a window is about
 STOPS = 2.0  # and so many of the axis's longest stops
 LIMITS = ("velocity", "acceleration", "jerk")
 
+_Twins = Sequence[Sequence[int]]
+
 
 def explain(axis: Axis, leg: Leg, wheres: Sequence[str], limits: Limits) -> list[Finding]:
     """The findings of a leg that no rule solves; `wheres` (n + 1,) name its keys."""
@@ -41,9 +47,12 @@ def explain(axis: Axis, leg: Leg, wheres: Sequence[str], limits: Limits) -> list
         factors = np.ones((len(leg.steps), 3))
     too_fast = np.abs(leg.steps) / (HEADROOM * limits.velocity * leg.durations)
     factors[:, 0] = np.maximum(factors[:, 0], too_fast)
+    twins = _twins(wheres)
+    factors = np.array([factors[list(alike)].max(axis=0) for alike in twins])
     worst = factors.max(axis=1)
-    suspects = [i for i in np.argsort(-worst).tolist() if worst[i] > BLAMED or i == worst.argmax()]
-    times = _least_times(leg, _culprits(leg, limits, suspects), limits)
+    suspects = [i for i in np.argsort(-worst, kind="stable").tolist() if worst[i] > BLAMED or i == worst.argmax()]
+    firsts = [i for i in suspects if i == twins[i][0]]
+    times = _least_times(leg, _culprits(leg, limits, firsts, twins), limits, twins)
     return [
         Finding(
             axis,
@@ -58,25 +67,36 @@ def explain(axis: Axis, leg: Leg, wheres: Sequence[str], limits: Limits) -> list
     ]
 
 
+def _twins(wheres: Sequence[str]) -> _Twins:
+    """For each segment all that lie between the same two keys, either way, itself among them; the first comes first."""
+    alike: dict[object, list[int]] = {}
+    pairs = [frozenset(pair) if all(pair) else number for number, pair in enumerate(pairwise(wheres))]
+    for number, pair in enumerate(pairs):
+        alike.setdefault(pair, []).append(number)
+    return [alike[pair] for pair in pairs]
+
+
 class _Solution:
     """A leg solved with the segments `relaxed` free of limits; of it only `states` (n + 1, 2) at the keys are kept.
 
-    Every change is tried on a window, and taken over where that can be solved.
+    Every change is of a segment and its twins. It is tried on a window, and taken over where that can be solved.
     """
 
-    def __init__(self, leg: Leg, states: Array, limits: Limits, relaxed: frozenset[int] = frozenset()) -> None:
+    def __init__(
+        self, leg: Leg, states: Array, limits: Limits, twins: _Twins, relaxed: frozenset[int] = frozenset()
+    ) -> None:
         self.leg, self.relaxed = leg, relaxed
-        self._states, self._limits = states, limits
+        self._states, self._limits, self._twins = states, limits, twins
         velocity, acceleration, jerk = limits.velocity, limits.acceleration, limits.jerk
         self._reach = STOPS * (velocity / acceleration + acceleration / jerk)
 
     def lasting(self, segment: int, duration: float) -> bool:
         """Have a segment last `duration` s, if that is possible."""
-        return self._change(segment, self.leg.stretched(segment, duration), self.relaxed)
+        return self._change(segment, _stretched(self.leg, self._twins[segment], duration), self.relaxed)
 
     def limited(self, segment: int) -> bool:
         """Have the limits apply to a segment again, if that is possible."""
-        return self._change(segment, self.leg, self.relaxed - {segment})
+        return self._change(segment, self.leg, self.relaxed - {*self._twins[segment]})
 
     def _change(self, segment: int, leg: Leg, relaxed: frozenset[int]) -> bool:
         first, last = self._window(leg, segment)
@@ -89,10 +109,11 @@ class _Solution:
         return True
 
     def _window(self, leg: Leg, segment: int) -> tuple[int, int]:
-        """The keys between which a change of `segment` may be felt."""
-        start, end = leg.times[segment] - self._reach, leg.times[segment + 1] + self._reach
-        first = min(segment - WIDE, int(np.searchsorted(leg.times, start, "right")) - 1)
-        last = max(segment + 1 + WIDE, int(np.searchsorted(leg.times, end)))
+        """The keys between which a change of `segment` and its twins may be felt."""
+        begun, ended = self._twins[segment][0], self._twins[segment][-1] + 1
+        start, end = leg.times[begun] - self._reach, leg.times[ended] + self._reach
+        first = min(begun - WIDE, int(np.searchsorted(leg.times, start, "right")) - 1)
+        last = max(ended + WIDE, int(np.searchsorted(leg.times, end)))
         return max(first, 0), min(last, len(leg.steps))
 
 
@@ -107,29 +128,37 @@ def _solve(leg: Leg, limits: Limits, relaxed: frozenset[int] = frozenset()) -> A
     return np.concatenate([coefficients[pieces, 1:3] * (1, 2), leg.ends[1:]])
 
 
-def _culprits(leg: Leg, limits: Limits, suspects: list[int]) -> list[int]:
+def _stretched(leg: Leg, segments: Sequence[int], duration: float) -> Leg:
+    for segment in segments:
+        leg = leg.stretched(segment, duration)
+    return leg
+
+
+def _culprits(leg: Leg, limits: Limits, suspects: list[int], twins: _Twins) -> list[int]:
     """The suspects, in order, without those whose limits can be kept after all once the others have more time."""
-    states = _solve(leg, limits, frozenset(suspects))
+    relaxed = frozenset(twin for segment in suspects for twin in twins[segment])
+    states = _solve(leg, limits, relaxed)
     if states is None:
         return sorted(suspects)
-    solution = _Solution(leg, states, limits, frozenset(suspects))
+    solution = _Solution(leg, states, limits, twins, relaxed)
     for segment in reversed(suspects):
-        if len(solution.relaxed) > 1:
+        if solution.relaxed > {*twins[segment]}:
             solution.limited(segment)
-    return sorted(solution.relaxed)
+    return sorted(solution.relaxed & {*suspects})
 
 
-def _least_times(leg: Leg, blamed: list[int], limits: Limits) -> dict[int, float | None]:
+def _least_times(leg: Leg, blamed: list[int], limits: Limits, twins: _Twins) -> dict[int, float | None]:
     """Durations, whole milliseconds up, of the segments that need more time, with which the leg is possible.
 
     Those are the `blamed`, and where their time alone does not help, their neighbours, and so on. None for each of the
     blamed when no time would help.
     """
-    involved, solution = blamed, _possible(leg, blamed, limits)
-    while solution is None and len(involved) < len(leg.steps):
-        near = {segment + side for segment in involved for side in (-1, 0, 1)}
-        involved = [segment for segment in range(len(leg.steps)) if segment in near]
-        solution = _possible(leg, involved, limits)
+    firsts = sorted({alike[0] for alike in twins})
+    involved, solution = blamed, _possible(leg, blamed, limits, twins)
+    while solution is None and len(involved) < len(firsts):
+        near = {twin + side for segment in involved for twin in twins[segment] for side in (-1, 0, 1)}
+        involved = [segment for segment in firsts if near & {*twins[segment]}]
+        solution = _possible(leg, involved, limits, twins)
     if solution is None:
         return dict.fromkeys(blamed)
     for segment in involved:
@@ -145,16 +174,16 @@ def _least_times(leg: Leg, blamed: list[int], limits: Limits) -> dict[int, float
     }
 
 
-def _possible(leg: Leg, segments: list[int], limits: Limits) -> _Solution | None:
+def _possible(leg: Leg, segments: list[int], limits: Limits, twins: _Twins) -> _Solution | None:
     """The leg with these segments so many times longer that it is possible, None when no time would do."""
     factor = 2.0
     while factor <= LONGEST:
         longer = leg
         for segment in segments:
-            longer = longer.stretched(segment, factor * float(leg.durations[segment]))
+            longer = _stretched(longer, twins[segment], factor * float(leg.durations[segment]))
         states = _solve(longer, limits)
         if states is not None:
-            return _Solution(longer, states, limits)
+            return _Solution(longer, states, limits, twins)
         factor *= 2
     return None
 

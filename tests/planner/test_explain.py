@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 from teleop.motion import Axis, Limits
 from teleop.planner.findings import Finding, Infeasible
 from teleop.planner.keyframes import Key, plan
+from teleop.planner.repeat import Repeat, repeated
 
 PAN, TILT = Axis.PAN, Axis.TILT
 LIMITS = {PAN: Limits(-170, 170, 60, 120, 600), TILT: Limits(-30, 40, 40, 90, 480)}
@@ -90,3 +92,29 @@ def test_the_text_says_it_all():
     beyond = Finding(TILT, "keyframes[1]", "keyframes[1]", "maximum", 1.5)
     assert str(beyond) == "tilt, keyframes[1]: 1.5 beyond the soft limit (maximum)"
     assert "\n" not in str(Infeasible([finding, beyond]))
+
+
+@settings(max_examples=10)
+@given(
+    st.lists(st.tuples(st.floats(0.1, 1.5), st.floats(-100, 100)), min_size=1, max_size=3),
+    st.integers(2, 5),
+)
+def test_what_is_gone_several_times_is_one_finding_whose_time_does_for_all(
+    segments: list[tuple[float, float]], times: int
+) -> None:
+    def bounced(durations: Sequence[float]) -> dict[Axis, list[Key]]:
+        ends = np.cumsum([0.0, *durations])
+        keys = [Key(at, p, where=f"key {i}") for i, (at, p) in enumerate(zip(ends, positions, strict=True))]
+        return repeated({PAN: keys}, times, Repeat.BOUNCE)
+
+    positions = [0.0, *(position for _, position in segments)]
+    durations = [seconds for seconds, _ in segments]
+    findings = refusal(bounced(durations))
+    assume(findings)
+    pairs = [{finding.first, finding.last} for finding in findings]
+    assert all(pairs.count(pair) == 1 for pair in pairs)
+    for finding in findings:
+        segment = min(int(finding.first[4:]), int(finding.last[4:]))
+        assert finding.shortest is not None
+        durations[segment] = finding.shortest
+    assert refusal(bounced(durations)) == ()
