@@ -8,8 +8,9 @@ since a plan is only ever a proposal for one tick, demands may change kind at an
 spring (a drone's stick) goes to its centre when nothing is asked of it, as the stick of a remote control does.
 
 All velocities go through one solver call because that costs half of four; whatever needs more is an axis's own affair.
-What every axis does every tick is written out in `step` and `_cruise`, where a call or a `zip` would be seen in the
-figures of tests/benchmarks/test_planner.py: there a step may cost four bare updates of Ruckig, half of it in Ruckig.
+What every axis does every tick is written out in `step` and `_cruise`, where a call, a `zip` or a comprehension would
+be seen in the figures of tests/benchmarks/test_planner.py: there a step may cost four bare updates of Ruckig, half of
+it in Ruckig.
 """
 
 from __future__ import annotations
@@ -112,7 +113,9 @@ class Live:
         self._carried = self._cruise(sticks, velocities, limits, seconds) if sticks else []
         if presets or self._recalls:
             self._recall(presets, seconds)
-        motion = {drive.axis: drive.state for drive in self._drives}
+        motion: dict[Axis, State] = {}
+        for drive in self._drives:
+            motion[drive.axis] = drive.state
         self._before, self._after = self._after, motion
         return motion
 
@@ -142,11 +145,10 @@ class Live:
         carried = drives
         positions, rates, accelerations = answer
         for i, drive in enumerate(drives):
-            position, rate, acceleration = positions[i], rates[i], accelerations[i]
-            if velocities[i] == 0.0 and -RESIDUE < rate < RESIDUE and -RESIDUE < acceleration < RESIDUE:
-                rate = acceleration = 0.0
-                carried = []
-            state = new_state(State, (position, rate, acceleration))
+            position = positions[i]
+            state = new_state(State, (position, rates[i], accelerations[i]))
+            if velocities[i] == 0.0 and -RESIDUE < rates[i] < RESIDUE and -RESIDUE < accelerations[i] < RESIDUE:
+                state, carried = State(position), []
             if drive.clear_low < position < drive.clear_high:
                 drive.state = state
                 continue

@@ -23,21 +23,25 @@ NEAR = 20  # ticks within which a reference is expected to keep its acceleration
 CATCHABLE = 0.999  # share of V: a faster reference is chased at V
 
 
-def step_is_legal(start: State, end: State, seconds: float, velocity: float, acceleration: float, jerk: float) -> bool:
-    """Whether three equal spans of constant jerk lead from `start` to `end` within the magnitudes given, exactly."""
+def step_is_legal(start: State, end: State, seconds: float, bounds: tuple[float, float, float]) -> bool:
+    """Whether three equal spans of constant jerk lead from `start` to `end` within `bounds`, exactly.
+
+    `bounds` are the magnitudes of velocity, acceleration and jerk. The jerks are reckoned times the square of a span.
+    """
     p_0, v_0, a_0 = start
     p_1, v_1, a_1 = end
+    velocity, acceleration, jerk = bounds
     span = seconds / 3
-    x = (a_1 - a_0) / span
-    y = v_1 - v_0 - a_0 * seconds
-    z = (p_1 - p_0 - seconds * (v_0 + a_0 * seconds / 2)) / span
-    square = span * span
-    jerk_1 = (z - y) / square + x / 3
-    jerk_3 = (z - 2 * y) / square + x * (11 / 6)
-    jerk_2 = x - jerk_1 - jerk_3
-    if not (-jerk <= jerk_1 <= jerk and -jerk <= jerk_2 <= jerk and -jerk <= jerk_3 <= jerk):
+    gained = a_0 * seconds
+    x = (a_1 - a_0) * span
+    y = v_1 - v_0 - gained
+    z = (p_1 - p_0) / span - 3 * v_0 - 1.5 * gained
+    jerk_1 = z - y + x / 3
+    jerk_3 = z - 2 * y + x * (11 / 6)
+    most = jerk * span * span
+    if not (-most <= jerk_1 <= most and -most <= x - jerk_1 - jerk_3 <= most and -most <= jerk_3 <= most):
         return False
-    a_13, a_23 = a_0 + jerk_1 * span, a_1 - jerk_3 * span  # after a third and two thirds
+    a_13, a_23 = a_0 + jerk_1 / span, a_1 - jerk_3 / span  # after a third and two thirds
     lowest = -acceleration
     if not (lowest <= a_13 <= acceleration and lowest <= a_23 <= acceleration and lowest <= a_1 <= acceleration):
         return False
@@ -69,7 +73,7 @@ class Tracker:
             or not drive.trips(goal)
             or (not drive.outside and drive.turns_inside(goal))
         ):
-            if step_is_legal(drive.state, goal, seconds, *drive.bounds):
+            if step_is_legal(drive.state, goal, seconds, drive.bounds):
                 return goal
             answer = self._solve(drive, goal, seconds)
             if answer is not None and answer.duration <= seconds * ROUNDED and -highest <= rate <= highest:
