@@ -86,9 +86,15 @@ def _variable(field: Field, name: str, value: int) -> Control:
 
 
 def _on(field: Field, number: int) -> Control | None:
-    """The control of an array that `number` stands for; a number out of range, or without a usage, is none."""
+    """The control of an array that `number` stands for; a number out of range, or without a usage, is none.
+
+    Nor is usage 0, which every page keeps for "nothing": an idle keyboard sends it in each of its places.
+    """
     low, high = field.minimum, field.maximum
-    if field.usages is None or not low <= number <= high or (found := field.usages.at(number - low)) is None:
+    if field.usages is None or not low <= number <= high:
+        return None
+    found = field.usages.at(number - low)
+    if found is None or not found[1]:
         return None
     return Control(field.report_id, *found, usage_name(*found), 1, low, high, field.relative, False, number)
 

@@ -51,6 +51,8 @@ def test_an_array_lists_what_is_on() -> None:
         ("050c 09b0 09b1 09cd 09e2 1501 2504 7504 9502 8100", "42", ["Pause", "Mute"]),
         ("050c 09b0 0509 1901 2903 1501 2504 7504 9502 8100", "41", ["Play", "Button 3"]),
         ("0507 1904 2908 15fe 2502 7508 9503 8100", "fe0002", ["Key A", "Key C", "Key E"]),  # numbers from -2
+        ("0507 1900 2908 1500 2508 7508 9503 8100", "000400", ["Key A"]),  # an idle place says usage 0, no event
+        ("050c 1900 2aff03 1500 26ff03 7510 9502 8100", "0000cd00", ["Play/pause"]),
         ("0507 1904 2908 1501 2505 7508 9503 8140", "000006", []),
         ("1501 2505 7508 9503 8100", "010203", []),
         ("0507 1904 2908 1505 2501 7508 9503 8100", "010305", []),
@@ -107,11 +109,11 @@ def runs(draw: st.DrawFn) -> Written:
     low, high = (-(1 << width - 1), (1 << width - 1) - 1) if signed else (0, (1 << min(width, 31)) - 1)
     ends = sorted((draw(st.integers(low, high)), draw(st.integers(low, high))))
     count = draw(st.integers(0, 12))
-    first = draw(st.integers(1, 0xFF00))
+    first = draw(st.integers(0, 0xFF00))
     together = draw(st.booleans())
     many = draw(st.integers(0, 14))
     usages = (
-        tuple(range(first, first + many)) if together else tuple(draw(st.lists(st.integers(1, 0xFFFF), max_size=many)))
+        tuple(range(first, first + many)) if together else tuple(draw(st.lists(st.integers(0, 0xFFFF), max_size=many)))
     )
     return Written(
         report_id=draw(st.integers(0, 3)),

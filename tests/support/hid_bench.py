@@ -112,7 +112,7 @@ class Written:
             if not self.array:
                 usage = self.usages[min(place, len(self.usages) - 1)]
                 found.append((self.report_id, self.page, usage, number, self.has_null and not inside))
-            elif inside and number - self.minimum < len(self.usages):
+            elif inside and number - self.minimum < len(self.usages) and self.usages[number - self.minimum]:
                 found.append((self.report_id, self.page, self.usages[number - self.minimum], 1, False))
         return found
 
