@@ -93,6 +93,8 @@ def vendor_can(program: str = _ASK_VENDORS, patience: float = _VENDOR_PATIENCE) 
         )
     except subprocess.TimeoutExpired:
         return Listing(notes=[f"CAN: vendors' libraries did not answer within {patience:g} s"])
+    except OSError as error:
+        return Listing(notes=[f"CAN: vendors' libraries cannot be asked: {sys.executable}: {error.strerror}"])
     if asked.returncode:
         last = asked.stderr.strip().splitlines()[-1:] or [f"exit code {asked.returncode}"]
         return Listing(notes=[f"CAN: vendors' libraries failed: {last[0]}"])

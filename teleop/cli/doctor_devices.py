@@ -11,6 +11,7 @@ from teleop.cli.doctor_finding import Finding, Findings, State
 from teleop.cli.doctor_rules import HIDRAW, SERIAL, hid_rule, serial_rule
 
 RULES = "/etc/udev/rules.d/70-teleop.rules"  # before 73, where systemd looks for uaccess
+_PLUG = "plug a pad in and ask again, for the udev rule it needs"
 
 
 def hid() -> Findings:
@@ -24,10 +25,12 @@ def hid() -> Findings:
     if rules:
         names = ", ".join(f"/dev/{device.name}" for device in shut if hid_rule(device))
         yield Finding("hid", State.PROBLEM, f"no permission to open {names}", _write_rules(), rules)
+    elif devices and len(shut) == len(devices):
+        yield Finding("hid", State.NOTE, "only keyboards and mice here, which nobody need open", _PLUG)
     elif devices:
         yield Finding("hid", State.OK, f"{len(devices) - len(shut)} of {len(devices)} hidraw devices may be opened")
     else:
-        yield Finding("hid", State.NOTE, "no hidraw device here", "plug a pad in and ask again, for the rule it needs")
+        yield Finding("hid", State.NOTE, "no hidraw device here", _PLUG)
 
 
 def serial() -> Findings:

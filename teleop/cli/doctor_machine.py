@@ -52,12 +52,17 @@ def packages() -> Findings:
 
 
 def disk() -> Findings:
-    free = shutil.disk_usage(".").free
-    found = f"{free / 1e9:.1f} GB free for takes in {Path.cwd()}"
+    try:
+        here = Path.cwd()
+        free = shutil.disk_usage(here).free
+    except OSError as error:  # a directory that was deleted under the shell
+        yield Finding("disk", State.PROBLEM, f"this directory cannot be used: {error.strerror}", "change to another")
+        return
+    found = f"{free / 1e9:.1f} GB free for takes in {here}"
     if free < ROOM:
         yield Finding("disk", State.PROBLEM, found, "make room, or give --take a path on another disk")
-    elif not os.access(".", os.W_OK):
-        yield Finding("disk", State.PROBLEM, f"no permission to write in {Path.cwd()}", "give --take another path")
+    elif not os.access(here, os.W_OK):
+        yield Finding("disk", State.PROBLEM, f"no permission to write in {here}", "give --take another path")
     else:
         yield Finding("disk", State.OK, found)
 

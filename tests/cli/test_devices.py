@@ -59,6 +59,13 @@ def test_a_vendors_library_that_hangs_or_dies_is_a_note(program: str, note: str)
     assert [note in each for each in listing.notes] == [True]
 
 
+def test_an_interpreter_that_may_not_be_started_again_is_a_note(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.executable", "/nowhere/python3")
+    assert vendor_can().notes == [
+        "CAN: vendors' libraries cannot be asked: /nowhere/python3: No such file or directory"
+    ]
+
+
 def test_the_real_question_to_python_can_is_answered() -> None:
     assert vendor_can(patience=60).notes == []
 

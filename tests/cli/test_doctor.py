@@ -66,6 +66,15 @@ def test_a_pad_that_may_not_be_opened_gets_its_udev_rule_exactly(
     ]
 
 
+def test_a_keyboard_that_may_not_be_opened_is_no_pad_that_may(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plugged(tmp_path, "hidraw1", PAD, KEYBOARD_DESCRIPTOR)
+    monkeypatch.setattr(doctor_devices, "HIDRAW", tmp_path)
+    forbid(monkeypatch, "/dev/hidraw1")
+    [finding] = doctor_devices.hid()
+    assert (finding.state, finding.found) == (State.NOTE, "only keyboards and mice here, which nobody need open")
+    assert "udev rule" in finding.todo
+
+
 def test_a_serial_port_that_may_not_be_opened_gets_a_rule_and_one_on_the_board_does_not_count(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -126,6 +135,28 @@ def test_real_time_that_is_not_permitted_is_left_as_it_was_and_said(monkeypatch:
     first, *_ = doctor_timing.scheduling()
     assert first.state is State.NOTE
     assert "rtprio 50' | sudo tee /etc/security/limits.d/teleop.conf" in first.todo
+
+
+def test_a_user_without_a_name_is_named_by_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_arguments: object) -> None:
+        raise PermissionError
+
+    monkeypatch.setattr(os, "sched_setscheduler", refuse)
+    monkeypatch.setattr(os, "getuid", lambda: 4242424)
+    first, *_ = doctor_timing.scheduling()
+    assert "echo ':4242424 - rtprio 50'" in first.todo
+
+
+def test_a_directory_that_was_deleted_is_a_problem(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    [finding] = doctor_machine.disk()
+    assert (finding.state, finding.found) == (
+        State.PROBLEM,
+        "this directory cannot be used: No such file or directory",
+    )
 
 
 def test_a_full_disk_is_a_problem_but_stops_no_run(monkeypatch: pytest.MonkeyPatch) -> None:
