@@ -186,13 +186,14 @@ class Learned:
     def text(self, vendor: int, product: int, title: str) -> str:
         """The `inputs:` of a profile, for the device with these ids."""
         lines = [f"inputs:   # {title}", f"  - device: {{vendor: {vendor:#06x}, product: {product:#06x}}}"]
-        lines += [f"    enable: {self.enable}"] if self.enable else []
+        lines += [f"    enable: {_key(self.enable)}"] if self.enable else []
         lines += ["    controls:"] if self.controls else ["    controls: {}"]
         for name, does in self.nested().items():
+            key = _key(name)
             if name in self.controls:
-                lines.append(f"      {name}: {_flow(does)}")
+                lines.append(f"      {key}: {_flow(does)}")
             else:
-                lines += [f"      {name}:", *(f"        {way}: {_flow(action)}" for way, action in does.items())]
+                lines += [f"      {key}:", *(f"        {way}: {_flow(action)}" for way, action in does.items())]
         return "\n".join(lines) + "\n"
 
 
@@ -223,6 +224,10 @@ def _direction(name: str) -> tuple[str, str]:
     """`Hat switch up` as the hat and its direction; of anything else no direction."""
     hat, _, last = name.rpartition(" ")
     return (hat, last) if hat.startswith("Hat") and last in DIRECTIONS else (name, "")
+
+
+def _key(name: str) -> str:
+    return f'"{name}"' if "#" in name else name  # one of a British keyboard, and no comment
 
 
 def _flow(does: Mapping[str, Any]) -> str:

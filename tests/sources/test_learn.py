@@ -2,14 +2,17 @@
 
 import itertools
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import pytest
 
+from teleop.hid.names import USAGES
 from teleop.motion import Axis
 from teleop.sources.hid_state import Change, Sample
 from teleop.sources.inputs import Command
 from teleop.sources.inputs_section import InputSection, input_rules
 from teleop.sources.learn import Found, Kind, Learned, Question, Watch, other_way, questions, still
+from teleop.yaml_text import read_document
 
 
 def byte(value: float) -> Sample:
@@ -122,6 +125,19 @@ inputs:   # Wireless Controller
       Button 1: {press: stop}
 """
     )
+
+
+def test_whatever_a_control_is_called_the_profile_holds_that_name(tmp_path: Path) -> None:
+    names = [name for usages in USAGES.values() for name in usages.values() if name != "Hat switch"]
+    learned = Learned()
+    for name in names:
+        learned.add(Question("", axis=Axis.PAN), Found(name, Kind.STICK, 1))
+    learned.add(Question("", enable=True), Found("Key non-US #", Kind.BUTTON, 1))
+    file = tmp_path / "inputs.yaml"
+    file.write_text(learned.text(1, 2, "A keyboard"))
+    (section,) = read_document(file).data["inputs"]
+    assert list(section["controls"]) == names
+    assert section["enable"] == "Key non-US #"
 
 
 kinds = [Found("A", kind, towards) for kind in Kind for towards in (1, -1)]
