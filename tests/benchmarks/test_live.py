@@ -153,6 +153,7 @@ def spacing(sent: list[tuple[float, float]]) -> list[float]:
     return [max(0.0, late - before) for (_, before), (_, late) in pairwise(sent)]
 
 
+@pytest.mark.timeout(900)  # 180000 ticks, each of them traced, are minutes of wall time beside other work
 def test_memory_stays_flat_and_no_tick_is_skipped(tmp_path: Path, amount: Callable[[float, float], float]) -> None:
     """On virtual time, with a hand that never rests: what grows, grows with the ticks."""
     minutes = amount(30, 0.5)
