@@ -4,7 +4,8 @@ Like session.py it does no I/O and has no clock: bytes and `now` in, bytes out. 
 command is sent in session 0 and never acknowledged, or in a session of its own, 2 to 31, until its acknowledgement
 comes; that is a value alone, so session and sequence are all that says what it answers. Sending again means the same
 bytes again. It never happens late: after a stall of this computer a command whose time is over is lost, because what
-an operator wanted seconds ago (to take off, to get control) must not happen now.
+an operator wanted seconds ago (to take off, to get control) must not happen now. Nor is an order sent again after a
+newer one of its kind, or once it is withdrawn: taking off must not follow landing, nor obtaining control its release.
 """
 
 from __future__ import annotations
@@ -71,6 +72,7 @@ class _Exchange:
     sends: Sends
     times: int = 1
     answered: bool = False
+    wanted: bool = True
 
     def over(self, now: float) -> bool:
         """Whether the time of all its sends is over."""
@@ -78,7 +80,8 @@ class _Exchange:
 
     def due(self, now: float) -> bool:
         """Whether it has to be sent again."""
-        return self.times < self.sends.sends and now > self.last + self.sends.timeout and not self.over(now)
+        late = now > self.last + self.sends.timeout
+        return self.wanted and self.times < self.sends.sends and late and not self.over(now)
 
 
 class OnboardSession:
@@ -108,14 +111,23 @@ class OnboardSession:
     def request(self, message: Message, now: float) -> tuple[bytes, int]:
         """The frame that sends `message`, and its sequence number; `due` has it again until it is acknowledged.
 
+        An older one of its kind is not sent again.
+
         Raises FieldError, or BusyError when too much is unanswered.
         """
         session = next((each for each in OWN if each not in self._open), None)
         if session is None:
             raise BusyError(f"the drone has not answered {len(OWN)} commands: there is no room for {message.name}")
         frame, sequence = self._send(message, session)
+        self.withdraw(type(message))
         self._open[session] = _Exchange(message, sequence, frame, now, now, SENDS.get(type(message), ONCE))
         return frame, sequence
+
+    def withdraw(self, *kinds: type[Message]) -> None:
+        """Send nothing of these kinds again; an acknowledgement may still come, of what the drone has heard."""
+        for exchange in self._open.values():
+            if isinstance(exchange.request, kinds):
+                exchange.wanted = False
 
     def reply(self, frame: Frame, message: Message) -> bytes:
         """The frame that acknowledges `frame` with `message`, encrypted when that was."""

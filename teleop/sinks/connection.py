@@ -86,6 +86,11 @@ class Connection:
         self._link.send(frame)
         return sequence
 
+    def withdraw(self, *kinds: type[Message]) -> None:
+        """Send no request of these kinds again; only a drone's are."""
+        if isinstance(self.session, OnboardSession):
+            self.session.withdraw(*kinds)
+
     def poll(self, now: float) -> None:
         """Take in what has arrived, once per tick however many ask. Raises LinkError when the far end is lost."""
         if now == self._polled:

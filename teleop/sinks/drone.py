@@ -92,6 +92,7 @@ class DroneSink:
         """Neutral sticks, one giving back, and a look at whether it worked; nothing where nothing was taken."""
         self._hand = False
         self._engagement.leave(now, "the run ends", asked=True)
+        self._withdraw()
         if self._engagement.stage is Stage.IDLE:
             if unreturned := self._engagement.unreturned:
                 self._engagement.unreturned = ""
@@ -125,12 +126,18 @@ class DroneSink:
         for trouble in self._troubles(now):
             self._engagement.leave(now, trouble)
         order = self._engagement.advance(now, self._hand, self._grip.held(self.telemetry, now))
+        self._withdraw()
         try:
             with self._explaining():
                 self._send(order, now)
         except Exception:
             self._engagement.not_sent(now)
             raise
+
+    def _withdraw(self) -> None:
+        """An order that is sent again later would outlive the hand that gave it; giving back is not among these yet."""
+        if self._engagement.stage in (Stage.ADRIFT, Stage.LEAVING):
+            self._grip.withdraw()
 
     def _send(self, order: Order, now: float) -> None:
         match order:

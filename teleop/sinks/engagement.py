@@ -84,6 +84,7 @@ class Engagement:
         self._since = opened  # in this stage
         self._next = -math.inf  # s: when a frame is due
         self._neutrals = 0
+        self._told = False  # whether the drone has said that it is held
 
     def refusal(self, now: float) -> str:
         """Why the drone cannot be taken now, "" if it can."""
@@ -127,12 +128,15 @@ class Engagement:
                 self._confirm(now, held)
             case Stage.ENGAGED | Stage.ADRIFT if held is False:
                 self.leave(now, f"the drone has ended {self._what}: its pilot took it back, or it heard nothing")
+            case Stage.ENGAGED | Stage.ADRIFT if held is None and self._told:
+                self.leave(now, f"the drone no longer says whether {self._what} is on")
         self._mind_the_hand(now, hand)
         return self._frame(now)
 
     def _confirm(self, now: float, held: bool | None) -> None:
         late = now - self._since > CONFIRM
         if held or (late and held is None):
+            self._told = bool(held)
             self._happened(Event.CONFIRMED, now)
             self._say(f"engaged: the drone confirms {self._what}" if held else self._unconfirmed)
         elif late:

@@ -44,6 +44,10 @@ class Grip(Protocol):
         """Send what leaves the drone where it is."""
         ...
 
+    def withdraw(self) -> None:
+        """Send nothing again that the drone has not acknowledged: whoever asked for it is leaving, or gone."""
+        ...
+
     def give_back(self, now: float) -> None: ...
 
     def held(self, seen: Telemetry, now: float) -> bool | None:

@@ -76,6 +76,9 @@ class MovementGrip:
         if self._obtained and not self._by_itself:
             self._connection.stream(self._move(dict.fromkeys(STICKS, 0.0), *self._here(seen, now)))
 
+    def withdraw(self) -> None:
+        self._connection.withdraw(drone.Control, drone.Task, drone.Arm)
+
     def give_back(self, now: float) -> None:
         self._connection.request(drone.Control(ControlOrder.RELEASE), now)
 

@@ -67,6 +67,9 @@ class VirtualRcGrip:
         self._switches, self._gesture_end = NEUTRAL, -math.inf
         self._connection.stream(NEUTRAL)
 
+    def withdraw(self) -> None:
+        """Nothing here is ever sent again."""
+
     def give_back(self, now: float) -> None:  # noqa: ARG002 - whenever it is
         self._connection.stream(VirtualRc(on=False, back_to_rc=self._back_to_rc))
 

@@ -89,6 +89,24 @@ def test_nothing_is_sent_again_after_a_stall() -> None:
     assert [lost.request for lost in session.overdue(1.5)] == [TAKE_OFF]
 
 
+def test_nothing_is_sent_again_after_a_newer_order_of_its_kind() -> None:
+    session = OnboardSession()
+    session.request(TAKE_OFF, 0.0)
+    landing, _ = session.request(drone.Task(TaskKind.LAND, number=1), 0.05)
+    assert session.due(0.11) == []
+    assert session.due(0.16) == [landing]
+
+
+def test_what_is_withdrawn_is_not_sent_again_and_can_still_be_answered() -> None:
+    session = OnboardSession()
+    obtain, _ = session.request(OBTAIN, 0.0)
+    version, _ = session.request(drone.Version(), 0.45)
+    session.withdraw(drone.Control, drone.Task)
+    assert session.due(0.56) == [version]
+    [received] = session.receive(answer(obtain, OBTAINED), 0.6)
+    assert (received.message, received.request) == (OBTAINED, OBTAIN)
+
+
 def test_each_open_request_has_a_session_of_its_own_and_answers_find_them_in_any_order() -> None:
     session = OnboardSession(first_sequence=0xFFFF)
     frames = [session.request(message, 0.0)[0] for message in (OBTAIN, TAKE_OFF, drone.Version())]

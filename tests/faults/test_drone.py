@@ -78,6 +78,10 @@ def status_is_no_longer_told(scene: Sky) -> None:
     scene.drone.hide("status")
 
 
+def the_bit_is_no_longer_told(scene: Sky) -> None:
+    scene.drone.hide("control")
+
+
 def nothing_comes_from_it(scene: Sky) -> None:
     scene.cable.mute = True
 
@@ -136,6 +140,7 @@ ROWS = [
     Row(control_is_lost, "the drone says that control was lost"),
     Row(battery_runs_low, "the battery is at 20 %", within=1.1),
     Row(status_is_no_longer_told, "the drone no longer says its flight status", within=1.1),
+    Row(the_bit_is_no_longer_told, "no longer says whether virtual RC is on", within=1.1, result=Result.FAILED),
     Row(nothing_comes_from_it, "take it over with its RC", within=1.1, result=Result.FAILED),
     Row(nothing_reaches_it, "the drone has ended virtual RC", within=1.1),
     Row(every_byte_is_damaged, "the drone has ended virtual RC", within=1.1),

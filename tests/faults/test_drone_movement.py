@@ -158,3 +158,45 @@ def test_control_that_is_refused_is_said_and_not_asked_for_again(tmp_path: Path)
     assert any("the drone does not confirm control" in text for text in scene.said)
     assert len(orders(scene, ControlOrder.OBTAIN)) == 1
     assert scene.of(Move) == []
+
+
+def lost_on_the_way(scene: Sky, seconds: float) -> None:
+    """Whatever is sent now does not arrive; what is sent 40 ms later does."""
+    scene.at(seconds - 0.02, lambda: setattr(scene.cable, "deaf", True))
+    scene.at(seconds + 0.04, lambda: setattr(scene.cable, "deaf", False))
+
+
+def test_control_that_was_released_is_not_obtained_by_an_older_request(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        lost_on_the_way(scene, READY)
+        scene.engage_at(READY)
+        scene.at(READY + 0.1, lambda: scene.keys.press(Command.DISENGAGE))
+        scene.quit_at(READY + 4)
+        scene.run()
+    assert len(orders(scene, ControlOrder.OBTAIN)) == len(orders(scene, ControlOrder.RELEASE)) == 1
+    assert scene.drone.cockpit.pilot is Pilot.RC
+    assert not scene.drone.cockpit.obtained
+
+
+@pytest.mark.parametrize(
+    ("then", "tasks"),
+    [
+        (lambda scene: scene.keys.press(Command.TELL, words="drone land"), [TaskKind.TAKE_OFF, TaskKind.LAND]),
+        (lambda scene: scene.keys.press(Command.STOP), [TaskKind.TAKE_OFF]),
+        (lambda scene: scene.keys.press(Command.QUIT), [TaskKind.TAKE_OFF]),
+        (lambda scene: setattr(scene.pad, "trouble", "gone"), [TaskKind.TAKE_OFF]),
+    ],
+)
+def test_it_does_not_take_off_by_an_order_that_is_no_longer_in_force(
+    then: Callable[[Sky], None], tasks: list[TaskKind], tmp_path: Path
+) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.engage_at(READY)
+        lost_on_the_way(scene, READY + 1)
+        scene.tell_at(READY + 1, "take-off")
+        scene.at(READY + 1.05, lambda: then(scene))
+        scene.quit_at(READY + 4)
+        scene.run()
+    assert [message.task for _, message in scene.of(drone.Task)] == tasks
+    assert scene.drone.cockpit.status is Status.STANDBY

@@ -145,6 +145,16 @@ def test_a_drone_that_says_nothing_of_it_is_flown_with_a_warning() -> None:
     assert drone.engagement.unreturned == drone.said[-1]
 
 
+def test_a_drone_that_no_longer_says_that_it_is_held_is_given_back() -> None:
+    drone = Drone()
+    drone.engage()
+    drone.run(2)
+    drone.silent = True
+    drone.run(1 + CHECK)
+    assert drone.said[1].startswith("the drone no longer says whether virtual RC is on")
+    assert len(drone.of(Order.GIVE_BACK)) == 1
+
+
 def test_a_pilot_who_takes_it_back_is_told_to_have_it() -> None:
     drone = Drone()
     drone.engage()
