@@ -87,7 +87,7 @@ def live(
         view = LiveView(
             title, limits, lambda: operator.status, rig.connections, keyboard, trouble, options.json, aboard.state
         )
-        watchers: list[Sink] = [operator, *commands(rig, operator.say), *([] if keyboard is None else [keyboard])]
+        watchers: list[Sink] = [operator, *commands(rig, axes, operator.say), *([] if keyboard is None else [keyboard])]
         tally = Tally(lambda: operator.begin)
         return perform(rig, axes, [operator], tally, view, options.json, recorder, watchers)
 

@@ -15,7 +15,7 @@ from teleop.cli.display import Display, error_table
 from teleop.motion import Axis
 from teleop.ports import Sink, Source
 from teleop.rig import Rig
-from teleop.sinks.commands import CommandSink
+from teleop.sinks.commands import CommandSink, Unheard
 from teleop.sinks.recorder import Recorder
 from teleop.sinks.take_format import plain
 from teleop.sinks.tally import Tally
@@ -96,10 +96,11 @@ def print_take(take: Recorder | None) -> None:
         print(f"teleop: {take.trouble}", file=sys.stderr)
 
 
-def commands(rig: Rig, say: Callable[[str], object]) -> list[Sink]:
+def commands(rig: Rig, axes: Sequence[Axis], say: Callable[[str], object]) -> list[Sink]:
     """What gives a gimbal its own commands, where the rig has one; `say` is for what comes of them."""
     links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
-    return [CommandSink(rig.connections[link], say) for link in links[:1]]
+    heard = [CommandSink(rig.connections[link], say) for link in links[:1]]
+    return [*heard, Unheard(gimbal=bool(heard), drone=rig.drone(axes) is not None, say=say)]
 
 
 @contextmanager

@@ -63,7 +63,7 @@ class SequenceRun:
             if source.staging.trigger is not None:
                 source.staging.trigger.open(stack)
             rig = stack.enter_context(open_rig(profile, self.clock))
-            watchers = self._watchers(stack, rig, conductor, extras)
+            watchers = self._watchers(stack, rig, axes, conductor, extras)
             display = Display(
                 title,
                 lambda: source.begin,
@@ -91,10 +91,12 @@ class SequenceRun:
         extras.append(report)
         return Conductor(self.source, self.keys, trimming, report.keep)
 
-    def _watchers(self, stack: ExitStack, rig: Rig, conductor: Conductor | None, extras: list[Extra]) -> list[Sink]:
+    def _watchers(
+        self, stack: ExitStack, rig: Rig, axes: Sequence[Axis], conductor: Conductor | None, extras: list[Extra]
+    ) -> list[Sink]:
         said: list[str] = []
         stack.callback(lambda: print(*said, sep="\n", end="\n" if said else "", file=sys.stderr))
-        watchers: list[Sink] = [*commands(rig, said.append)]
+        watchers: list[Sink] = [*commands(rig, axes, said.append)]
         if self.keys is not None:
             watchers.append(stack.enter_context(self.keys))
         if conductor is not None:

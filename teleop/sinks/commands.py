@@ -20,6 +20,24 @@ FULL_DIAL = 2048  # R SDK V2.5, section 2.3.4.11
 DIAL_PERIOD = 0.02  # s between two words of the dial, at least
 
 
+_DRONE = "drone "  # what its own sink hears; all other words are the gimbal's
+
+
+class Unheard:
+    """Says of what is told to a device that this rig does not have that nobody hears it."""
+
+    def __init__(self, gimbal: bool, drone: bool, say: Callable[[str], object]) -> None:
+        self._gimbal, self._drone, self._say = gimbal, drone, say
+
+    def write(self, tick: Tick) -> None:
+        for act in tick.actions:
+            if isinstance(act, Told) and not (self._drone if act.words.startswith(_DRONE) else self._gimbal):
+                self._say(f"{act.words}: this rig has no {'drone' if act.words.startswith(_DRONE) else 'gimbal'}")
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
+        return None
+
+
 class CommandSink:
     """Gives `Told` and `Dialled` to the gimbal on a connection; `say` is for what comes of it."""
 
@@ -32,7 +50,7 @@ class CommandSink:
 
     def write(self, tick: Tick) -> None:
         for act in tick.actions:
-            if isinstance(act, Told) and not act.words.startswith("drone "):
+            if isinstance(act, Told) and not act.words.startswith(_DRONE):
                 self._tell(act.words, tick.time)
             elif isinstance(act, Dialled):
                 self._dial = round(max(-1.0, min(1.0, act.speed)) * FULL_DIAL)

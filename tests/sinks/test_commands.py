@@ -14,7 +14,7 @@ from teleop.dji import camera, gimbal
 from teleop.dji.message import Result
 from teleop.dji.words import FollowMode
 from teleop.motion import Act, Dialled, Tick, Told
-from teleop.sinks.commands import CommandSink
+from teleop.sinks.commands import CommandSink, Unheard
 
 
 class Bench:
@@ -77,6 +77,22 @@ def test_what_cannot_be_told_is_said_and_not_sent(words: str, said: str) -> None
     bench.tick(Told(words))
     assert bench.far.heard == []
     assert said in bench.said[0]
+
+
+@pytest.mark.parametrize(
+    ("gimbal", "drone", "said"),
+    [
+        (True, True, []),
+        (True, False, ["drone engage: this rig has no drone"]),
+        (False, True, ["gimbal follow lock: this rig has no gimbal"]),
+    ],
+)
+def test_what_is_told_to_a_device_that_is_not_there_is_said(gimbal: bool, drone: bool, said: list[str]) -> None:
+    heard: list[str] = []
+    Unheard(gimbal, drone, heard.append).write(
+        Tick(1.0, {}, {}, (Told("drone engage"), Told("gimbal follow lock")), {})
+    )
+    assert heard == said
 
 
 @given(st.lists(st.floats(-1.5, 1.5), min_size=1, max_size=60), st.booleans())
