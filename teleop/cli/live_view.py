@@ -119,10 +119,13 @@ class LiveView:
         drone = self._drone()
         flying = [] if drone is None else drone_rows(drone)
         middle = [Text(), *flying, *state_rows(status, links), Text()]
-        bottom = key_rows(keyboard.question if keyboard else "", keyboard is not None)
-        room = max(1, height - len(top) - len(middle) - len(bottom))
+        question = keyboard.question if keyboard else ""
         helping = keyboard is not None and keyboard.helping
         messages = help_rows() if helping else [said(message, now) for message in status.messages]
+        bottom = [] if helping and not question else key_rows(question, keyboard is not None)
+        if helping and height < len(top) + len(middle) + len(messages) + len(bottom):
+            middle = [Text()]  # a help that lacks a key is none, and it is open for a moment only
+        room = max(1, height - len(top) - len(middle) - len(bottom))
         messages = (messages + [Text()] * room)[:room]
         rows = [*top, *middle, *messages, *bottom]
         for row in rows:

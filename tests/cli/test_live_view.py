@@ -13,6 +13,8 @@ from rich.console import Console
 from teleop.cli.live_rows import Traffic, axis_rows, banner, help_rows, key_rows, state_rows, title_row
 from teleop.cli.live_view import LiveView
 from teleop.motion import Axis, Limits, Reading, State, Tick
+from teleop.sources.keyboard import Keyboard
+from teleop.sources.keys import HELP, KeyReader
 from teleop.sources.status import KEPT, Hand, Said, Status
 
 LIMITS = {
@@ -48,11 +50,16 @@ class Counts:
         self.counts = {"frames_in": 0, "lost_replies": 0}
 
 
-def screen(status: Status, monkeypatch: pytest.MonkeyPatch, size: tuple[int, int] = (80, 24)) -> list[str]:
+def screen(
+    status: Status,
+    monkeypatch: pytest.MonkeyPatch,
+    size: tuple[int, int] = (80, 24),
+    keyboard: Keyboard | None = None,
+) -> list[str]:
     """The rows of a whole screen, as they stand there."""
     monkeypatch.setenv("COLUMNS", str(size[0]))
     monkeypatch.setenv("LINES", str(size[1]))
-    view = LiveView("Simulated rig", LIMITS, lambda: status, {"gimbal": Counts()}, None, silent=True)
+    view = LiveView("Simulated rig", LIMITS, lambda: status, {"gimbal": Counts()}, keyboard, silent=True)
     view.write(TICK)
     out = io.StringIO()
     Console(file=out, width=size[0], height=size[1]).print(view._screen(), end="")
@@ -68,6 +75,21 @@ def test_it_fills_a_terminal_and_goes_no_further(
     rows = screen(replace(STATUS, messages=said), monkeypatch, size)
     assert len(rows) <= size[1]
     assert max(map(len, rows)) <= size[0]
+
+
+@pytest.mark.parametrize("typed", ["?", "?f"])
+@pytest.mark.parametrize("hands", [1, 4])
+def test_the_help_has_every_key_on_the_smallest_terminal(
+    typed: str, hands: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reader = KeyReader()
+    assert list(reader.feed(typed)) == []
+    shown = screen(replace(STATUS, hands=STATUS.hands[:hands]), monkeypatch, keyboard=Keyboard(-1, reader))
+    text = "\n".join(shown)
+    assert [word for key in HELP for word in key if word not in text] == []
+    assert ("follow how?" in text) == (typed == "?f")
+    assert len(shown) <= 24
+    assert "-45.00" in text, "where the axes are is never hidden"
 
 
 def test_it_shows_each_thing_that_an_operator_asks_for(monkeypatch: pytest.MonkeyPatch) -> None:
