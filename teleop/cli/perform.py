@@ -54,12 +54,8 @@ def perform(
 ) -> int:
     """Run the sources on the rig, show it, record it if asked to, print the report and `extras`; the exit code."""
     loop = rig.loop(axes, sources, [tally, *watchers, *([] if take is None else [take]), display])
-    sys.setswitchinterval(SWITCH_INTERVAL)
-    gc.collect()
-    gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
-    with signals_to(loop.interrupt), display:
+    with undisturbed(loop.interrupt), display:
         ended = loop.run()
-    gc.unfreeze()
     if take is not None:
         links = {name: dict(connection.counts) for name, connection in rig.connections.items()}
         take.finish(ended.result, ended.reasons, links)
@@ -101,6 +97,17 @@ def commands(rig: Rig, axes: Sequence[Axis], say: Callable[[str], object]) -> li
     links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
     heard = [CommandSink(rig.connections[link], say) for link in links[:1]]
     return [*heard, Unheard(gimbal=bool(heard), drone=rig.drone(axes) is not None, say=say)]
+
+
+@contextmanager
+def undisturbed(interrupt: Callable[[str], object]) -> Iterator[None]:
+    """For a run: nothing of this process holds it up for long, and a signal asks it to stop by `interrupt`."""
+    sys.setswitchinterval(SWITCH_INTERVAL)
+    gc.collect()
+    gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
+    with signals_to(interrupt):
+        yield
+    gc.unfreeze()
 
 
 @contextmanager

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import json
 import sys
 from collections.abc import Mapping
@@ -11,7 +10,7 @@ from pathlib import Path
 
 from teleop.cli.display import error_table
 from teleop.cli.options import Options
-from teleop.cli.perform import EXIT_CODES, SWITCH_INTERVAL, print_links, print_take, signals_to
+from teleop.cli.perform import EXIT_CODES, print_links, print_take, undisturbed
 from teleop.cli.shoot_options import ShootOptions
 from teleop.cli.shoot_view import ShootView, free
 from teleop.cli.timelapse_words import clock, summary
@@ -63,12 +62,8 @@ def shoot(
         watchers += [tally, view]
         if not options.json:
             print(f"{summary(timelapse)}; journal {path}", file=sys.stderr)
-        sys.setswitchinterval(SWITCH_INTERVAL)
-        gc.collect()
-        gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
-        with signals_to(shooting.interrupt), view:
+        with undisturbed(shooting.interrupt), view:
             ended = shooting.run()
-        gc.unfreeze()
         if recorder is not None:
             recorder.finish(ended.result, ended.reasons, shooting.links)
         journal.catch_up()
