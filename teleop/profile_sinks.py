@@ -17,6 +17,7 @@ from teleop.document import Location, Wrong, mapping, number, sequence
 from teleop.links.url import LinkUrlError, parse
 from teleop.motion import STICKS, Axis
 from teleop.section import NoTruth, Section
+from teleop.sinks.wiring import Wiring
 
 AXES = frozenset(axis.value for axis in Axis)
 MIN_SPEED_RATE = 5  # Hz: a gimbal forgets a speed after 0.5 s
@@ -60,10 +61,12 @@ class GimbalSection(Section):
     """Pan, tilt and roll over the R SDK.
 
     `delay` is how much later than commanded the gimbal moves, in s. `signs` turns an axis whose firmware counts the
-    other way. `mapping` says which axis each of the gimbal's angles is; one that is left out is not driven.
-    `gains` are those of the modes speed and stick. `follow` is how far from commanded an axis may stay, in deg.
-    `full_stick` is what full deflection gives with the gimbal's own joystick settings, in deg/s, for mode stick; an
-    axis that is not named there reaches its velocity.
+    other way; `speed_signs` and `report_signs` are for a gimbal that counts its speeds, or the angles that it reports,
+    otherwise than the positions it is sent: both are as `signs` where they are absent. `legacy_angles` is the order of
+    the angles in replies of old firmware. `mapping` says which axis each of the gimbal's angles is; one that is left
+    out is not driven. `gains` are those of the modes speed and stick. `follow` is how far from commanded an axis may
+    stay, in deg. `full_stick` is what full deflection gives with the gimbal's own joystick settings, in deg/s, for mode
+    stick; an axis that is not named there reaches its velocity.
     """
 
     type: Literal["gimbal"]
@@ -74,6 +77,9 @@ class GimbalSection(Section):
     gains: GainsSection = GainsSection()
     follow: Annotated[float, Field(gt=0, le=180)] = 5.0
     signs: dict[Angle, Sign] = Field(default_factory=dict)
+    speed_signs: dict[Angle, Sign] = Field(default_factory=dict)
+    report_signs: dict[Angle, Sign] = Field(default_factory=dict)
+    legacy_angles: Literal["yaw-roll-pitch", "yaw-pitch-roll"] = "yaw-roll-pitch"
     mapping: dict[Literal["yaw", "roll", "pitch"], Angle] = Field(
         default_factory=lambda: {"yaw": "pan", "roll": "roll", "pitch": "tilt"}
     )
@@ -85,6 +91,22 @@ class GimbalSection(Section):
         """The axes of the gimbal's yaw, roll and pitch."""
         mapped = (self.mapping.get(name) for name in ("yaw", "roll", "pitch"))
         return [None if axis is None else Axis(axis) for axis in mapped]
+
+    @property
+    def wiring(self) -> Wiring:
+        signs, speed_signs, report_signs = (
+            {Axis(axis): sign for axis, sign in each.items()}
+            for each in (self.signs, self.speed_signs, self.report_signs)
+        )
+        return Wiring(self.axes, signs, speed_signs, report_signs)
+
+    def sign_line(self, axis: Axis) -> str:
+        """What this section needs when `axis` goes the other way than it is sent in this mode."""
+        in_speeds = self.mode != "position"
+        key, written = ("speed_signs", self.speed_signs) if in_speeds else ("report_signs", self.report_signs)
+        now = self.wiring.speed_sign(axis) if in_speeds else self.wiring.report_sign(axis)
+        signs = {**written, axis.value: -now}
+        return f"{key}: {{{', '.join(f'{name}: {sign}' for name, sign in signs.items())}}}"
 
     def full(self, axis: Axis, velocity: float) -> float:
         """What full deflection gives an axis whose own velocity is `velocity`, both in deg/s."""

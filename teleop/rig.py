@@ -37,6 +37,7 @@ from teleop.sim.link import SimLink
 from teleop.sinks.camera import CameraSink
 from teleop.sinks.connection import Connection
 from teleop.sinks.correction import Gains
+from teleop.sinks.direction import DirectionGuard
 from teleop.sinks.drone import DroneSink
 from teleop.sinks.focus import FocusReporter, FocusSink
 from teleop.sinks.gimbal import Angles, PositionSink
@@ -48,7 +49,6 @@ from teleop.sinks.preflight import Site
 from teleop.sinks.stall import StallGuard
 from teleop.sinks.telemetry import Telemetry
 from teleop.sinks.virtual_rc import VirtualRcGrip
-from teleop.sinks.wiring import Wiring
 
 DRONE_KEEP_ALIVE = 0.05  # s: virtual RC wants its sticks 20 times a second, moving or not
 DRONE_FIRST_REPORT = 8.0  # s: an activation may be asked for three times, a second each
@@ -67,6 +67,7 @@ class Device:
     reporter: Reporter | None
     follow: float | None = 0.0
     delay: float = 0.0
+    direction: DirectionGuard | None = None  # what notices that an axis goes the other way
 
 
 class Rig:
@@ -110,12 +111,14 @@ class Rig:
             limits,
             {axis: device.follow for axis, device in measured if device.follow is not None},
             {axis: device.delay for axis, device in measured},
+            [device.direction.found for device in used if device.direction],
         )
         planner = Live(limits, PERIOD)
         keep_alive, first_report = KEEP_ALIVE, FIRST_REPORT
         if self.drone(axes):
             keep_alive, first_report = DRONE_KEEP_ALIVE, DRONE_FIRST_REPORT
-        all_sinks = [*sinks, guard, *watchers]
+        directions = [device.direction for device in used if device.direction]
+        all_sinks = [*sinks, *directions, guard, *watchers]
         return Loop(self.clock, planner, limits, sources, all_sinks, reporters, keep_alive, first_report)
 
 
@@ -157,19 +160,21 @@ def _turns_for_ever(profile: Profile) -> bool:
 
 
 def _gimbal(section: GimbalSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:
-    wiring = Wiring(section.axes, {Axis(axis): sign for axis, sign in section.signs.items()})
+    wiring = section.wiring
     own = {axis: limits[axis] for axis in section.axes if axis is not None and axis in limits}
+    guard = DirectionGuard(section.sign_line, section.delay, speeds=section.mode != "position")
     gains = Gains(section.gains.proportional, section.gains.integral)
     sink: Sink
     match section.mode:
         case "position":
-            sink = PositionSink(connection, section.rate, section.delay, wiring, own)
+            sink = PositionSink(connection, section.rate, section.delay, wiring, own, guard.found)
         case "speed":
-            sink = SpeedSink(connection, section.rate, section.delay, wiring, own, gains)
+            sink = SpeedSink(connection, section.rate, section.delay, wiring, own, gains, guard.sent)
         case "stick":
             full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
-            sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains)
-    return Device(list(own), sink, Angles(connection, wiring), section.follow, section.delay)
+            sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, guard.sent)
+    reporter = Angles(connection, wiring, section.legacy_angles)
+    return Device(list(own), sink, reporter, section.follow, section.delay, guard)
 
 
 def _focus(section: FocusSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001

@@ -21,11 +21,15 @@ UNANSWERED = 3  # requests in a row, at least: one lost reply is ordinary on a s
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What came of a request: its reply, None when none came in time, and when the request was `sent` (s)."""
+    """What came of a request: its reply, None when none came in time, and when the request was `sent` (s).
+
+    `bare` says that the reply left out set and id, as old firmware does.
+    """
 
     sequence: int
     sent: float
     reply: Message | None
+    bare: bool = False
 
 
 class Connection:
@@ -100,7 +104,7 @@ class Connection:
         for received in self.session.receive(self._link.receive(), now):
             self._heard, self._unanswered = now, 0
             if received.request is not None:
-                self._answer(received.request, received.frame.sequence, received.message)
+                self._answer(received.request, received.frame.sequence, received.message, received.bare)
             for handler in self._push_handlers.get(type(received.message), ()):
                 handler(received.message, now)
         for lost in self.session.overdue(now):
@@ -112,7 +116,7 @@ class Connection:
         if self._unanswered >= UNANSWERED and now - self._heard > SILENCE:
             raise LinkError(f"{self} does not answer: is it on, is the cable in?")
 
-    def _answer(self, request: Message, sequence: int, reply: Message | None) -> None:
-        answer = Answer(sequence, self._sent.pop(sequence), reply)
+    def _answer(self, request: Message, sequence: int, reply: Message | None, bare: bool = False) -> None:
+        answer = Answer(sequence, self._sent.pop(sequence), reply, bare)
         for handler in self._handlers.get(type(request), ()):
             handler(answer)

@@ -9,7 +9,7 @@ gimbal ends up when the next command does not come.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from functools import cache
 from importlib.metadata import version
 
@@ -37,17 +37,22 @@ class Angles:
     Readings carry the time of the question: a gimbal samples within 5 ms of it. One that leaves questions unanswered is
     asked to push, and read from its pushes while it does not answer; they come seldom, and with no time of their own.
 
+    `legacy_order` is how replies of old firmware order the angles: two sources say yaw, roll, pitch, one says yaw,
+    pitch, roll.
+
     Angles come in -180..180; a reading continues the one before it, so that an axis may turn on and on.
     """
 
-    def __init__(self, connection: Connection, wiring: Wiring) -> None:
+    def __init__(self, connection: Connection, wiring: Wiring, legacy_order: str = "yaw-roll-pitch") -> None:
         self._connection, self._wiring = connection, wiring
+        self._legacy_swapped = legacy_order == "yaw-pitch-roll"
         self._pace, self._greeting = Pace(POLL_RATE), Pace(GREETING_RATE)
         self._readings: dict[Axis, Reading] = {}
         self._push_request = Pace(GREETING_RATE)
         self._answered_at, self._unanswered = -math.inf, False
         connection.on_answer(gimbal.Angles, self._answered)
         connection.on_push(gimbal.Push, self._pushed)
+        connection.on_push(gimbal.ShortPush, self._pushed)
 
     def report(self, now: float) -> Mapping[Axis, Reading]:
         self._connection.poll(now)
@@ -62,16 +67,22 @@ class Angles:
     def _answered(self, answer: Answer) -> None:
         reply = answer.reply
         self._unanswered = reply is None
-        if isinstance(reply, gimbal.AnglesReply) and not reply.return_code and reply.kind == AngleKind.ATTITUDE:
+        if not isinstance(reply, gimbal.AnglesReply | gimbal.LegacyAnglesReply) or reply.return_code:
+            return
+        if isinstance(reply, gimbal.LegacyAnglesReply) or reply.kind == AngleKind.ATTITUDE:
             self._answered_at = answer.sent
-            self._read(reply, answer.sent)
+            second, third = reply.roll, reply.pitch
+            roll, pitch = (third, second) if answer.bare and self._legacy_swapped else (second, third)
+            self._read(reply.yaw, roll, pitch, answer.sent)
 
     def _pushed(self, push: Message, now: float) -> None:
-        if isinstance(push, gimbal.Push) and push.angles_valid and now - self._answered_at > UNANSWERED:
-            self._read(push, now)
+        if not isinstance(push, gimbal.Push | gimbal.ShortPush) or not push.angles_valid:
+            return
+        if now - self._answered_at > UNANSWERED:
+            self._read(push.yaw, push.roll, push.pitch, now)
 
-    def _read(self, angles: gimbal.AnglesReply | gimbal.Push, time: float) -> None:
-        for axis, angle in self._wiring.from_gimbal(angles.yaw, angles.roll, angles.pitch).items():
+    def _read(self, yaw: float, roll: float, pitch: float, time: float) -> None:
+        for axis, angle in self._wiring.from_gimbal(yaw, roll, pitch).items():
             if before := self._readings.get(axis):
                 angle += 360 * round((before.position - angle) / 360)
             self._readings[axis] = Reading(angle, time)
@@ -98,12 +109,20 @@ class Refusals:
 class PositionSink:
     """Streams position commands; axes that are not in use are marked to be ignored.
 
-    `rate` is in Hz, `delay` in s: how much later than commanded the gimbal moves.
+    `rate` is in Hz, `delay` in s: how much later than commanded the gimbal moves. Axes that are `misreported` are never
+    sent to where they are reported to be.
     """
 
     def __init__(
-        self, connection: Connection, rate: int, delay: float, wiring: Wiring, limits: Mapping[Axis, Limits]
+        self,
+        connection: Connection,
+        rate: int,
+        delay: float,
+        wiring: Wiring,
+        limits: Mapping[Axis, Limits],
+        misreported: Container[Axis] = (),
     ) -> None:
+        self._misreported = misreported
         self._connection, self._delay, self._wiring, self._limits = connection, delay, wiring, limits
         self._pace = Pace(rate)
         self._refusals = Refusals(connection, gimbal.Position)
@@ -149,6 +168,7 @@ class PositionSink:
         return {
             axis: reported[axis].position
             for axis in self._limits
+            if axis not in self._misreported
             if axis in aims and axis in reported and now - reported[axis].time < YIELD_FRESH
             if abs(reported[axis].position - aims[axis].position) > YIELD
         }

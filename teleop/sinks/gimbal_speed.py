@@ -6,7 +6,7 @@ The gimbal forgets a speed after 0.5 s. Speed control is taken over with the fir
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from teleop.dji import gimbal
 from teleop.motion import Axis, Limits, Tick
@@ -24,7 +24,10 @@ SETTLE_FRESH = 1.0  # s since that was measured
 
 
 class SpeedSink:
-    """Streams speed commands for `limits`' axes; `delay` is how much later than commanded a speed is reached, in s."""
+    """Streams speed commands for `limits`' axes; `delay` is how much later than commanded a speed is reached, in s.
+
+    `on_sent` is called with the time and the speeds (deg/s) of each command, before it is sent.
+    """
 
     def __init__(
         self,
@@ -34,7 +37,9 @@ class SpeedSink:
         wiring: Wiring,
         limits: Mapping[Axis, Limits],
         gains: Gains = Gains(),  # noqa: B008 - immutable
+        on_sent: Callable[[float, Mapping[Axis, float]], object] = lambda _now, _speeds: None,
     ) -> None:
+        self._on_sent = on_sent
         self._connection, self._wiring = connection, wiring
         self._pace = Pace(rate)
         self._correction = Correction(limits, delay + self._pace.period / 2, gains)
@@ -81,7 +86,8 @@ class SpeedSink:
             self._waiting = -1
 
     def _send(self, speeds: Mapping[Axis, float], now: float) -> None:
-        yaw, roll, pitch = self._wiring.to_gimbal(speeds)
+        self._on_sent(now, speeds)
+        yaw, roll, pitch = self._wiring.speeds_to_gimbal(speeds)
         self._connection.request(gimbal.Speed(yaw, roll, pitch, take_over=True, ignore_focal_length=True), now)
 
     def _settled(self, now: float) -> Mapping[Axis, float]:

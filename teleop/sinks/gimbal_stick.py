@@ -7,7 +7,7 @@ A push has no reply and nothing is taken over: `release` lets the stick go.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from teleop.dji.gimbal import Joystick
 from teleop.dji.joystick import deflection
@@ -22,7 +22,8 @@ from teleop.sinks.wiring import Wiring
 class StickSink:
     """Streams joystick pushes, `rate` a second; `full` is what full deflection gives each axis, in deg/s.
 
-    `delay` is how much later than commanded a speed is reached, in s.
+    `delay` is how much later than commanded a speed is reached, in s. `on_sent` is called with the time and the speeds
+    (deg/s) of each push, before it is sent.
     """
 
     def __init__(
@@ -34,7 +35,9 @@ class StickSink:
         limits: Mapping[Axis, Limits],
         full: Mapping[Axis, float],
         gains: Gains = Gains(),  # noqa: B008 - immutable
+        on_sent: Callable[[float, Mapping[Axis, float]], object] = lambda _now, _speeds: None,
     ) -> None:
+        self._on_sent = on_sent
         self._connection, self._wiring, self._full = connection, wiring, full
         self._pace = Pace(rate)
         self._correction = Correction(limits, delay + self._pace.period / 2, gains)
@@ -44,17 +47,18 @@ class StickSink:
         self._correction.note(tick)
         if self._pace.due(tick.time, tick.motion):
             self._zeros = 0
-            self._push(self._correction.speeds(tick))
+            self._push(self._correction.speeds(tick), tick.time)
 
     def release(self, now: float) -> float | None:
         """The stick in its middle, three times: a push is not answered, and one may be lost."""
         if self._zeros >= ZEROS:
             return None
-        self._push({})
+        self._push({}, now)
         self._zeros += 1
         return now + BETWEEN_ZEROS
 
-    def _push(self, speeds: Mapping[Axis, float]) -> None:
+    def _push(self, speeds: Mapping[Axis, float], now: float) -> None:
+        self._on_sent(now, speeds)
         deflections = {axis: deflection(speed, 0.0, self._full[axis]) for axis, speed in speeds.items()}
-        yaw, roll, pitch = (round(value) for value in self._wiring.to_gimbal(deflections))
+        yaw, roll, pitch = (round(value) for value in self._wiring.speeds_to_gimbal(deflections))
         self._connection.stream(Joystick(pitch=pitch, roll=roll, yaw=yaw))

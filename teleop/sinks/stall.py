@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Container, Mapping, Sequence
 
 from teleop.motion import Axis, Limits, Motion, Tick
 from teleop.ports import DeviceError
@@ -24,12 +24,17 @@ class StallGuard:
     """A sink that only watches; add it after the devices.
 
     `tolerance` is how far from commanded each axis to be watched may be, in units; `delay` how much later than
-    commanded it moves, in s (0 where absent).
+    commanded it moves, in s (0 where absent). Of an axis that is `excused` the reason is known already.
     """
 
     def __init__(
-        self, limits: Mapping[Axis, Limits], tolerance: Mapping[Axis, float], delay: Mapping[Axis, float]
+        self,
+        limits: Mapping[Axis, Limits],
+        tolerance: Mapping[Axis, float],
+        delay: Mapping[Axis, float],
+        excused: Sequence[Container[Axis]] = (),
     ) -> None:
+        self._excused = excused
         self._tolerance, self._delay = tolerance, delay
         self._turns = {axis for axis in tolerance if axis in limits and limits[axis].continuous}
         self._commanded: deque[tuple[float, Motion]] = deque(maxlen=HISTORY)
@@ -41,7 +46,7 @@ class StallGuard:
         self._commanded.append((tick.time, tick.motion))
         for axis in self._tolerance:
             reading = tick.reported.get(axis)
-            if axis not in tick.motion or reading is None:
+            if axis not in tick.motion or reading is None or any(axis in known for known in self._excused):
                 continue
             if tick.time - max(reading.time, self._commanded[0][0]) > BLIND:
                 raise DeviceError(f"{axis}: no position has been reported for {BLIND:g} s")

@@ -119,3 +119,13 @@ def test_a_dial_that_turns_steadily_is_said_fifty_times_a_second() -> None:
         bench.tick(Dialled(0.5))
     assert len(bench.dials) == 50
     assert {speed for _, speed in bench.dials} == {1024}
+
+
+def test_what_has_no_reply_is_sent_and_none_is_missed() -> None:
+    bench = Bench()
+    bench.tick(Told("gimbal version push version=01.02.03.04"))
+    for _ in range(20):
+        bench.tick()
+    assert gimbal.VersionPush("01.02.03.04") in bench.far.heard
+    assert bench.said == ["gimbal version push version=01.02.03.04: sent; this command has no reply"]
+    assert bench.far.connection.counts["lost_replies"] == 0

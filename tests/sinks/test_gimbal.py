@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from teleop.dji import gimbal
+from teleop.dji.frame import Frame
 from teleop.dji.message import Result
 from teleop.motion import Axis, Limits, Motion, Reading, State, Tick
 from teleop.ports import DeviceError
@@ -169,3 +170,46 @@ def test_angles_that_are_not_ready_are_no_reading() -> None:
     reporter.report(1.0)
     far.serve(1.0)
     assert reporter.report(1.01) == {}
+
+
+@pytest.mark.parametrize("value", ["00 01 0a00 1400 1e00", "00 0a00 1400 1e00"], ids=["with type", "without"])
+@pytest.mark.parametrize(("order", "roll", "tilt"), [("yaw-roll-pitch", 2.0, 3.0), ("yaw-pitch-roll", 3.0, 2.0)])
+def test_replies_of_old_firmware_are_read_in_the_order_of_the_profile(
+    order: str, roll: float, tilt: float, value: str
+) -> None:
+    far = FarEnd()
+    reporter = Angles(far.connection, Wiring(), order)
+    reporter.report(1.0)
+    far.link.send(Frame(bytes.fromhex(value), 0x20, 0).encode())
+    readings = reporter.report(1.01)
+    assert {axis: reading.position for axis, reading in readings.items()} == {
+        Axis.PAN: 1.0,
+        Axis.ROLL: roll,
+        Axis.TILT: tilt,
+    }
+
+
+def test_the_order_of_old_firmware_is_not_that_of_replies_with_set_and_id() -> None:
+    far = FarEnd()
+    far.replies[gimbal.Angles] = lambda _request: gimbal.AnglesReply(0, gimbal.AngleKind.ATTITUDE, 1.0, 2.0, 3.0)
+    reporter = Angles(far.connection, Wiring(), "yaw-pitch-roll")
+    reporter.report(1.0)
+    far.serve(1.0)
+    assert reporter.report(1.01)[Axis.ROLL].position == 2.0
+
+
+def test_a_push_of_25_bytes_with_the_reply_bit_is_read() -> None:
+    far = FarEnd()
+    reporter = Angles(far.connection, Wiring())
+    for number in range(30):
+        reporter.report(number / 100)
+        far.serve(number / 100)
+    pushed = Frame(bytes.fromhex("0e08 01 6400 1400 ceff"), 0x20, 3).encode()
+    assert len(pushed) == 25
+    far.link.send(pushed)
+    readings = reporter.report(0.31)
+    assert {axis: reading.position for axis, reading in readings.items()} == {
+        Axis.PAN: 10.0,
+        Axis.ROLL: 2.0,
+        Axis.TILT: -5.0,
+    }

@@ -31,3 +31,14 @@ def test_the_documents_second_mapping_turns_the_roll_with_the_sticks_x() -> None
 @given(wirings, angles, angles, angles)
 def test_there_and_back_is_the_identity(wiring: Wiring, yaw: float, roll: float, pitch: float) -> None:
     assert wiring.to_gimbal(wiring.from_gimbal(yaw, roll, pitch)) == (yaw, roll, pitch)
+
+
+def test_speeds_and_reports_have_the_signs_of_positions_unless_given() -> None:
+    values = {Axis.PAN: 1.0, Axis.TILT: 2.0, Axis.ROLL: 3.0}
+    turned = Wiring(signs={Axis.ROLL: -1, Axis.TILT: -1})
+    assert turned.to_gimbal(values) == turned.speeds_to_gimbal(values) == (1.0, -3.0, -2.0)
+    assert turned.from_gimbal(1.0, -3.0, -2.0) == values
+    own = Wiring(signs={Axis.ROLL: -1}, speed_signs={Axis.ROLL: 1, Axis.PAN: -1}, report_signs={Axis.TILT: -1})
+    assert own.to_gimbal(values) == (1.0, -3.0, 2.0)
+    assert own.speeds_to_gimbal(values) == (-1.0, 3.0, 2.0)
+    assert own.from_gimbal(1.0, 3.0, 2.0) == {Axis.PAN: 1.0, Axis.TILT: -2.0, Axis.ROLL: -3.0}
