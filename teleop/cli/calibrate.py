@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from cyclopts import App
 
+from teleop.cli.calibrate_signs import signs
 from teleop.cli.display import Display
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.perform import EXIT_CODES, signals_to
@@ -34,6 +35,7 @@ FAITHFUL = 0.5, 1.5  # times as far as commanded: beyond these it does something
 NOISE = 0.5  # deg rms that no delay explains
 
 app = App(name="calibrate", help="Measure what a profile has to know about a gimbal.")
+app.command(signs)
 
 
 @app.command(name="delay")
