@@ -1,6 +1,6 @@
 """The sinks of a profile: what each kind of device is told beside its link, and the rules that lie between them.
 
-A drone's ranges are the protocol's own (osdk-appendix.md, Combinations): too much for a full stick is refused here, in
+A drone's ranges are the protocol's own (Appendix.md, Combinations): too much for a full stick is refused here, in
 the file, and not in the air. How fast it flies has no defaults, because only its pilot knows what is slow enough.
 """
 
@@ -140,7 +140,7 @@ class VirtualRcSection(Section):
     link: str
     encrypted: bool = False
     back_to_rc: bool = True
-    rate: Literal[20] = 20  # Hz: osdk-facts.md, Safety
+    rate: Literal[20] = 20  # Hz: docs/protocol-facts.md
     low_battery: LowBattery = 25
     go_home: Channel | None = None
 
@@ -168,7 +168,7 @@ class FlightSection(Section):
     vertical: Literal["velocity", "height"] = "velocity"
     yaw: Literal["rate", "angle"] = "rate"
     full: FullSection
-    rate: Literal[50] = 50  # Hz: osdk-facts.md, Commands
+    rate: Literal[50] = 50  # Hz: docs/protocol-facts.md
     guidance: bool = False
     indoors: bool = False
     low_battery: LowBattery = 25

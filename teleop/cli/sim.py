@@ -21,7 +21,7 @@ PERIOD = 0.002  # s between looks at the bus: a real gimbal answers within 5 ms
 STATUS = 1.0  # s between status lines
 
 
-BAUD = 230400  # of the Matrice 100: osdk-facts.md, Link and frame; a pseudo-terminal does not mind
+BAUD = 230400  # of the Matrice 100: docs/protocol-facts.md; a pseudo-terminal does not mind
 
 SimulatedDevice = SimulatedGimbal | SimulatedDrone
 

@@ -1,6 +1,6 @@
 """What the drone is told and asked over the Onboard SDK, and its acknowledgements: sets 00 and 01, and the push 02 01.
 
-Values are those of osdk-facts.md "Commands". An acknowledgement has no set and id: its class says which command it
+Values are those of docs/protocol-facts.md. An acknowledgement has no set and id: its class says which command it
 answers, and the session finds out which that was. Its fields are as wide as the facts say: u16 codes; arming is not
 said to have one, so that a single byte is taken too. Movement is in movement.py, the virtual RC in virtual_rc.py,
 what the drone says of itself in broadcast.py.

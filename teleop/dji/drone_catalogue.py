@@ -2,7 +2,7 @@
 
 A command from a shell is sent once, and nobody is at the controls after it. So whatever moves the drone, starts its
 motors or takes it from its pilot is a hazard, which an operator has to say that they understand; and what is safe only
-with a stream behind it is never sent so (osdk-facts.md "Safety"). What the drone itself sends has no words.
+with a stream behind it is never sent so (docs/protocol-facts.md). What the drone itself sends has no words.
 """
 
 from __future__ import annotations

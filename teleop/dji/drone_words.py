@@ -1,6 +1,6 @@
 """The numbers that mean something on the drone, by the words that people and JSON use for them.
 
-Names are the appendix's where it has any (osdk-appendix.md); values are those of osdk-facts.md "Commands".
+Names are the appendix's where it has any (Appendix.md); values are those of docs/protocol-facts.md.
 """
 
 from __future__ import annotations

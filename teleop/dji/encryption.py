@@ -1,4 +1,4 @@
-"""AES-256-ECB over the data of a frame (osdk-facts.md "Link and frame"): optional, off unless a key is given.
+"""AES-256-ECB over the data of a frame (docs/protocol-facts.md): optional, off unless a key is given.
 
 The data are filled up to whole blocks of 16 bytes, aligned data by a whole block; the header says by how many bytes,
 not by which, so whoever wants a frame's own bytes back has to keep the filling. Nothing tells a wrong key: what comes

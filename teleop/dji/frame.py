@@ -6,7 +6,7 @@ header's CRC-16 agrees, the content only once the CRC-32 agrees, and after any d
 again, so that a good frame behind (or inside the claimed length of) a damaged one survives. Damage is a value that
 callers count, never an exception: on a shared bus it is ordinary.
 
-Layout and checks: R SDK V2.5 sections 2.1, 2.2 and 3.2; the register values are those of r-sdk-facts.md "Frame".
+Layout and checks: R SDK V2.5 sections 2.1, 2.2 and 3.2; the register values are those of docs/protocol-facts.md.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Command set 0x0E without the focus motor: everything the handheld gimbal itself is told, asked, and says.
 
-Fields follow the tables of V2.5 section 2.3.4 with the corrections of r-sdk-facts.md "Layouts, settled": above all,
+Fields follow the tables of V2.5 section 2.3.4 with the corrections of docs/protocol-facts.md: above all,
 the axis order differs from message to message, on purpose. Signs are the gimbal's own; a profile maps them.
 """
 

@@ -1,7 +1,7 @@
 """From a joystick's analogue readings to the deflections that the gimbal is sent (V2.5 section 2.3.4.11).
 
 The document calls `adc_range` the sampling precision; only with the half span, the largest distance from the middle,
-does full stick reach 15000 (r-sdk-facts.md).
+does full stick reach 15000 (docs/protocol-facts.md).
 """
 
 from __future__ import annotations

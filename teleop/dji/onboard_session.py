@@ -41,7 +41,7 @@ SENDS: Final[Mapping[type[Message], Sends]] = {
     drone.Control: Sends(0.5, 2),
     drone.Task: Sends(0.1, 3),
 }
-"""osdk-facts.md "Link and frame"."""
+"""docs/protocol-facts.md."""
 ONCE: Final = Sends(0.1, 1)  # what the table does not have, arming above all
 
 REMEMBERED: Final = 64  # exchanges, to tell late and repeated acknowledgements from strange ones

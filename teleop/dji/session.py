@@ -19,7 +19,7 @@ from teleop.dji.message import REPLY, Message, Opaque
 from teleop.dji.r_sdk import R_SDK
 from teleop.dji.registry import Registry
 
-REPLY_TIMEOUT: Final = 0.1  # s; replies normally arrive within 5 ms (r-sdk-facts.md "Frame")
+REPLY_TIMEOUT: Final = 0.1  # s; replies normally arrive within 5 ms (docs/protocol-facts.md)
 
 
 @dataclass(slots=True)

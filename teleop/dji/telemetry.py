@@ -1,4 +1,4 @@
-"""The parts of the drone's broadcast, each as its own message class without a command: osdk-appendix.md "Flight Data".
+"""The parts of the drone's broadcast, each as its own message class without a command: Appendix.md "Flight Data".
 
 Some parts are raw or fused (filtered) data, whichever DJI Assistant is set to; nothing on the wire says which. Where
 that changes the unit, the unit names both; the docstring says it for every part that it concerns.
@@ -83,7 +83,7 @@ class Position(Message):
     fused (with barometer and inertia, which are all there is above 3 m and drift indoors).
     """
 
-    # Latitude first: osdk-facts.md "Errata".
+    # Latitude first: docs/protocol-facts.md.
     latitude: radians
     longitude: radians
     altitude: metres

@@ -1,7 +1,7 @@
 """Command set 05, the virtual RC: the drone flown by the channels of a remote controller that is not there.
 
-The drone leaves it after a second without sticks; for what that asks of whoever sends, see osdk-facts.md "Safety".
-Both commands are taken at their exact length only: one SDK sent its sticks as settings (osdk-facts.md "Errata"), and
+The drone leaves it after a second without sticks; for what that asks of whoever sends, see docs/protocol-facts.md.
+Both commands are taken at their exact length only: one SDK sent its sticks as settings (docs/protocol-facts.md), and
 the first of those bytes must not be read as switching anything on.
 """
 
@@ -66,5 +66,5 @@ NEUTRAL: Final = Sticks()
 
 
 def broadcast_value(channel: int) -> int:
-    """What the broadcast makes of the mode and gear channels: 1552 is -8000, 1324 is -4545 (osdk-facts.md "Errata")."""
+    """What the broadcast makes of the mode and gear channels: 1552 is -8000, 1324 is -4545 (docs/protocol-facts.md)."""
     return round(-(channel - CENTRE) * 10000 / DEFLECTION)

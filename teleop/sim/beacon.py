@@ -31,7 +31,7 @@ from teleop.sim.pushes import Beat
 
 BEAT = 0.01  # s
 EVERY: Mapping[Rate, int] = {Rate.HZ_1: 100, Rate.HZ_10: 10, Rate.HZ_50: 2, Rate.HZ_100: 1}  # beats
-DEFAULTS: Mapping[str, Rate] = {  # osdk-appendix.md, Flight Data
+DEFAULTS: Mapping[str, Rate] = {  # Appendix.md, Flight Data
     **dict.fromkeys(("time", "quaternion", "acceleration", "velocity", "angular_rate", "position"), Rate.HZ_100),
     "magnetometer": Rate.OFF,
     "rc": Rate.HZ_50,

@@ -2,8 +2,8 @@
 
 The real RC has the drone unless virtual RC is on or the onboard computer was given control, and its mode switch takes
 both away. Virtual RC lasts while sticks come: a second without any ends it, back to the real RC or into the logic for
-an RC that is lost, as the one who enabled it chose (virtual-rc.md, note 1). Enabling it twice within two seconds locks
-the drone in a check loop that its RC cannot end (osdk-facts.md, Safety). The gesture that starts the motors on the
+an RC that is lost, as the one who enabled it chose (Virtual RC page, note 1). Enabling it twice within 2 s locks
+the drone in a check loop that its RC cannot end (docs/protocol-facts.md). The gesture that starts the motors on the
 ground cuts them in the air.
 """
 
@@ -16,14 +16,14 @@ from dataclasses import replace
 from teleop.sim.controls import Controls, Pilot, Status, Switch
 from teleop.sim.flight import Flight, Pose
 
-VIRTUAL_HOLD = 1.0  # s without sticks after which virtual RC ends: virtual-rc.md
+VIRTUAL_HOLD = 1.0  # s without sticks after which virtual RC ends: Virtual RC page
 LOCKS_WITHIN = 2.0  # s between two enables
 MOVE_HOLD = 0.5  # s for which a movement command is obeyed; the real time is not known
 GESTURE = 1.0  # s that the sticks are to be in the corners
 SPIN_UP = 1.0  # s from starting motors to lifting off by itself
 SPEED, CLIMB, TILT, YAW = 10.0, 4.0, math.radians(30), math.radians(100)  # of a full stick
 TAKE_OFF_HEIGHT, LANDING, HOME_SPEED = 1.2, -1.0, 5.0  # m, m/s, m/s
-FINISHING = 2.0  # s from touching down to standby: osdk-appendix.md, Flight status
+FINISHING = 2.0  # s from touching down to standby: Appendix.md, Flight status
 FULL, IDLE = 100 / (18 * 60), 100 / (80 * 60)  # % of the battery a second, in the air and with idle motors
 
 

@@ -28,7 +28,7 @@ from teleop.sim.pushes import Beat, Due
 from teleop.sim.settings import Settings
 from teleop.sim.tuning import Tuning
 
-PUSH_RATE = 10.0  # Hz; it varies with the firmware, from 1 Hz up (r-sdk-facts.md, "Layouts, settled")
+PUSH_RATE = 10.0  # Hz; it varies with the firmware, from 1 Hz up (docs/protocol-facts.md)
 
 _MOTION = gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Mode
 _READ_GENEROUSLY = gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Dial

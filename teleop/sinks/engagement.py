@@ -1,7 +1,7 @@
 """Who has the drone: the engagement of an operator, from asking for it to having given it back, as one table.
 
 Nothing flies by accident. A drone is taken only by an operator's own act, once per act, never within two seconds of the
-last time (repeating it locks the drone: osdk-facts.md, Safety) and never again by itself: the table has one row that
+last time (repeating it locks the drone: docs/protocol-facts.md) and never again by itself: the table has one row that
 takes, and it begins at IDLE. Every other way ends in LEAVING, in which the sticks are neutral, and from there in one
 giving back, whose effect is looked for. Sticks are in force only while a hand holds them: without one they are neutral
 at once, and the drone is given back after a second.
@@ -15,7 +15,7 @@ import math
 from collections.abc import Callable, Mapping
 from enum import Enum, auto
 
-GAP = 2.0  # s between two takings, at least: osdk-facts.md, Safety
+GAP = 2.0  # s between two takings, at least: docs/protocol-facts.md
 OFF_AFTER = 1.0  # s without a hand on the sticks after which the drone is given back
 CONFIRM = 1.0  # s within which the drone says that it was taken
 LAST_NEUTRALS = 6  # neutral frames before giving back

@@ -16,7 +16,7 @@ from teleop.sinks.connection import Answer, Connection
 from teleop.sinks.pace import Pace
 
 FULL = 4095  # the motor's steps from near to far: R SDK V2.5, section 2.3.4.19
-LOWEST = 1  # 0 is ignored by some motors: r-sdk-facts.md, Layouts
+LOWEST = 1  # 0 is ignored by some motors: docs/protocol-facts.md
 POLL_RATE = 10  # Hz, questions for the position
 REPEAT = 0.5  # s after which an unchanged position is sent again: a set command is not answered and may be lost
 

@@ -23,7 +23,7 @@ from teleop.sinks.pace import Pace
 from teleop.sinks.wiring import Wiring
 
 TIME_FOR_ACTION = 0.1  # s, the shortest there is
-POLL_RATE = 25  # Hz, questions for the angles: pushes may come once a second only (r-sdk-facts.md)
+POLL_RATE = 25  # Hz, questions for the angles: pushes may come once a second only (docs/protocol-facts.md)
 GREETING_RATE = 1  # Hz, of the push of our own version: R SDK V2.5, section 2.3.4.10, figure 17
 UNANSWERED = 0.3  # s without an answer after which a push is believed instead
 REPEAT = 1.0  # s after which the position of a resting axis is sent again

@@ -16,7 +16,7 @@ from teleop.sinks.gimbal import Refusals, position_command
 from teleop.sinks.pace import Pace
 from teleop.sinks.wiring import Wiring
 
-ZEROS, BETWEEN_ZEROS = 3, 0.05  # how to stop: zero speed so often, so many s apart (r-sdk-facts.md, Behaviour)
+ZEROS, BETWEEN_ZEROS = 3, 0.05  # how to stop: zero speed so often, so many s apart (docs/protocol-facts.md)
 GIVE_BACKS = 3  # times, at most, until the gimbal says that it has heard; more would not help one that is mute
 SETTLE = 0.5  # s for the last position command,
 SETTLE_WITHIN = 1.0  # deg of error at the most,

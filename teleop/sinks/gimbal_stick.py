@@ -1,6 +1,6 @@
 """Makes a DJI gimbal follow the planner as if somebody held its joystick: pushes of 0x0A.
 
-Some firmware ignores speed commands and obeys these (r-sdk-facts.md, Behaviour users report). How fast full deflection
+Some firmware ignores speed commands and obeys these (docs/protocol-facts.md). How fast full deflection
 is follows a setting on the gimbal, which the profile repeats; what that gets wrong, the correction has to make up.
 A push has no reply and nothing is taken over: `release` lets the stick go.
 """

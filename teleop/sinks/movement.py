@@ -16,7 +16,7 @@ from teleop.sinks.grips import ARMING, Deflections, attitude, not_in_standby, wo
 from teleop.sinks.preflight import Site, mode_refusals, mode_warnings
 from teleop.sinks.telemetry import Telemetry
 
-OBTAIN_AGAIN = 0.5  # s between two requests for control: osdk-facts.md, Link and frame
+OBTAIN_AGAIN = 0.5  # s between two requests for control: docs/protocol-facts.md
 MOVE_ALONE = "what the drone does then is not known: its pilot has to take it, by leaving F"
 
 

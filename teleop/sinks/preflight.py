@@ -1,7 +1,7 @@
 """What must hold before a drone is taken, and while it is held: each condition a line that the operator reads.
 
 The conditions of the movement modes are the appendix's ("Control mode"); those of every taking are
-osdk-facts.md's "Safety": the pilot's way out is to leave F mode, so a drone whose RC is not in F is not taken.
+docs/protocol-facts.md: the pilot's way out is to leave F mode, so a drone whose RC is not in F is not taken.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from teleop.dji.drone_words import ControlDevice, RcMode
 from teleop.dji.movement import Combination, Horizontal, Vertical
 from teleop.sinks.telemetry import Telemetry
 
-GPS_HEALTH = 3  # of 5: osdk-appendix.md, Control mode
+GPS_HEALTH = 3  # of 5: Appendix.md, Control mode
 LOW_HEIGHT = 3.0  # m, as far as ultrasound reaches
 
 

@@ -16,7 +16,7 @@ from teleop.ports import DeviceError
 
 PATIENCE = 0.5  # s for which an axis may be elsewhere
 TRAILING = 0.2  # s by which readings may trail the command, beyond the delay that is known
-BLIND = 2.5  # s without a reading; a gimbal that only pushes may do so once a second (r-sdk-facts.md)
+BLIND = 2.5  # s without a reading; a gimbal that only pushes may do so once a second (docs/protocol-facts.md)
 HISTORY = 300  # ticks of commanded motion: the lag, and the age of a reading
 
 

@@ -1,7 +1,7 @@
 """What the drone says of itself, from the first question to it on: the connection brought up, then its broadcast kept.
 
 The drone says nothing before it is activated, and its control field, in which the virtual-RC bit is, only when asked
-to (osdk-facts.md, Broadcast). So a connection is brought up by a short list of requests, each sent when the one before
+to (docs/protocol-facts.md). So a connection is brought up by a short list of requests, each sent when the one before
 was acknowledged; what the drone refuses or leaves unanswered ends the run, in words. From then on every part of the
 broadcast is kept with the time it came: an old value is not a value.
 """

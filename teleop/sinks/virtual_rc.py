@@ -1,7 +1,7 @@
 """A drone held by the virtual RC: sticks and switches as channels, from a neutral that is P mode with the gear down.
 
 The gesture that starts the motors is made for a bounded time, frame by frame, while the drone says that it stands by
-and no stick is touched: in the air the same sticks would cut the motors (osdk-facts.md, Safety).
+and no stick is touched: in the air the same sticks would cut the motors (docs/protocol-facts.md).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ BACK_ALONE = "the drone goes back to its RC by itself, a second after the last s
 LOST_ALONE = "a second after the last sticks that it heard, the drone behaves as without any RC"
 GESTURE = 2.0  # s for which the arm gesture is made, at most
 CORNERS: Deflections = dict(zip(STICKS, (-1.0, -1.0, -1.0, 1.0), strict=True))
-"""The gesture that starts and stops the motors, and in the air cuts them: virtual-rc.md, Example."""
+"""The gesture that starts and stops the motors, and in the air cuts them: Virtual RC page, Example."""
 
 
 class VirtualRcGrip:

@@ -142,4 +142,4 @@ def test_a_rig_that_has_no_such_axis_is_refused(tmp_path: Path, capsys: pytest.C
     path = rig(tmp_path, "speed", ", mapping: {yaw: pan, pitch: tilt}")
     path.write_text("".join(line for line in path.read_text().splitlines(keepends=True) if "roll" not in line))
     assert run(["calibrate", "signs", "--rig", str(path), "--axis", "roll"]) == 2
-    assert "--axis roll: no gimbal of Signs moves roll" in capsys.readouterr().err
+    assert "--axis roll: no gimbal of Signs moves it" in capsys.readouterr().err

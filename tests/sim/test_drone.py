@@ -59,7 +59,7 @@ def test_it_broadcasts_at_the_rates_that_were_set_and_the_control_field_not_at_f
 
 
 def test_settings_of_the_virtual_rc_of_any_other_length_are_refused() -> None:
-    """SDK 3.3.1 to 4.0.1 sent stick data under id 00: osdk-facts.md, Errata."""
+    """SDK 3.3.1 to 4.0.1 sent stick data under id 00: docs/protocol-facts.md."""
     bench = DroneBench.activated()
     for value in (b"", b"\x03\x00", bytes.fromhex("03") + bytes(63)):
         bench.send(encode(b"\x05\x00" + value, 0, 1))
