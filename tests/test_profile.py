@@ -194,3 +194,18 @@ def test_the_pad_that_a_shipped_drone_suggests_can_be_used(tmp_path: Path, name:
     (tmp_path / "rig.yaml").write_text(f"{before}\ninputs:\n{inputs}")
     [pad] = load_profile(str(tmp_path / "rig.yaml")).inputs
     assert {control.axis for control in pad.controls.values() if control} >= set(STICKS)
+
+
+def test_signs_and_the_order_of_old_firmware_are_checked(tmp_path: Path) -> None:
+    text = (folder("profiles") / "rs2.yaml").read_text()
+    path = tmp_path / "rig.yaml"
+    right = "rate: 50, speed_signs: {roll: -1}, report_signs: {tilt: -1}, legacy_angles: yaw-pitch-roll}"
+    path.write_text(text.replace("rate: 50}", right, 1))
+    section = load_profile(str(path)).sinks[0]
+    assert section.type == "gimbal"
+    assert (section.wiring.speed_sign(Axis.ROLL), section.wiring.report_sign(Axis.TILT)) == (-1, -1)
+    assert section.legacy_angles == "yaw-pitch-roll"
+    for wrong in ("speed_signs: {roll: 2}", "speed_signs: {yaw: -1}", "legacy_angles: pitch-yaw-roll"):
+        path.write_text(text.replace("rate: 50}", f"rate: 50, {wrong}}}", 1))
+        with pytest.raises(DocumentError, match=wrong.partition(":")[0]):
+            load_profile(str(path))

@@ -72,6 +72,8 @@ def _flat(fields: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
 
 def _shown(value: Any) -> str:
     match value:
+        case None:
+            return "absent"
         case bool():
             return str(value).lower()
         case float():

@@ -20,6 +20,7 @@ from teleop.cli import run
 from teleop.cli.monitor import Tap, Watch
 from teleop.cli.told import in_units, line
 from teleop.dji import focus, gimbal
+from teleop.dji.frame import Frame, pieces
 from teleop.dji.message import Message, Result, ReturnCode
 from teleop.dji.r_sdk import R_SDK
 from teleop.dji.record import restore
@@ -250,3 +251,30 @@ def test_a_terminal_has_a_status_line(network: str) -> None:
         watching.wait()
         os.close(terminal)
         os.close(its_end)
+
+
+@text
+def test_what_other_clients_do_is_shown_and_is_no_damage(bus: Bus) -> None:
+    """Last CAN frames filled up, empty ones, a number that never changes, pushes with the reply bit, foreign ids."""
+    for piece in pieces(Frame(bytes.fromhex("0e02 01"), 0x03, 7).encode()):
+        bus.stray(HOST_ID, piece.ljust(8, b"\xaa"))
+        bus.stray(HOST_ID, b"")
+        bus.stray(0x530)
+    for piece in pieces(Frame(bytes.fromhex("0e06"), 0x03, 7).encode()):
+        bus.stray(HOST_ID, piece.ljust(8, b"\0"))
+        bus.stray(0x426)
+    for data in ("0e02 00 01 0a00 0000 0000", "0e08 01 0a00 1400 1e00", "0e08 01 0a"):
+        bus.gimbal.send(Frame(bytes.fromhex(data), 0x20, 7).encode())
+    assert bus.lines(1.0) == [
+        "    1.000 -> gimbal.angles, kind attitude",
+        "    1.000 -> gimbal.stiffness, operation absent",
+        "    1.000 <- gimbal.angles reply, return_code ok, kind attitude, yaw 1 deg, roll 0 deg, pitch 0 deg",
+        "    1.000 <- gimbal.short_push reply, angles_valid true, limits_valid false, stiffness_valid false, yaw 1 deg,"
+        " roll 2 deg, pitch 3 deg",
+        "    1.000 <- gimbal.push reply, value 010a",
+    ]
+    summary = bus.watch.summary()
+    assert "2 frames to the gimbal, 3 from it, 0 damaged, 6 of other ids (" in summary
+    assert "0x530 3" in summary
+    assert "0x426 3" in summary
+    assert "2 padded" in summary
