@@ -88,13 +88,16 @@ class Beacon:
         ]
 
     def say(self, cockpit: Cockpit, parts: Collection[str]) -> Broadcast:
-        """These parts of the broadcast as they are now."""
+        """These parts of the broadcast as they are now.
+
+        Vertical velocity is up: the 3.1.9 sample takeoffConverged waits for v.z > 0.25 (osdk-facts.md "Corrections").
+        """
         pose = cockpit.pose
         whole = {
             "time": lambda: Time(round(cockpit.time * 400) & 0xFFFFFFFF, round(cockpit.time % 1 * 1e9), 0),
             "quaternion": lambda: quaternion(pose.roll, pose.pitch, pose.yaw),
             "acceleration": lambda: Acceleration(0.0, 0.0, 0.0),
-            "velocity": lambda: Velocity(pose.velocity_north, pose.velocity_east, -pose.climb),
+            "velocity": lambda: Velocity(pose.velocity_north, pose.velocity_east, pose.climb),
             "angular_rate": lambda: AngularRate(0.0, 0.0, pose.yaw_rate),
             "position": lambda: self._position(pose),
             "magnetometer": lambda: Magnetometer(0, 0, 0),

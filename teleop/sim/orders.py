@@ -24,7 +24,12 @@ def controls(sticks: Sticks) -> Controls:
 
 
 def move(flight: Flight, message: Move) -> None:
-    """What a movement command has the drone do; vertical is positive up."""
+    """What a movement command makes the drone do; vertical is positive up.
+
+    Tilt: x is roll, right positive, and y is pitch, nose up positive, so backward; in the ground frame positive roll
+    goes east and positive pitch south (OPENProtocol.md 3.1.9, 01 03, offsets 1 and 5; osdk-facts.md "Corrections").
+    Velocity and position: x is forward or north, y is right or east.
+    """
     to_north = message.frame == Frame.GROUND
     if message.yaw_control == Yaw.RATE:
         flight.turn(math.radians(message.yaw))
@@ -32,7 +37,7 @@ def move(flight: Flight, message: Move) -> None:
         flight.face(math.radians(message.yaw))
     match message.horizontal:
         case Horizontal.TILT:
-            flight.lean(math.radians(message.x), math.radians(message.y), to_north=to_north)
+            flight.lean(-math.radians(message.y), math.radians(message.x), to_north=to_north)
         case Horizontal.VELOCITY:
             flight.fly(complex(message.x, message.y), to_north=to_north)
         case _:

@@ -166,7 +166,7 @@ def test_velocities_are_along_the_nose_or_north_and_up_is_positive() -> None:
     bench.hold(moves(x=2.0, z=1.0), 4, rate=50)
     velocity = bench.last("velocity")
     assert (velocity.x, velocity.y) == (pytest.approx(0, abs=0.01), pytest.approx(2, abs=0.01))
-    assert velocity.z == pytest.approx(-1, abs=0.01), "the ground frame's z is down"
+    assert velocity.z == pytest.approx(1, abs=0.01), "the vertical velocity of the broadcast is up"
     bench.hold(moves(x=2.0, frame=Frame.GROUND), 4, rate=50)
     assert bench.last("velocity").x == pytest.approx(2, abs=0.01)
 
