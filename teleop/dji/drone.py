@@ -21,6 +21,7 @@ from teleop.dji.drone_words import (
     Event,
     Rate,
     ShortArmCode,
+    TaskCode,
     TaskKind,
 )
 from teleop.dji.message import STREAM, Message, message
@@ -149,9 +150,9 @@ class Task(Message):
 
 @message("drone.task", CONTROL, 0x01, reply=True)
 class TaskAck(Message):
-    """What became of the task. Only the common codes are known."""
+    """Whether the task has started. Its end is seen in the flight status of the broadcast."""
 
-    code: code
+    code: Annotated[int, U16(words=TaskCode)]
 
 
 @message("drone.arm", CONTROL, 0x05, cmd_type=ACKNOWLEDGED)

@@ -48,6 +48,16 @@ class ControlCode(IntEnum):
     NO_RIGHTS = 0xFF02
 
 
+class TaskCode(IntEnum):
+    """What became of a task (01 01): STARTED is success (OPENProtocol.md 3.1.9, 01 01; v3.3.1 dji_error.cpp)."""
+
+    FAILED = 1
+    STARTED = 2
+    KEY_ERROR = 0xFF00
+    NOT_ACTIVATED = 0xFF01
+    NO_RIGHTS = 0xFF02
+
+
 class ArmCode(IntEnum):
     """What became of arming or disarming (01 05)."""
 

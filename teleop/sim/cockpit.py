@@ -13,16 +13,16 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from teleop.sim.controls import Controls, Pilot, Status, Switch
-from teleop.sim.flight import Flight, Pose
+from teleop.sim.controls import Controls, Pilot, Status, Switch, TaskState
+from teleop.sim.drone_settings import M100, DroneSettings
+from teleop.sim.flight import APPROACH, Flight, Pose
 
-VIRTUAL_HOLD = 1.0  # s without sticks after which virtual RC ends: virtual-rc.md
 LOCKS_WITHIN = 2.0  # s between two enables
-MOVE_HOLD = 0.5  # s for which a movement command is obeyed; the real time is not known
 GESTURE = 1.0  # s that the sticks are to be in the corners
 SPIN_UP = 1.0  # s from starting motors to lifting off by itself
 SPEED, CLIMB, TILT, YAW = 10.0, 4.0, math.radians(30), math.radians(100)  # of a full stick
 TAKE_OFF_HEIGHT, LANDING, HOME_SPEED = 1.2, -1.0, 5.0  # m, m/s, m/s
+RISEN = 4.0  # time constants after which a height is reached
 FINISHING = 2.0  # s from touching down to standby: osdk-appendix.md, Flight status
 FULL, IDLE = 100 / (18 * 60), 100 / (80 * 60)  # % of the battery a second, in the air and with idle motors
 
@@ -30,8 +30,10 @@ FULL, IDLE = 100 / (18 * 60), 100 / (80 * 60)  # % of the battery a second, in t
 class Cockpit:
     """A drone on the ground at `now`, its RC's mode switch in F as it is for flying from a computer."""
 
-    def __init__(self, now: float, yaw: float = 0.0, battery: float = 100.0) -> None:
+    def __init__(self, now: float, yaw: float = 0.0, battery: float = 100.0, settings: DroneSettings = M100) -> None:
         self.flight = Flight(now, yaw)
+        self.task = TaskState.NONE  # of what it does by itself, or did last
+        self._settings = settings
         self.rc = Controls(switch=Switch.F)
         self.virtual = Controls()
         self.pilot = Pilot.RC
@@ -83,9 +85,9 @@ class Cockpit:
     def _due(self) -> list[tuple[float, Callable[[], object]]]:
         due: list[tuple[float, Callable[[], object]]] = [(time, self._go_on) for time, _ in self._plan[:1]]
         if self.virtual_on and not self.locked:
-            due.append((self._stick_heard + VIRTUAL_HOLD, self._virtual_timeout))
+            due.append((self._stick_heard + self._settings.virtual_rc_timeout, self._virtual_timeout))
         if self.pilot is Pilot.ONBOARD and self._move_heard > -math.inf:
-            due.append((self._move_heard + MOVE_HOLD, self._move_timeout))
+            due.append((self._move_heard + self._settings.movement_timeout, self._move_timeout))
         if self._in_corners < math.inf:
             due.append((self._in_corners + GESTURE, self._gesture))
         return due
@@ -119,9 +121,14 @@ class Cockpit:
         if self.pilot is Pilot.RC:
             self._obey(controls)
 
+    @property
+    def may_obtain(self) -> bool:
+        """Whether its RC lets the onboard computer have control."""
+        return self.rc.switch is Switch.F and not self.locked
+
     def obtain(self) -> bool:
         """Give the onboard computer control; whether its RC allows it."""
-        if self.rc.switch is not Switch.F or self.locked:
+        if not self.may_obtain:
             return False
         self.obtained = True
         if self.pilot is Pilot.RC:
@@ -146,36 +153,63 @@ class Cockpit:
             self._by_itself(None)
             move(self.flight)
 
-    def take_off(self) -> None:
-        if not self.flight.airborne:
-            self.flight.start_motors()
-            self._by_itself(Status.TAKE_OFF)
-            self._plan = [(self.time + SPIN_UP, lambda: self.flight.rise_to(TAKE_OFF_HEIGHT))]
+    def take_off(self) -> bool:
+        """Whether it does: only with the motors off, so not within two seconds of a landing (OSDK-ROS issue 213)."""
+        if self.flight.airborne or self.flight.motors or self.flight.crashed:
+            return False
+        self._begin(Status.TAKE_OFF)
+        self.flight.start_motors()
+        lift_off = self.time + SPIN_UP
+        self._plan = [(lift_off, self._lift_off), (lift_off + RISEN * APPROACH, self._finish_task)]
+        return True
 
-    def land(self) -> None:
-        if self.flight.airborne:
-            self._by_itself(Status.LANDING)
-            self._hover()
-            self.flight.climb(LANDING)
-
-    def go_home(self) -> None:
-        """In a straight line to where it took off, and down."""
+    def land(self) -> bool:
+        """Whether it does: not on the ground (the maker's sample LinuxFlight.cpp, landing)."""
         if not self.flight.airborne:
-            return
-        self._by_itself(Status.IN_AIR)
+            return False
+        self._begin(Status.LANDING)
+        self._descend()
+        return True
+
+    def go_home(self) -> bool:
+        """In a straight line to where it took off, and down; whether it does, which is not on the ground."""
+        if not self.flight.airborne:
+            return False
+        self._begin(Status.IN_AIR)
         self._hover()
         way = -complex(self.pose.north, self.pose.east)
         seconds = abs(way) / HOME_SPEED
         if seconds:
             self.flight.fly(way / seconds, to_north=True)
         arrive, land = self.time + seconds, self.time + seconds + 5.0
-        self._plan = [(arrive, self._seek_home), (land, self.land)]
+        self._plan = [(arrive, self._seek_home), (land, self._descend)]
+        return True
+
+    def _lift_off(self) -> None:
+        self.flight.rise_to(TAKE_OFF_HEIGHT)
+
+    def _descend(self) -> None:
+        self._auto = Status.LANDING
+        self._hover()
+        self.flight.climb(LANDING)
+
+    def _begin(self, doing: Status) -> None:
+        """A task holds against the end of movement commands that came before it."""
+        self._by_itself(doing)
+        self.task = TaskState.RUNNING
+        self._move_heard = -math.inf
 
     def _seek_home(self) -> None:
         self.flight.seek(-complex(self.pose.north, self.pose.east), to_north=True)
 
     def _by_itself(self, doing: Status | None) -> None:
+        if self.task is TaskState.RUNNING:
+            self.task = TaskState.FAILED
         self._auto, self._plan = doing, []
+
+    def _finish_task(self) -> None:
+        self.task = TaskState.SUCCEEDED
+        self._auto = None
 
     def _go_on(self) -> None:
         _, act = self._plan.pop(0)
@@ -183,6 +217,8 @@ class Cockpit:
 
     def _finish_landing(self) -> None:
         self.flight.stop_motors()
+        if self.task is TaskState.RUNNING:
+            self.task = TaskState.SUCCEEDED
         self._auto = None
 
     def _hover(self) -> None:

@@ -26,6 +26,7 @@ from teleop.dji.drone_words import (
     ControlCode,
     ControlOrder,
     CurrentMode,
+    TaskCode,
     TaskKind,
 )
 from teleop.dji.encryption import Cipher
@@ -38,6 +39,7 @@ from teleop.dji.virtual_rc import Sticks, VirtualRc
 from teleop.sim.beacon import Beacon
 from teleop.sim.cockpit import Cockpit
 from teleop.sim.controls import Switch
+from teleop.sim.drone_settings import M100, DroneSettings
 from teleop.sim.orders import controls, move
 
 VERSION = "M100 SIMULATED 03.01.10.00"
@@ -60,9 +62,11 @@ class SimulatedDrone:
         health: int = 5,
         mirrors: bool = False,
         cipher: Cipher | None = None,
+        settings: DroneSettings = M100,
     ) -> None:
         self.counts: Counter[str] = Counter()  # messages by name as they were understood; "refused" those not obeyed
-        self.cockpit = Cockpit(now, math.radians(yaw), battery)
+        self.settings = settings
+        self.cockpit = Cockpit(now, math.radians(yaw), battery, settings)
         self.acknowledges = True
         self.activated = False
         self._beacon = Beacon(mirrors, health)
@@ -71,6 +75,7 @@ class SimulatedDrone:
         self._outgoing = bytearray()
         self._acknowledged: dict[int, tuple[int, bytes]] = {}  # by session: the last sequence, and what was said to it
         self._booted = -math.inf
+        self._asked: ControlOrder | None = None  # what has to be sent again to be confirmed
         self._lost_control = 0  # how often the onboard computer was told
         self._handlers: dict[type[Message], Handler] = {
             drone.Version: self._version,
@@ -129,7 +134,8 @@ class SimulatedDrone:
         self._session.cipher = None
         self._beacon.end()
         self._outgoing.clear()
-        self.cockpit = Cockpit(now, self.cockpit.pose.yaw, self.cockpit.battery)
+        self._asked = None
+        self.cockpit = Cockpit(now, self.cockpit.pose.yaw, self.cockpit.battery, self.settings)
 
     def _pass(self, now: float) -> None:
         for time, parts in self._beacon.due(now):
@@ -193,22 +199,31 @@ class SimulatedDrone:
         return drone.FrequencyAck(Code.OK)
 
     def _control(self, message: drone.Control) -> Message:
-        if message.order == ControlOrder.RELEASE:
-            self.cockpit.release()
-            return drone.ControlAck(ControlCode.RELEASED)
-        return drone.ControlAck(ControlCode.OBTAINED if self.cockpit.obtain() else ControlCode.NOT_IN_F_MODE)
+        """Each order is confirmed when it comes for the second time (OPENProtocol.md 3.1.9, 01 00)."""
+        obtains = message.order == ControlOrder.OBTAIN
+        if obtains and not self.cockpit.may_obtain:
+            self._asked = None
+            return drone.ControlAck(ControlCode.NOT_IN_F_MODE)
+        if self.settings.asks_twice and self.cockpit.obtained != obtains and self._asked != message.order:
+            self._asked = ControlOrder(message.order)
+            return drone.ControlAck(ControlCode.OBTAINING if obtains else ControlCode.RELEASING)
+        self._asked = None
+        if obtains:
+            self.cockpit.obtain()
+            return drone.ControlAck(ControlCode.OBTAINED)
+        self.cockpit.release()
+        return drone.ControlAck(ControlCode.RELEASED)
 
     def _task(self, message: drone.Task) -> Message:
-        if not self.cockpit.obtained:
-            return drone.TaskAck(Code.NO_RIGHTS)
+        """Without control it fails as any other (the maker's sample LinuxFlight.cpp, takeoff and landing)."""
         cockpit = self.cockpit
         tasks = {
             TaskKind.RETURN_HOME: cockpit.go_home,
             TaskKind.TAKE_OFF: cockpit.take_off,
             TaskKind.LAND: cockpit.land,
         }
-        tasks[TaskKind(message.task)]()
-        return drone.TaskAck(Code.OK)
+        starts = cockpit.obtained and tasks[TaskKind(message.task)]()
+        return drone.TaskAck(TaskCode.STARTED if starts else TaskCode.FAILED)
 
     def _arm(self, message: drone.Arm) -> Message:
         flight = self.cockpit.flight

@@ -20,9 +20,9 @@ from teleop.dji.message import Message
 from teleop.dji.onboard_session import OnboardSession
 from teleop.dji.virtual_rc import NEUTRAL, Sticks, VirtualRc
 from teleop.links.pty import PtyLink
-from teleop.sim.cockpit import VIRTUAL_HOLD
 from teleop.sim.controls import Pilot
 from teleop.sim.drone import SimulatedDrone
+from teleop.sim.drone_settings import VIRTUAL_RC_TIMEOUT
 
 AXES = "stick_roll", "stick_pitch", "stick_throttle", "stick_yaw"
 STICKS = "time,stick_roll,stick_pitch,stick_throttle,stick_yaw\n0,0,0,0,0\n0.5,0,0.5,0,0\n40,0,0,0,0\n"
@@ -139,7 +139,7 @@ def test_a_process_that_is_stopped_leaves_the_drone_with_its_pilot(
         assert [message for _, message in far.sticks()[-6:]] == [NEUTRAL] * 6
     else:
         assert last.pitch == FORWARD, "killed with the stick forward,"
-        assert back - time_of_last == pytest.approx(VIRTUAL_HOLD, abs=0.05), "it goes back by itself"
+        assert back - time_of_last == pytest.approx(VIRTUAL_RC_TIMEOUT, abs=0.05), "it goes back by itself"
 
 
 def test_a_new_run_flies_only_when_it_is_asked_to(

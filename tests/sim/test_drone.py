@@ -22,6 +22,7 @@ from teleop.dji.drone_words import (
     ModeChannel,
     Rate,
     RcMode,
+    TaskCode,
     TaskKind,
 )
 from teleop.dji.frame import encode
@@ -120,7 +121,7 @@ def test_control_is_given_in_f_mode_and_taken_by_the_pilot_who_leaves_it() -> No
     bench.drone.turn_switch(bench.now, Switch.P)
     assert bench.ask(drone.Control(ControlOrder.OBTAIN)).code == ControlCode.NOT_IN_F_MODE
     bench.drone.turn_switch(bench.now, Switch.F)
-    assert bench.ask(drone.Control(ControlOrder.OBTAIN)).code == ControlCode.OBTAINED
+    bench.obtain()
     bench.ask(drone.Frequency(control=Rate.HZ_50))
     bench.run(0.05)
     assert bench.last("control").device == ControlDevice.ONBOARD_DEVICE
@@ -133,10 +134,12 @@ def test_control_is_given_in_f_mode_and_taken_by_the_pilot_who_leaves_it() -> No
 def test_motors_obey_whoever_has_control_and_never_stop_in_the_air() -> None:
     bench = DroneBench.activated()
     assert bench.ask(drone.Arm(ArmOrder.ARM)).code == ArmCode.NEED_CONTROL
-    bench.ask(drone.Control(ControlOrder.OBTAIN))
+    bench.obtain()
     assert bench.ask(drone.Arm(ArmOrder.ARM)).code == ArmCode.OK
     assert bench.ask(drone.Arm(ArmOrder.ARM)).code == ArmCode.ALREADY
-    assert bench.ask(drone.Task(TaskKind.TAKE_OFF)).code == Code.OK
+    assert bench.ask(drone.Task(TaskKind.TAKE_OFF)).code == TaskCode.FAILED, "only with the motors off"
+    assert bench.ask(drone.Arm(ArmOrder.DISARM)).code == ArmCode.OK
+    assert bench.ask(drone.Task(TaskKind.TAKE_OFF)).code == TaskCode.STARTED
     bench.run(5)
     assert bench.ask(drone.Arm(ArmOrder.DISARM)).code == ArmCode.IN_THE_AIR
 
@@ -155,7 +158,7 @@ def moves(**changes: Any) -> Move:
 
 def flying() -> DroneBench:
     bench = DroneBench.activated(yaw=90.0)
-    bench.ask(drone.Control(ControlOrder.OBTAIN))
+    bench.obtain()
     bench.ask(drone.Task(TaskKind.TAKE_OFF))
     bench.run(8)
     return bench
@@ -182,7 +185,7 @@ def test_a_heading_and_a_height_are_sought() -> None:
 def test_movement_without_control_or_in_no_listed_mode_is_refused() -> None:
     bench = DroneBench.activated()
     bench.tell(moves())
-    bench.ask(drone.Control(ControlOrder.OBTAIN))
+    bench.obtain()
     refused = bench.drone.counts["refused"]
     assert refused == 1
     bench.send(encode(b"\x01\x03\x6a" + bytes(16), 0, 9))
@@ -191,7 +194,7 @@ def test_movement_without_control_or_in_no_listed_mode_is_refused() -> None:
 
 def test_a_request_that_comes_again_is_acknowledged_again_and_obeyed_once() -> None:
     bench = DroneBench.activated()
-    bench.ask(drone.Control(ControlOrder.OBTAIN))
+    bench.obtain()
     bench.drone.acknowledges = False
     frame, _ = bench.session.request(drone.Arm(ArmOrder.ARM), bench.now)
     bench.send(frame)

@@ -91,7 +91,7 @@ def test_every_combination_moves_it_the_documented_way(
 @pytest.mark.parametrize("vertical", [1.0, -1.0])
 def test_the_broadcast_has_a_climb_as_positive(vertical: float) -> None:
     """NEU: takeoffConverged of the 3.1.9 sample waits for v.z > 0.25; OSDK-ROS issue 25."""
-    drone = flying()
+    drone, stream = flying(), b""
     for step in range(200):
         drone.receive(raw_frame(b"\x01\x03" + struct.pack("<Bffff", 0x4B, 0, 0, vertical, 0), 0, step), step / 50)
         stream = drone.advance(step / 50)
