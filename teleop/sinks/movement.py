@@ -14,6 +14,7 @@ from teleop.motion import STICKS
 from teleop.sinks.connection import Answer, Connection
 from teleop.sinks.grips import ARMING, Deflections, attitude, not_in_standby, word_of
 from teleop.sinks.preflight import Site, mode_refusals, mode_warnings
+from teleop.sinks.stick_numbers import numbers
 from teleop.sinks.telemetry import Telemetry
 
 OBTAIN_AGAIN = 0.5  # s between two requests for control: osdk-facts.md, Link and frame
@@ -112,22 +113,17 @@ class MovementGrip:
         return heading, self._height if position is None else position.height
 
     def _move(self, sticks: Deflections, heading: float, height: float) -> movement.Move:
-        roll, pitch, throttle, yaw = (sticks[axis] for axis in STICKS)
-        turn, rise = yaw * self._full["yaw"], throttle * self._full["vertical"]
-        if self._combination.yaw == movement.Yaw.ANGLE:
-            turn = math.remainder(heading + turn, 360.0)
-        if self._combination.vertical == movement.Vertical.POSITION:
-            rise = max(0.0, height + rise)
+        x, y, z, yaw = numbers(self._combination, self._full, sticks, heading, height)
         return movement.Move(
             stable=self._combination.horizontal == movement.Horizontal.VELOCITY,
             frame=self._frame,
             yaw_control=self._combination.yaw,
             vertical=self._combination.vertical,
             horizontal=self._combination.horizontal,
-            x=pitch * self._full["horizontal"],
-            y=roll * self._full["horizontal"],
-            z=rise,
-            yaw=turn,
+            x=x,
+            y=y,
+            z=z,
+            yaw=yaw,
         )
 
     def _answered(self, answer: Answer) -> None:
