@@ -108,11 +108,11 @@ class ControlAuthority:
             self._pause = AGAIN
         elif code == _settles(self._order):
             self._answer = ControlCode(code)
+        elif self._order == ControlOrder.RELEASE:  # whether it is confirmed is said by the engagement
+            self._pause = REPEAT
         elif code is None:
             self._pause = REPEAT
-            self._say(f"the drone did not answer when asked to {self._order.name.lower()} control")
-        elif self._order == ControlOrder.RELEASE:
-            self._pause = REPEAT
+            self._say("the drone did not answer when asked about control")
         else:
             self._refused = True
             self._say(f"the drone refuses control: {word_of(code)}")

@@ -51,6 +51,8 @@ class Cable:
     def __init__(self, link: Link, now: Callable[[], float]) -> None:
         self._link, self._now = link, now
         self.unplugged = self.deaf = self.mute = False
+        self.late = 0.0  # s by which everything that comes from the drone is delayed
+        self._delayed: list[tuple[float, bytes]] = []
         self.damage: Callable[[bytes], bytes] = lambda data: data
         self.wire: list[tuple[float, Message]] = []
         self._session = OnboardSession()
@@ -64,7 +66,11 @@ class Cable:
     def receive(self) -> bytes:
         self._check()
         data = self._link.receive()
-        return b"" if self.mute else data
+        if not self.mute and data:
+            self._delayed.append((self._now() + self.late, data))
+        arrived = [data for time, data in self._delayed if time <= self._now() + 1e-9]
+        del self._delayed[: len(arrived)]
+        return b"".join(arrived)
 
     def _check(self) -> None:
         if self.unplugged:
