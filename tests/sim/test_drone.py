@@ -29,18 +29,23 @@ from teleop.dji.frame import encode
 from teleop.dji.movement import Frame, Horizontal, Move, Vertical, Yaw
 from teleop.dji.virtual_rc import Sticks, VirtualRc
 from teleop.sim.controls import Pilot, Switch
+from teleop.sim.drone_settings import DroneSettings
 
 UP = Sticks(throttle=1684)
 CORNERS = Sticks(364, 364, 364, 1684)
 
 
-def test_before_activation_it_tells_its_version_and_refuses_the_rest() -> None:
-    bench = DroneBench()
+@pytest.mark.parametrize("broadcasts", [True, False])
+def test_before_activation_it_takes_rates_and_broadcasts_or_not_and_refuses_the_rest(broadcasts: bool) -> None:
+    """OSDK issue 145: an M100 broadcasts and takes 00 10 before activation."""
+    bench = DroneBench(settings=DroneSettings(broadcasts_before_activation=broadcasts))
     assert bench.ask(drone.Version()).code == Code.NOT_ACTIVATED
     assert bench.ask(drone.Control(ControlOrder.OBTAIN)).code == ControlCode.NOT_ACTIVATED
     bench.tell(VirtualRc(on=True))
+    assert bench.ask(drone.Frequency(control=Rate.HZ_50)).code == (Code.OK if broadcasts else Code.NOT_ACTIVATED)
     bench.run(1)
-    assert bench.heard == []
+    assert bool(bench.heard) == broadcasts
+    assert any(each.control for _, each in bench.heard) == broadcasts
     assert not bench.drone.cockpit.virtual_on
     assert bench.ask(drone.Activate(1)).code == ActivationCode.OK
     assert bench.ask(drone.Version()).code == Code.OK
@@ -206,10 +211,14 @@ def test_a_request_that_comes_again_is_acknowledged_again_and_obeyed_once() -> N
 
 def test_a_reboot_forgets_the_activation() -> None:
     bench = DroneBench.activated()
+    bench.ask(drone.Frequency(control=Rate.HZ_50))
     bench.drone.reboot(bench.now, 3.0)
     bench.heard.clear()
-    bench.run(5)
+    bench.run(3)
     assert bench.heard == []
+    bench.run(1)
+    assert bench.heard
+    assert not any(each.control for _, each in bench.heard)
     assert bench.ask(drone.Version()).code == Code.NOT_ACTIVATED
 
 
