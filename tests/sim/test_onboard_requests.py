@@ -3,63 +3,9 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
 
 import pytest
-from raw_frames import cut, raw_data, raw_frame
-
-from teleop.sim.drone import SimulatedDrone
-from teleop.sim.drone_settings import DroneSettings
-
-ACTIVATE = b"\x00\x01" + struct.pack("<III32s", 1030093, 2, 0x03010A00, b"9" * 32)
-OBTAIN, RELEASE = b"\x01\x00\x01", b"\x01\x00\x00"
-GO_HOME, TAKE_OFF, LAND = 1, 4, 6
-
-
-class Client:
-    """Sends commands in session 2 and reads what acknowledges them."""
-
-    def __init__(self, **settings: object) -> None:
-        self.drone = SimulatedDrone(settings=DroneSettings(**settings))  # type: ignore[arg-type]
-        self.now = 0.0
-        self.tasks = 0
-        self._sequences: Iterator[int] = iter(range(1, 60000))
-        self.unasked: list[bytes] = []
-
-    def ask(self, data: bytes) -> str:
-        """The value of the one acknowledgement, which comes at once; "" for none."""
-        sequence = next(self._sequences)
-        self.drone.receive(raw_frame(data, 2, sequence), self.now)
-        acks = self.listen()
-        assert all(frame[8:10] == sequence.to_bytes(2, "little") for frame in acks)
-        return "".join(raw_data(frame).hex() for frame in acks)
-
-    def tell(self, data: bytes) -> None:
-        self.drone.receive(raw_frame(data, 0, next(self._sequences)), self.now)
-
-    def task(self, kind: int) -> str:
-        self.tasks += 1
-        return self.ask(bytes((1, 1, self.tasks, kind)))
-
-    def result(self) -> str:
-        return self.ask(bytes((1, 2, self.tasks)))
-
-    def wait(self, seconds: float) -> None:
-        self.now += seconds
-        assert self.listen() == []
-
-    def listen(self) -> list[bytes]:
-        frames = cut(self.drone.advance(self.now))
-        self.unasked += [frame for frame in frames if not frame[3] & 0x20]
-        return [frame for frame in frames if frame[3] & 0x20]
-
-    @classmethod
-    def in_control(cls, **settings: object) -> Client:
-        client = cls(**settings)
-        assert client.ask(ACTIVATE) == "0000"
-        client.ask(OBTAIN)
-        assert client.ask(OBTAIN) == "0200"
-        return client
+from onboard_client import ACTIVATE, GO_HOME, LAND, OBTAIN, RELEASE, TAKE_OFF, Client
 
 
 def test_control_is_obtained_and_released_at_the_second_time() -> None:
