@@ -13,9 +13,12 @@ FOCUS_RANGE = 4095  # counts from end to end: V2.5, section 2.3.4.19
 
 
 class FocusMotor:
-    """A motor on the lens with `speed` counts/s, which obeys only while it knows the ends of the lens."""
+    """A motor on the lens with `speed` counts/s, which obeys only while it knows the ends of the lens.
 
-    def __init__(self, speed: float, calibrated: bool) -> None:
+    Without a motor (`absent`) every command fails.
+    """
+
+    def __init__(self, speed: float, calibrated: bool, absent: bool = False) -> None:
         self._speed = speed
         self._motor = Motor(0.0, lag=1.0, minimum=0.0, maximum=FOCUS_RANGE)
         self._calibrated_from = -math.inf if calibrated else math.inf  # s
@@ -26,6 +29,8 @@ class FocusMotor:
             focus.Calibrate: self._calibrate,
             focus.Get: self._get,
         }
+        if absent:
+            self.handlers = dict.fromkeys(self.handlers, timeless(lambda _message: ReturnCode.FAILED))
 
     def position(self, time: float) -> float:
         """Counts, exact."""
