@@ -112,7 +112,7 @@ def decode_candump(lines: Iterable[str], registry: Registry, ids: Iterable[str])
         except ValueError:  # a remote or CAN FD frame, which the protocol does not have
             yield not_understood("not a data frame", line)
             continue
-        reader = readers.setdefault((bus, can_id), FrameReader())
+        reader = readers.setdefault((bus, can_id), FrameReader(in_pieces=True))
         transcriber = transcribers.setdefault(bus, Transcriber(registry))
         for found in reader.feed(data, float(parsed["time"])):
             yield json.dumps(transcriber.record(found))

@@ -129,7 +129,7 @@ class Watch:
 
     def __init__(self, listener: Listener, tapped: Tap, as_json: bool) -> None:
         self._listener, self._tap, self._as_json = listener, tapped, as_json
-        self._readers = {key: FrameReader() for key in tapped.directions}
+        self._readers = {key: FrameReader(in_pieces=tapped.is_bus) for key in tapped.directions}
         self._transcriber = Transcriber(tapped.registry, tapped.cipher)
         self._counts: Counter[str] = Counter()
 
@@ -148,6 +148,8 @@ class Watch:
             parts = [f"{counts[f'to {device}']} frames to the {device}", f"{came} from it", damaged, self._strangers()]
         else:
             parts = [f"{came} frames from the {device}", damaged]
+        if counts["padded"]:
+            parts.append(f"{counts['padded']} padded")
         adapter = (f"adapter: {name} {count}" for name, count in self._listener.counts.copy().items())
         return ", ".join((*parts, *adapter))
 
@@ -161,6 +163,9 @@ class Watch:
     def _tell(self, time: float, key: int, heard: Iterable[Frame | Damage]) -> None:
         direction = self._tap.directions[key]
         for found in heard:
+            if isinstance(found, Damage) and found.is_padding:
+                self._counts["padded"] += 1
+                continue
             record = {"time": round(time, 3), "direction": direction, **self._transcriber.record(found)}
             if (secret := _HIDDEN.get(record.get("message", ""))) in record.get("fields", {}):
                 record["fields"][secret] = "hidden"

@@ -23,7 +23,7 @@ from teleop.clock import SystemClock
 from teleop.dji import camera, focus, gimbal
 from teleop.dji.catalogue import find
 from teleop.dji.frame import FrameReader
-from teleop.dji.message import STREAM, FieldError, Message
+from teleop.dji.message import FieldError, Message
 from teleop.dji.r_sdk import R_SDK
 from teleop.dji.record import Record, Transcriber, describe
 from teleop.dji.session import REPLY_TIMEOUT, Received, Session
@@ -101,7 +101,7 @@ def send(
     tries = 1 + (default_retries(message) if retries is None else retries)
     clock = SystemClock()
     with opened(url, clock, _simulated) as link:
-        record = stream(link, message) if message.cmd_type == STREAM else ask(link, url, message, clock, tries)
+        record = stream(link, message) if not message.has_reply else ask(link, url, message, clock, tries)
     tell(message.name, record, refusal(record), readable(message.name, record), options.json)
     if isinstance(message, gimbal.Speed) and message.take_over:
         print(TAKEN_OVER, file=sys.stderr)
@@ -188,7 +188,7 @@ def _simulated() -> Device:
 def readable(name: str, record: Record) -> Iterator[str]:
     """Lines for people on how the command `name` went: a field a line."""
     if not record["reply"]:
-        yield f"{name}: sent once, it has no reply"
+        yield f"{name}: sent; this command has no reply"
         return
     yield f"{name}: ok"
     fields = {field: text for field, text in in_units(record).items() if field != "return_code"}

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 
 from teleop.dji.catalogue import RIG
 from teleop.dji.drone_catalogue import DRONE
-from teleop.dji.message import STREAM
 from teleop.dji.vocabulary import Vocabulary, help_of
 from teleop.document import DocumentError
 
@@ -42,7 +41,7 @@ def _vocabulary(vocabulary: Vocabulary, beginning: str, width: int) -> Iterator[
             yield from ("", f"{device}: plain words", *_wrapped("  ", "  ", ", ".join(plain), width))
         for name, command in vocabulary.commands.items():
             if command not in vocabulary.refused and _begins(name, device, beginning):
-                yield from ("", f"{name}, sent once without a reply" if command.cmd_type == STREAM else name)
+                yield from ("", f"{name}, sent once without a reply" if not command.has_reply else name)
                 yield from _wrapped("  ", "  ", " ".join((command.__doc__ or "").split()), width)
                 for field, requirement, default in help_of(command):
                     text = requirement if default is None else f"{requirement} [default: {default}]"

@@ -26,6 +26,7 @@ HEADER_SIZE: Final = 12  # bytes, its CRC-16 included
 TAIL_SIZE: Final = 4  # bytes of CRC-32
 LARGEST: Final = 0x3FF  # bytes in a whole frame: the length field has ten bits
 REPLY: Final = 0x20  # cmd_type bit 5
+PIECE: Final = 8  # bytes in a CAN frame
 PARTIAL_PATIENCE: Final = 0.1  # s without bytes after which a partial frame will not be finished
 
 _HEADER = struct.Struct("<BHBB3sH")
@@ -110,6 +111,14 @@ class Damage(NamedTuple):
     reason: str
     data: bytes
 
+    @property
+    def is_padding(self) -> bool:
+        """Whether it only fills the last CAN frame of a DJI frame up to 8 bytes, as some clients do."""
+        return self.reason == _PADDING
+
+
+_PADDING: Final = "padding"
+
 
 class FrameReader:
     """Finds the frames in one direction's byte stream, however it was cut.
@@ -117,9 +126,12 @@ class FrameReader:
     A frame that lost its last bytes is still good when the next frame begins with just those bytes (in one of 256
     cases for a single byte, which is what a CAN bus loses of a frame of 25). Then both are found, the shared bytes
     being taken twice: after a frame the search goes on inside its CRC-32.
+
+    A stream `in_pieces` comes from CAN: what fills the last piece of a frame is told apart from damage.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, in_pieces: bool = False) -> None:
+        self._in_pieces = in_pieces
         self._buffer = b""
         self._taken = 0  # bytes at the head of the buffer that already belong to a frame
         self._last_arrival = 0.0
@@ -156,6 +168,9 @@ class FrameReader:
                 taken = start + _size_at(data, start)
                 position = taken - TAIL_SIZE
                 reason = ""
+                if filling := self._filling(data, start, taken):
+                    yield Damage(_PADDING, filling)
+                    taken += len(filling)
             else:
                 if start >= taken and not reason:
                     reason = "no start byte" if start > taken else verdict or "incomplete frame"
@@ -164,6 +179,19 @@ class FrameReader:
         self._buffer, self._taken = data[end:], max(0, taken - end)
         if end > taken:
             yield Damage(reason or "no start byte", data[taken:end])
+
+    def _filling(self, data: bytes, start: int, end: int) -> bytes:
+        """What fills the last piece of the frame from `start` to `end`, b"" for nothing.
+
+        Pieces arrive whole. So a start byte behind the frame begins the next one when a good header follows, or as long
+        as a single piece is there.
+        """
+        size = (start - end) % PIECE if self._in_pieces else 0
+        filling, header = data[end : end + size], data[end : end + HEADER_SIZE]
+        if not size or len(filling) < size:
+            return b""
+        begins = not _crc16(header) if len(header) == HEADER_SIZE else len(header) == PIECE
+        return b"" if filling[0] == START and begins else filling
 
 
 def _size_at(data: bytes, start: int) -> int:
@@ -196,4 +224,4 @@ def pieces(frame: bytes) -> tuple[bytes, ...]:
 
 @cache
 def _cutter(size: int) -> struct.Struct:
-    return struct.Struct("8s" * (size // 8) + (f"{size % 8}s" if size % 8 else ""))
+    return struct.Struct(f"{PIECE}s" * (size // PIECE) + (f"{size % PIECE}s" if size % PIECE else ""))

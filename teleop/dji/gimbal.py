@@ -10,7 +10,7 @@ from dataclasses import field
 from typing import Annotated, ClassVar, Final
 
 from teleop.dji.message import STREAM, FieldError, Message, message, result_code
-from teleop.dji.tlv import Ids, Parameter, Tlv
+from teleop.dji.tlv import Ids, OptionalByte, Parameter, Tlv
 from teleop.dji.wire import I16, U8, U32, Bits, DottedVersion, Flag, Reserved
 from teleop.dji.words import (
     AngleKind,
@@ -42,6 +42,7 @@ byte = Annotated[int, U8()]
 device_id = Annotated[int, U32()]
 dotted = Annotated[str, DottedVersion()]
 whether = Annotated[int, U8(words=Operation)]
+whether_or_absent = Annotated[int | None, OptionalByte(Operation)]  # some clients ask without data
 tlv = Annotated[tuple[Parameter, ...], Tlv(ParameterId)]
 angle_kind = Annotated[int, U8(words=AngleKind)]
 
@@ -94,6 +95,16 @@ class AnglesReply(Message):
     pitch: decidegrees
 
 
+@message("gimbal.legacy_angles", GIMBAL, 0x02, reply=True)
+class LegacyAnglesReply(Message):
+    """The angles as some old firmware answers: without the type byte. Which angle is which differs: `legacy_angles`."""
+
+    return_code: result_code
+    yaw: decidegrees
+    roll: decidegrees
+    pitch: decidegrees
+
+
 @message("gimbal.set_limits", GIMBAL, 0x03)
 class SetLimits(Message):
     """How far each axis may go from its centre, each way; all magnitudes."""
@@ -111,7 +122,7 @@ class SetLimits(Message):
 class Limits(Message):
     """Ask how far each axis may go."""
 
-    operation: whether = Operation.EXECUTE
+    operation: whether_or_absent = Operation.EXECUTE
 
 
 @message("gimbal.limits", GIMBAL, 0x04, reply=True)
@@ -141,7 +152,7 @@ class SetStiffness(Message):
 class Stiffness(Message):
     """Ask for the motor stiffness."""
 
-    operation: whether = Operation.EXECUTE
+    operation: whether_or_absent = Operation.EXECUTE
 
 
 @message("gimbal.stiffness", GIMBAL, 0x06, reply=True)
@@ -187,6 +198,19 @@ class Push(Message):
     pitch_stiffness: percent
     yaw_stiffness: percent
     roll_stiffness: percent
+
+
+@message("gimbal.short_push", GIMBAL, 0x08, reply=None, cmd_type=STREAM)
+class ShortPush(Message):
+    """A push that ends early, as one gimbal in the field sends it: the flags and the attitude; more is in `extra`."""
+
+    angles_valid: Annotated[bool, Flag(first=0)]
+    limits_valid: Annotated[bool, Flag(first=1)]
+    stiffness_valid: Annotated[bool, Flag(first=2)]
+    reserved: Annotated[int, Reserved()] = field(default=0, kw_only=True)
+    yaw: decidegrees
+    roll: decidegrees
+    pitch: decidegrees
 
 
 @message("gimbal.version_push", GIMBAL, 0x09, cmd_type=STREAM)

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any, ClassVar, NamedTuple, get_args, get_origin, get_type_hints
 
-from teleop.dji.tlv import Ids, Tlv
+from teleop.dji.tlv import Ids, OptionalByte, Tlv
 from teleop.dji.wire import Bits, Flag, Number, Reserved
 
 
@@ -26,7 +26,7 @@ class Field(NamedTuple):
     """One annotated field. `default` is dataclasses.MISSING where a value must be given."""
 
     name: str
-    wire: Number | Ids | Tlv
+    wire: Number | OptionalByte | Ids | Tlv
     default: Any
 
 
@@ -144,7 +144,7 @@ def _compile(
         for name, source in cell.unpack.items()
     }
     extra = "extra"
-    if fields and isinstance(fields[-1].wire, Ids | Tlv):
+    if fields and isinstance(fields[-1].wire, OptionalByte | Ids | Tlv):
         tail = fields[-1].name
         pack += f" + to_{tail}(m.{tail})"
         unpack[tail], extra = f"(parsed := from_{tail}(extra))[0]", "parsed[1]"

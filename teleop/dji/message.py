@@ -52,6 +52,7 @@ class Message:
     set_and_id: ClassVar[bytes]
     reply: ClassVar[bool | None]  # None: sent with and without the reply bit
     cmd_type: ClassVar[int]
+    has_reply: ClassVar[bool]  # False: no reply frame belongs to it, whatever cmd_type a sender asks with
     layout: ClassVar[Layout]
 
     extra: bytes = field(default=b"", kw_only=True)
@@ -141,6 +142,7 @@ def message(
         made.set_and_id = bytes((command_set, command_id))
         made.reply = reply
         made.cmd_type = cmd_type if cmd_type is not None else REPLY if reply else COMMAND
+        made.has_reply = made.cmd_type != STREAM
         made.layout = Layout(made)
         return made
 

@@ -8,5 +8,5 @@ from teleop.dji.registry import Registry, messages_of
 R_SDK = Registry(
     sets={gimbal.GIMBAL: "gimbal", camera.CAMERA: "camera"},
     messages=(*messages_of(gimbal), *messages_of(focus), *messages_of(camera)),
-    names={gimbal.Version.set_and_id: gimbal.Version.name, camera.Command.set_and_id: camera.Command.name},
+    names={cls.set_and_id: cls.name for cls in (gimbal.Angles, gimbal.Push, gimbal.Version, camera.Command)},
 )

@@ -42,10 +42,12 @@ class Transcriber:
         deciphered = self._cipher().decrypt(found) if self._cipher and found.is_encrypted else None
         plain = deciphered.frame if deciphered else found
         exchange = self._registry.exchange(found)
-        if found.allows_reply and not plain.is_encrypted:
-            self._requests[exchange] = plain.data[:2]
         request = self._requests.get(exchange, b"") if found.is_reply else b""
-        record = describe(self._registry, found, self._registry.decode(plain, request))
+        decoded = self._registry.decode(plain, request)
+        # Some clients never count up: what has no reply must not take the place of a question with the same number.
+        if found.allows_reply and not plain.is_encrypted and decoded.message.has_reply:
+            self._requests[exchange] = plain.data[:2]
+        record = describe(self._registry, found, decoded)
         if deciphered:
             fields = record.pop("fields")
             record |= {"filling": deciphered.filling.hex(), "fields": fields}

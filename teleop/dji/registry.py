@@ -50,9 +50,14 @@ class Registry:
             self._commands[cls.name] = cls.set_and_id
         unique = {command: name for name, command in self._commands.items() if self._names_of(command) == {name}}
         self._names = unique | dict(names or {})
+        self._pushes = {cls.set_and_id for cls in self.messages if cls.reply is None}
 
     def _names_of(self, command: bytes) -> set[str]:
         return {cls.name for cls in self.messages if cls.set_and_id == command}
+
+    def is_push(self, command: bytes) -> bool:
+        """Whether a device sends the command with this set and id unasked, be it with the reply bit."""
+        return command in self._pushes
 
     def exchange(self, frame: Frame) -> Hashable:
         """What a reply shares with its request and, as far as that goes, with no other frame."""
@@ -77,7 +82,8 @@ class Registry:
             message = cls.decode(value)
             if not isinstance(message, Opaque):
                 return message
-        return Result.decode(value) if reply and value and command[0] in self._sets else Opaque(command, value)
+        is_result = reply and value and command[0] in self._sets and command not in self._pushes
+        return Result.decode(value) if is_result else Opaque(command, value)
 
     def name(self, decoded: Decoded) -> str:
         """The name that JSON has: the message's own, or its command's where the message is of no particular one."""

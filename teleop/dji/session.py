@@ -36,11 +36,15 @@ class Counts:
 
 
 class Received(NamedTuple):
-    """A message that arrived in `frame`; `request` is what it answers, None unless it answers an open request."""
+    """A message that arrived in `frame`; `request` is what it answers, None unless it answers an open request.
+
+    `bare` says that the frame left out set and id, as old firmware does.
+    """
 
     message: Message
     frame: Frame
     request: Message | None = None
+    bare: bool = False
 
 
 class Lost(NamedTuple):
@@ -65,7 +69,7 @@ class Session:
         self._registry = registry
         self._sequence = first_sequence
         self.last_damage: Damage | None = None  # the bytes that were no frame, most recently
-        self._reader = FrameReader()
+        self._reader = FrameReader(in_pieces=True)
         self._open: dict[int, _Open] = {}
 
     def command(self, message: Message) -> bytes:
@@ -75,9 +79,11 @@ class Session:
     def request(self, message: Message, now: float, timeout: float = REPLY_TIMEOUT) -> tuple[bytes, int]:
         """The frame that sends `message`, and its sequence number; a reply is due `timeout` seconds after `now`.
 
-        Raises FieldError.
+        A message that has no reply opens no request, so none can be lost. Raises FieldError.
         """
         frame, sequence = self._send(message)
+        if not message.has_reply:
+            return frame, sequence
         if sequence in self._open:  # 65536 requests ago, and nobody asked for the overdue ones
             self.counts.lost_replies += 1
         self._open[sequence] = _Open(message, now, now + timeout)
@@ -96,7 +102,7 @@ class Session:
         for found in self._reader.feed(data, now):
             if isinstance(found, Frame):
                 received.append(self._understand(found))
-            else:
+            elif not found.is_padding:
                 self.counts.damage += 1
                 self.last_damage = found
         return received
@@ -130,7 +136,7 @@ class Session:
         if waiting and decoded.set_and_id == asked:
             del self._open[frame.sequence]
             self.counts.replies += 1
-            return Received(decoded.message, frame, waiting.request)
-        if frame.is_reply and decoded.message.reply is not None:  # some firmware marks its pushes as replies
+            return Received(decoded.message, frame, waiting.request, decoded.bare)
+        if frame.is_reply and not self._registry.is_push(decoded.set_and_id):  # some firmware marks pushes as replies
             self.counts.unmatched_replies += 1
         return Received(decoded.message, frame)

@@ -1,4 +1,4 @@
-"""Fields of no fixed size: lists of ids, and of id, length, bytes, as user parameters travel (V2.5 section 2.3.4.12).
+"""Fields of no fixed size: a byte that may be absent, lists of ids, and of id, length, bytes (V2.5 section 2.3.4.12).
 
 Firmware knows more ids than the document, and users have found some of them. So an id is a word where it is known and
 a number where it is not, its bytes are bytes, and what does not parse is handed back to be kept.
@@ -11,6 +11,8 @@ from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple
 
 from teleop.dji.wire import U8, members
+
+ABSENT = "absent"
 
 
 class Parameter(NamedTuple):
@@ -58,6 +60,36 @@ class Tail:
     @property
     def _ids(self) -> str:
         return ", ".join(member.name.lower() for member in self.words)
+
+
+@dataclass(frozen=True, slots=True)
+class OptionalByte(Tail):
+    """One of `words`, or None where a sender leaves the byte out, as some clients do with a question."""
+
+    room: ClassVar[str] = "8 bits"
+
+    def to_wire(self, value: int | None) -> bytes:
+        return b"" if value is None else bytes((value,))
+
+    def from_wire(self, data: bytes) -> tuple[int | None, bytes]:
+        """The number, None for no bytes, and what is left over."""
+        return (members(self.words).get(data[0], data[0]), data[1:]) if data else (None, b"")
+
+    def to_json(self, value: int | None) -> int | str | None:
+        return None if value is None else self._id_to_json(value)
+
+    def from_json(self, value: Any) -> int | None:
+        """A word or a number; None or `absent` for no byte. Raises ValueError."""
+        if value is None or value == ABSENT:
+            return None
+        number = self._id_from_json(value)
+        return members(self.words).get(number, number)
+
+    def accepts(self, value: Any) -> bool:
+        return value is None or value in members(self.words)
+
+    def requirement(self) -> str:
+        return f"one of {self._ids}, {ABSENT}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,9 +36,6 @@ PUSH_RATE = 10.0  # Hz; it varies with the firmware, from 1 Hz up (r-sdk-facts.m
 
 _MOTION = gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Mode
 _READ_GENEROUSLY = gimbal.Joystick, gimbal.Dial
-_DEFAULTS = {  # clients send these without data, and mean them
-    cls.set_and_id: cls for cls in (gimbal.Limits, gimbal.Stiffness)
-}
 _REPLY_TYPE = 0x1F  # bits of cmd_type; 0 is the only type that is not answered: section 2.2
 
 
@@ -176,8 +173,6 @@ class SimulatedGimbal:
             self._outgoing += pushed(self._session.command(push), push, self._firmware)
 
     def _obey(self, message: Message) -> Answer:
-        if isinstance(message, Opaque) and not message.value and message.prefix in _DEFAULTS:
-            message = _DEFAULTS[message.prefix]()
         handler = self._handlers.get(type(message))
         if handler is None:
             known = any(cls.set_and_id == message.data()[:2] for cls in self._handlers)

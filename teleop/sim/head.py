@@ -1,9 +1,10 @@
 """The three axes of a simulated gimbal: what its commands make of the motors, and what they report.
 
 On the wire an axis may have the opposite sign, and its speed another one than its angle, as firmware differs; the
-motors turn in the signs of teleop.motion, and limits, which are magnitudes on the wire, are the motors' own. Angles are rounded to 0.1 degree by
-the messages, never in here. The document leaves open what happens to a target beyond a stop (it ends at the stop), to
-an axis that turns for ever (it goes the short way round), and to a position command under speed control (it wins).
+motors turn in the signs of teleop.motion, and limits, which are magnitudes on the wire, are the motors' own. Angles are
+rounded to 0.1 degree by the messages, never in here. The document leaves open what happens to a target beyond a stop
+(it ends at the stop), to an axis that turns for ever (it goes the short way round), and to a position command under
+speed control (it wins).
 """
 
 from __future__ import annotations

@@ -13,7 +13,6 @@ from teleop.dji.frame import Damage
 from teleop.dji.message import Message, Opaque
 
 _KEPT = 256  # refusals that nobody has taken yet; the counts are of all
-_PIECE = 8  # bytes in a CAN frame
 
 
 class Why(Enum):
@@ -55,9 +54,7 @@ class Refusals:
         self._new.append(Refusal(time, command, why, detail))
 
     def add_damage(self, time: float, damage: Damage) -> None:
-        """Bytes that are no frame; nothing that only fills up the last CAN frame is counted."""
-        if len(damage.data) < _PIECE and len(set(damage.data)) == 1:
-            return
+        """Bytes that are no frame."""
         shown = damage.data[:24].hex() + ("..." if len(damage.data) > 24 else "")
         self.add(time, "bytes", Why.DAMAGED, f"{damage.reason}: {shown}")
 

@@ -79,6 +79,10 @@ class CommandSink:
         if is_taken_back(message):
             self._say(f"{words} refused: it would fight what is streamed")
             return
+        if not message.has_reply:
+            self._connection.stream(message)
+            self._say(f"{words}: sent; this command has no reply")
+            return
         if type(message) not in self._kinds:
             self._kinds.add(type(message))
             self._connection.on_answer(type(message), self._answered)

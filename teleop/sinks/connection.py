@@ -82,7 +82,8 @@ class Connection:
     def request(self, message: Message, now: float) -> int:
         """Send a message that has a reply; its sequence number. Raises as `stream` does."""
         frame, sequence = self.session.request(message, now)
-        self._sent[sequence] = now
+        if message.has_reply:
+            self._sent[sequence] = now
         self._link.send(frame)
         return sequence
 

@@ -103,7 +103,7 @@ def test_every_command_is_obeyed(name: str, capsys: pytest.CaptureFixture[str]) 
     with far_gimbal() as (far, link):
         assert run(["send", *name.split(), *FIELDS.get(name, "").split(), link]) == 0
         wait_until(lambda: far.counts[message] == 1)
-    assert re.match(f"{message}: (ok|sent once, it has no reply)\n", capsys.readouterr().out)
+    assert re.match(f"{message}: (ok|sent; this command has no reply)\n", capsys.readouterr().out)
 
 
 @pytest.mark.parametrize("name", sorted(PLAIN.keys() - {"focus calibrate manual"}))
@@ -129,7 +129,7 @@ def test_what_a_command_does(words: str) -> None:
         ("parameters ids=motor", "gimbal.parameters: ok\n  parameters  motor:00\n"),
         ("camera status", "camera.status: ok\n  state  idle\n"),
         ("recenter", "gimbal.mode: ok\n"),
-        ("gimbal dial speed=0x10", "gimbal.dial: sent once, it has no reply\n"),
+        ("gimbal dial speed=0x10", "gimbal.dial: sent; this command has no reply\n"),
     ],
 )
 def test_replies_are_printed_in_units(words: str, printed: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -223,3 +223,39 @@ def test_pieces_are_eight_bytes_and_the_last_one_what_is_left(frame: bytes) -> N
     assert b"".join(cut) == frame
     assert all(len(piece) == 8 for piece in cut[:-1])
     assert 1 <= len(cut[-1]) <= 8
+
+
+@given(st.lists(frames, min_size=1, max_size=4), st.sampled_from([0x00, 0xAA, 0xFF, 0x55]), st.booleans())
+def test_frames_whose_last_can_frame_is_filled_up_are_no_damage(sent: list[Frame], filler: int, empty: bool) -> None:
+    """Whatever it is filled with, the start byte included; and CAN frames without data may lie between."""
+    reader, found = FrameReader(in_pieces=True), []
+    for frame in sent:
+        for piece in pieces(frame.encode()):
+            found += reader.feed(piece.ljust(8, bytes((filler,))), 0.0)
+            found += reader.feed(b"", 0.0) if empty else []
+    found += reader.flush(math.inf)
+    assert [item for item in found if isinstance(item, Frame)] == sent
+    assert all(item.is_padding for item in found if isinstance(item, Damage))
+    assert wire(found) == b"".join(
+        piece.ljust(8, bytes((filler,))) for frame in sent for piece in pieces(frame.encode())
+    )
+
+
+@given(st.lists(frames, min_size=1, max_size=4))
+def test_frames_in_pieces_that_are_not_filled_up_have_no_padding(sent: list[Frame]) -> None:
+    reader = FrameReader(in_pieces=True)
+    found = [item for frame in sent for piece in pieces(frame.encode()) for item in reader.feed(piece, 0.0)]
+    together = FrameReader(in_pieces=True).feed(b"".join(frame.encode() for frame in sent), 0.0)
+    assert found == together == sent
+
+
+@pytest.mark.parametrize(
+    ("behind", "padding", "damage"),
+    [(1, b"", bytes(1)), (5, b"", bytes(5)), (6, bytes(6), b""), (8, bytes(6), bytes(2))],
+)
+def test_only_what_fills_the_last_piece_is_padding(behind: int, padding: bytes, damage: bytes) -> None:
+    """The sample ends with a piece of 2 bytes."""
+    _, *rest = FrameReader(in_pieces=True).feed(SAMPLE + bytes(behind), 0.0)
+    runs = [item for item in rest if isinstance(item, Damage)]
+    assert b"".join(run.data for run in runs if run.is_padding) == padding
+    assert b"".join(run.data for run in runs if not run.is_padding) == damage

@@ -106,7 +106,7 @@ def test_reserved_bits_that_peers_set_are_kept(reserved: int) -> None:
 
 
 def test_streams_ask_for_no_reply() -> None:
-    silent = {gimbal.Push, gimbal.VersionPush, gimbal.Joystick, gimbal.Dial, gimbal.Calibration}
+    silent = {gimbal.Push, gimbal.ShortPush, gimbal.VersionPush, gimbal.Joystick, gimbal.Dial, gimbal.Calibration}
     for cls in messages_of(gimbal):
         assert cls.cmd_type == (0x00 if cls in silent else 0x20 if cls.reply else 0x03), cls
 

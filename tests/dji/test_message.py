@@ -17,6 +17,7 @@ from teleop.dji.message import FieldError, Message, Opaque, Result, ReturnCode
 from teleop.dji.onboard import A3, M100
 from teleop.dji.r_sdk import R_SDK
 from teleop.dji.real import Text
+from teleop.dji.tlv import OptionalByte
 from teleop.dji.virtual_rc import Sticks, VirtualRc
 from teleop.dji.wire import Flag, Number, Reserved
 
@@ -30,7 +31,7 @@ POSITION = Position(1.5, -2.0, 3.1, time_for_action=0.4)
 def least(wire: Any) -> Any:
     """Something that may be sent."""
     if not isinstance(wire, Number):
-        return ()
+        return None if isinstance(wire, OptionalByte) else ()
     if isinstance(wire, Text):
         return ""
     return next(iter(wire.words)) if wire.words else wire.from_wire(0) if wire.low is None else wire.low
@@ -44,6 +45,8 @@ def allowed(cls: type[Message]) -> st.SearchStrategy[dict[str, Any]]:
             return st.booleans()
         if isinstance(wire, Reserved):
             return st.just(0)
+        if isinstance(wire, OptionalByte):
+            return st.sampled_from(list(wire.words))  # absent, with something behind it, is not absent
         if not isinstance(wire, Number):
             return st.just(())
         if isinstance(wire, Text):

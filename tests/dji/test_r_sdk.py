@@ -102,7 +102,7 @@ MEANINGS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("focus_calib_stop", ""): ("focus.calibrate", {"motor": 0, "action": "stop"}),
     ("focus_get", ""): ("focus.get", {"motor": 0}),
     ("camera_status", "1"): ("camera.status", {"query": "recording"}),
-    ("empty_payload", "0E/06 without data"): ("gimbal.stiffness", {"value": ""}),
+    ("empty_payload", "0E/06 without data"): ("gimbal.stiffness", {"operation": None}),
     ("seq_wrap", "three frames after Seq_Init_Data=0xFFFC (peer goes 0xFFFD -> 0x0003)"): (
         "gimbal.joystick",
         {"pitch": 0, "roll": 0, "yaw": 0},

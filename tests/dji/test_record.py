@@ -224,3 +224,20 @@ def test_anything_else_raises_nothing_but_our_errors(name: str, reply: bool, dat
     record = {"message": name, "reply": reply, "cmd_type": 0x20 if reply else 0x03, "sequence": 0, "fields": fields}
     with suppress(TeleopError):
         restore(R_SDK, record)
+
+
+def test_a_client_that_never_counts_up_is_understood() -> None:
+    """It asks for a reply to what has none, under the same number as its question; the reply is bare."""
+    transcriber = Transcriber(R_SDK)
+    for data in ("0e02 01", "0e0a 01 000000000000", "0e12 01 00 02 ff00"):
+        transcriber.record(Frame(bytes.fromhex(data), 0x03, 0x1122))
+    record = transcriber.record(Frame(bytes.fromhex("00 01 0a00 1400 1e00"), 0x20, 0x1122))
+    assert (record["message"], record["fields"]["yaw"], record["bare"]) == ("gimbal.angles", 1.0, True)
+
+
+@pytest.mark.parametrize("data", ["0e04", "0e06", "0e0b"])
+def test_questions_without_data_are_written_down_and_read_back(data: str) -> None:
+    frame = Frame(bytes.fromhex(data), 0x03, 7)
+    record = Transcriber(R_SDK).record(frame)
+    assert "value" not in record["fields"]
+    assert restore(R_SDK, record) == frame.encode()

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teleop.dji import gimbal
+from teleop.dji import focus, gimbal
 from teleop.dji.frame import Frame, FrameReader
 from teleop.dji.message import FieldError, Message, Opaque, Result, ReturnCode
 from teleop.dji.session import Lost, Received, Session
@@ -153,3 +153,38 @@ def test_receiving_never_raises(parts: list[bytes]) -> None:
     session.request(gimbal.Angles(), 0.0)
     for number, part in enumerate(parts):
         session.receive(part, number * 0.07)
+
+
+@pytest.mark.parametrize(
+    "message", [gimbal.Joystick(1, 2, 3), gimbal.Dial(5), gimbal.VersionPush("01.02.03.04"), focus.Set(100)]
+)
+def test_what_has_no_reply_can_lose_none(message: Message) -> None:
+    session = Session()
+    frame, sequence = session.request(message, 0.0)
+    assert frame_of(frame).sequence == sequence == 0
+    assert session.overdue(10.0) == []
+    assert session.counts.lost_replies == 0
+
+
+@pytest.mark.parametrize("value", ["", "01", "01 0a00 1400 1e00", "07" + "00" * 21, "07" + "00" * 40])
+def test_a_push_with_the_reply_bit_is_no_reply_whatever_its_length_and_number(value: str) -> None:
+    """Not even when its number is that of an open request."""
+    session = Session()
+    session.request(gimbal.Angles(), 0.0)
+    pushed = Frame(b"\x0e\x08" + bytes.fromhex(value), 0x20, 0).encode()
+    (received,) = session.receive(pushed, 0.0)
+    assert received.request is None
+    assert not isinstance(received.message, Result)
+    assert session.counts.unmatched_replies == 0
+    assert len(session.overdue(1.0)) == 1
+
+
+@pytest.mark.parametrize("kind", ["01", ""])
+def test_angles_of_old_firmware_say_that_they_are_bare(kind: str) -> None:
+    session = Session()
+    session.request(gimbal.Angles(), 0.0)
+    (received,) = session.receive(Frame(bytes.fromhex(f"00 {kind} 0a00 1400 1e00"), 0x20, 0).encode(), 0.0)
+    assert isinstance(received.message, gimbal.AnglesReply if kind else gimbal.LegacyAnglesReply)
+    assert (received.message.yaw, received.message.roll, received.message.pitch) == (1.0, 2.0, 3.0)
+    assert received.bare
+    assert received.request == gimbal.Angles()
