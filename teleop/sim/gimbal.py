@@ -20,7 +20,7 @@ from typing import Any
 
 from teleop.dji import focus, gimbal
 from teleop.dji.frame import Frame
-from teleop.dji.message import FieldError, Message, Opaque, Result, ReturnCode
+from teleop.dji.message import FieldError, Message, Result, ReturnCode
 from teleop.dji.session import Session
 from teleop.sim.accessories import Camera, FocusMotor
 from teleop.sim.firmware import DOCUMENTED, Firmware
