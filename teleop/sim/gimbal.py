@@ -130,6 +130,7 @@ class SimulatedGimbal:
         for received in self._session.receive(data, self._now):
             frame = received.frame
             if frame.is_reply:
+                self.refusals.add(now, command_name(received.message), Why.REPLY)
                 continue
             self.counts[received.message.name] += 1
             answer = self._obey(received.message)

@@ -27,6 +27,7 @@ class Why(Enum):
     NO_CONTROL = "no control"
     MODE = "wrong mode"
     STATE = "not now"
+    REPLY = "reply bit set"
 
 
 class Refusal(NamedTuple):
