@@ -30,6 +30,7 @@ from teleop.sim.beacon import Beacon
 from teleop.sim.cockpit import Cockpit
 from teleop.sim.controls import Pilot, Switch, TaskState
 from teleop.sim.drone_settings import DroneSettings
+from teleop.sim.handlers import without_reserved
 from teleop.sim.orders import controls, move, out_of_range
 from teleop.sim.payload import Payload
 from teleop.sim.refusals import Why, command_name
@@ -95,7 +96,7 @@ class DroneHandlers:
             return self._refused(message, Why.NOT_ACTIVATED, answer=NOT_ACTIVATED.get(type(message)))
         if not isinstance(message, _READ_GENEROUSLY):
             try:
-                message.check()
+                without_reserved(message).check()
             except FieldError as error:
                 failed = drone.TaskAck(TaskCode.FAILED) if isinstance(message, drone.Task) else None
                 return self._refused(message, Why.RANGE, str(error).partition(": ")[2], failed)

@@ -14,7 +14,6 @@ time that it takes to react.
 from __future__ import annotations
 
 from collections import Counter, deque
-from dataclasses import replace
 from operator import itemgetter
 from typing import Any
 
@@ -24,7 +23,7 @@ from teleop.dji.message import FieldError, Message, Result, ReturnCode
 from teleop.dji.session import Session
 from teleop.sim.accessories import Camera, FocusMotor
 from teleop.sim.firmware import DOCUMENTED, Firmware
-from teleop.sim.handlers import Answer, Handlers
+from teleop.sim.handlers import Answer, Handlers, without_reserved
 from teleop.sim.head import Angles, Head
 from teleop.sim.pushes import Beat, Due
 from teleop.sim.quirks import legacy_angles, pushed
@@ -180,7 +179,7 @@ class SimulatedGimbal:
             return self._refused(message, ReturnCode.PARSE_ERROR, Why.LENGTH if known else Why.UNKNOWN)
         if not isinstance(message, _READ_GENEROUSLY):
             try:
-                _without_reserved(message).check()
+                without_reserved(message).check()
             except FieldError as error:
                 return self._refused(message, ReturnCode.PARSE_ERROR, Why.RANGE, str(error).partition(": ")[2])
         if isinstance(message, _MOTION) and (self.settings.asleep or self._tuning.running(self._now)):
@@ -240,7 +239,3 @@ def _has_no_reply(message: Message) -> bool:
     if data[:2] == gimbal.Version.set_and_id:
         return isinstance(message, gimbal.VersionPush)
     return data[:2] == gimbal.Joystick.set_and_id or data[:3] == focus.Set.set_and_id + b"\x01"
-
-
-def _without_reserved(message: Message) -> Message:
-    return replace(message, reserved=0) if isinstance(message, gimbal.Position | gimbal.Speed) else message

@@ -160,7 +160,7 @@ def test_its_gimbal_shows_in_the_broadcast() -> None:
     assert gimbal_of(client) == (0.0, pytest.approx(-22.5, abs=1), pytest.approx(-45, abs=2), 0)
     client.wait(1.2)
     assert gimbal_of(client) == (0.0, pytest.approx(-45), pytest.approx(-90), 0)
-    client.tell(b"\x01\x1a" + struct.pack("<hhhB", 200, 0, 0, 0x80))  # 20 deg/s, for half a second
+    client.tell(b"\x01\x1a" + struct.pack("<hhhB", 200, 0, 0, 0x85))  # 20 deg/s, for half a second
     client.wait(2.0)
     assert gimbal_of(client)[2] == pytest.approx(-80, abs=0.1)
     client.tell(b"\x01\x1b" + struct.pack("<hhhBB", 0, 0, 3000, 0, 10))  # by 300 degrees: to the stop
