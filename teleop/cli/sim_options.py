@@ -105,6 +105,11 @@ class GimbalSim:
     focus_motor: Annotated[
         Literal["calibrated", "uncalibrated", "absent"], Parameter(group=GIMBAL, help="The focus motor.")
     ] = "calibrated"
+    ignore_zero_focus: Annotated[bool, flag(GIMBAL, "Let the focus motor ignore position 0.")] = False
+    roll_error: Annotated[
+        float, Parameter(group=GIMBAL, help="Degrees from level at which roll is left after speed control.")
+    ] = 0.0
+    pitch_max: Annotated[int, Parameter(group=GIMBAL, help="The upper limit of pitch to report; an RS 5: 155.")] = 145
     reaction: Annotated[float, Parameter(group=GIMBAL, help="Seconds from a command to the motion.")] = 0.0
     foreign_traffic: Annotated[
         bool, flag(GIMBAL, "Send on ids 0x530, 0x531 and 0x426 400 times a second, as gimbals do.")
@@ -116,6 +121,10 @@ class GimbalSim:
             raise UsageError(f"--push-rate must be above 0 and at most 100 Hz, not {self.push_rate:g}")
         if not 0 <= self.reaction < 60:
             raise UsageError(f"--reaction must be 0..60 s, not {self.reaction:g}")
+        if not -30 <= self.roll_error <= 30:
+            raise UsageError(f"--roll-error must be -30..30 deg, not {self.roll_error:g}")
+        if not 0 < self.pitch_max < 180:
+            raise UsageError(f"--pitch-max must be 1..179 deg, not {self.pitch_max}")
         firmware = Firmware(
             self._signs(),
             self.legacy_replies,
@@ -124,6 +133,9 @@ class GimbalSim:
             self.short_push,
             self.ignore_speed,
             self.focus_motor,
+            self.ignore_zero_focus,
+            self.roll_error,
+            self.pitch_max,
         )
         return SimulatedGimbal(push_rate=self.push_rate, reaction=self.reaction, firmware=firmware)
 

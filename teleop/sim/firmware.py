@@ -20,6 +20,9 @@ class Firmware:
     - `push_reply_bit`: pushes have CmdType 0x20. `short_push`: a push of 25 bytes (flags, yaw, roll, pitch).
     - `ignores_speed`: 0x01 is answered and does nothing, as some RS 3 Pro and RS 4 Pro firmware does.
     - `focus_motor`: one that is not calibrated ignores positions; without one, it is answered that that failed.
+      `ignores_zero_focus`: position 0 does nothing, as with some motors.
+    - `roll_error`: how far from level (deg) the roll is left when speed control is given back, until a position comes.
+    - `pitch_max`: the upper limit of pitch (deg) that it reports; an RS 5 reports 155, beyond the document's 145.
     """
 
     speed_signs: tuple[int, int, int] | None = None
@@ -29,6 +32,9 @@ class Firmware:
     short_push: bool = False
     ignores_speed: bool = False
     focus_motor: FocusMotorState = "calibrated"
+    ignores_zero_focus: bool = False
+    roll_error: float = 0.0
+    pitch_max: int = 145
 
 
 DOCUMENTED = Firmware()

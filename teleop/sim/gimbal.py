@@ -72,7 +72,7 @@ class SimulatedGimbal:
         self._head = Head(Angles(*boot), Angles(*signs), lag, Angles(*joystick_speed), continuous, firmware)
         self._camera = Camera()
         calibrated = focus_calibrated and firmware.focus_motor == "calibrated"
-        self._focus = FocusMotor(focus_speed, calibrated, firmware.focus_motor == "absent")
+        self._focus = FocusMotor(focus_speed, calibrated, firmware.focus_motor == "absent", firmware.ignores_zero_focus)
         self._tuning = Tuning()
         self.tells_angles = True
         self._push_rate = push_rate

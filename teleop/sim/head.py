@@ -20,6 +20,7 @@ from teleop.sim.motors import Motor
 
 SPEED_HOLDS = 0.5  # s after which a speed command no longer counts: V2.5, section 2.3.4.2
 STICK_FULL = 15_000  # full deflection on the wire: section 2.3.4.11
+SETTLES = 0.3  # s in which a roll that is left off level gets there
 CENTRING_LAG = 0.3  # s, so that recentring is all but done in 1.5 s
 
 
@@ -51,10 +52,11 @@ class Head:
         self._boot = boot
         self._signs = signs
         self._speed_signs = Angles(*firmware.speed_signs) if firmware.speed_signs else signs
-        self._ignores_speed = firmware.ignores_speed
+        self._firmware = firmware
         self._joystick_speed = joystick_speed
         self._motors = [Motor(angle, lag) for angle in boot]
-        self._restrict(MECHANICAL_UP, MECHANICAL_DOWN)
+        self._nameable_up = NAMEABLE_UP._replace(pitch=float(firmware.pitch_max))
+        self._restrict(MECHANICAL_UP._replace(pitch=firmware.pitch_max + 1.0), MECHANICAL_DOWN)
         if continuous:
             self._motors[0].minimum, self._motors[0].maximum = -math.inf, math.inf
         self.handlers: Handlers = {
@@ -79,7 +81,7 @@ class Head:
 
     def limits(self) -> dict[str, Any]:
         """The fields of LimitsReply and Push, no more than these can name."""
-        up = [min(motor.maximum, most) for motor, most in zip(self._motors, NAMEABLE_UP, strict=True)]
+        up = [min(motor.maximum, most) for motor, most in zip(self._motors, self._nameable_up, strict=True)]
         down = [min(-motor.minimum, most) for motor, most in zip(self._motors, NAMEABLE_DOWN, strict=True)]
         names = ("yaw", "roll", "pitch")
         most = {f"{name}_max": round(value) for name, value in zip(names, up, strict=True)}
@@ -118,11 +120,15 @@ class Head:
         return ReturnCode.OK
 
     def _speed(self, message: gimbal.Speed, now: float) -> Answer:
-        if self._ignores_speed:
+        if self._firmware.ignores_speed:
             return ReturnCode.OK
+        released = self.controlled and not message.take_over
         self.controlled = message.take_over
         speeds = (message.yaw, message.roll, message.pitch) if message.take_over else (0.0, 0.0, 0.0)
         self._cruise(Angles(*speeds), now)
+        if released and self._firmware.roll_error:
+            roll = self._motors[1]
+            roll.travel(now, roll.at(now)[0] + self._firmware.roll_error, SETTLES)
         return ReturnCode.OK
 
     def _joystick(self, message: gimbal.Joystick, now: float) -> Answer:

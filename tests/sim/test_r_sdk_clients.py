@@ -181,6 +181,32 @@ def test_a_focus_motor_may_be_missing_or_not_calibrated(state: Any, answer: str)
     assert client.refusals()[0] is Why.STATE
 
 
+def test_a_focus_motor_may_ignore_zero() -> None:
+    client = Client(firmware=Firmware(ignores_zero_focus=True), focus_speed=4095.0)
+    client.ask(b"\x0e\x12\x01\x00\x02\x00\x08")
+    client.now = 1.0
+    client.ask(b"\x0e\x12\x01\x00\x02\x00\x00")
+    client.now = 2.0
+    assert client.ask(b"\x0e\x12\x15\x00") == [bytes.fromhex("0e12 00 15 00 03 00080000")]
+
+
+def test_roll_may_be_left_off_level_after_speed_control_until_a_position() -> None:
+    client = Client(firmware=Firmware(roll_error=1.5))
+    client.ask(speed(0, control=0x00))
+    assert client.ask(ANGLES)[0][6:8] == b"\x00\x00", "nothing was taken over"
+    client.ask(speed(100))
+    client.ask(speed(0, control=0x00))
+    client.now = 1.0
+    assert client.ask(ANGLES)[0][6:8] == b"\x0f\x00"
+    client.ask(position(0))
+    client.now = 2.0
+    assert client.ask(ANGLES)[0][6:8] == b"\x00\x00"
+
+
+def test_limits_beyond_the_document_may_be_reported() -> None:
+    assert Client(firmware=Firmware(pitch_max=155)).ask(b"\x0e\x04\x01")[0][3] == 155
+
+
 @pytest.mark.parametrize("value", [0x01, 0x03])
 def test_both_values_start_the_automatic_tuning(value: int) -> None:
     assert Client().ask(b"\x0e\x0f\x00\x01" + bytes((value,))) == [b"\x0e\x0f\x00"]
