@@ -34,19 +34,6 @@ def said_at(scene: Sky, text: str) -> float:
     return time
 
 
-@pytest.fixture
-def times(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Has a scene keep when each thing was said."""
-    hear = Sky.hear
-
-    def heard(scene: Sky, text: str) -> None:
-        scene.__dict__.setdefault("times", []).append((scene.clock.now() - scene.begin, text))
-        hear(scene, text)
-
-    monkeypatch.setattr(Sky, "hear", heard)
-
-
-@pytest.mark.usefixtures("times")
 def test_nothing_is_streamed_until_a_take_off_has_ended(tmp_path: Path) -> None:
     with sky(tmp_path, FLIGHT) as scene:
         scene.engage_at(READY)
@@ -66,7 +53,6 @@ def test_nothing_is_streamed_until_a_take_off_has_ended(tmp_path: Path) -> None:
     assert end - ORDERED > 3
 
 
-@pytest.mark.usefixtures("times")
 @pytest.mark.parametrize(("word", "kind", "seconds"), [("land", TaskKind.LAND, 20), ("home", TaskKind.RETURN_HOME, 40)])
 def test_it_lands_by_itself_and_is_not_flown_until_it_stands(
     word: str, kind: TaskKind, seconds: float, tmp_path: Path
@@ -133,7 +119,6 @@ def test_a_take_off_is_not_ordered_while_the_motors_run(
     assert scene.of(drone.Task) == []
 
 
-@pytest.mark.usefixtures("times")
 def test_a_task_whose_answer_is_lost_is_seen_by_its_status(tmp_path: Path) -> None:
     with sky(tmp_path, FLIGHT) as scene:
         scene.engage_at(READY)

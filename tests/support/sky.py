@@ -85,6 +85,7 @@ class Sky:
         self.begin = clock.now()
         self.pad, self.keys = FakeInput("pad"), FakeInput("keys")
         self.said: list[str] = []
+        self.times: list[tuple[float, str]] = []  # the same, with s after the start
         self.held: list[tuple[float, Mapping[Axis, float]]] = []  # what hands that are there held, by time
         self.pilots: list[tuple[float, Pilot]] = []
         self.ended: Supervisor
@@ -138,6 +139,7 @@ class Sky:
     def hear(self, text: str) -> None:
         """What the drone has said to the operator."""
         self.said.append(text)
+        self.times.append((self.clock.now() - self.begin, text))
         self.operator.say(text)
 
     def _pass(self, now: float) -> None:
