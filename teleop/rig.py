@@ -50,7 +50,6 @@ from teleop.sinks.telemetry import Telemetry
 from teleop.sinks.virtual_rc import VirtualRcGrip
 from teleop.sinks.wiring import Wiring
 
-DRONE_KEEP_ALIVE = 0.05  # s: virtual RC wants its sticks 20 times a second, moving or not
 DRONE_FIRST_REPORT = 8.0  # s: an activation may be asked for three times, a second each
 
 
@@ -113,8 +112,8 @@ class Rig:
         )
         planner = Live(limits, PERIOD)
         keep_alive, first_report = KEEP_ALIVE, FIRST_REPORT
-        if self.drone(axes):
-            keep_alive, first_report = DRONE_KEEP_ALIVE, DRONE_FIRST_REPORT
+        if flown := self.drone(axes):
+            keep_alive, first_report = flown.period, DRONE_FIRST_REPORT
         all_sinks = [*sinks, guard, *watchers]
         return Loop(self.clock, planner, limits, sources, all_sinks, reporters, keep_alive, first_report)
 

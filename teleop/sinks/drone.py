@@ -62,6 +62,11 @@ class DroneSink:
         self._ends = math.inf  # s: since when the run ends
 
     @property
+    def period(self) -> float:
+        """s between two frames, moving or not."""
+        return self._grip.period
+
+    @property
     def engaged(self) -> bool:
         return self._engagement.stage in HELD
 
