@@ -43,6 +43,7 @@ from teleop.sinks.gimbal import Angles, PositionSink
 from teleop.sinks.gimbal_speed import SpeedSink
 from teleop.sinks.gimbal_stick import StickSink
 from teleop.sinks.grips import Grip
+from teleop.sinks.last_enable import LastEnable, default_file
 from teleop.sinks.movement import MovementGrip
 from teleop.sinks.preflight import Site
 from teleop.sinks.stall import StallGuard
@@ -180,7 +181,8 @@ def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis
 
 
 def _virtual_rc(section: VirtualRcSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
-    grip = VirtualRcGrip(connection, section.back_to_rc, section.go_home)
+    last = None if connection.simulated else LastEnable(default_file())
+    grip = VirtualRcGrip(connection, section.back_to_rc, section.go_home, last)
     return _drone(section, grip, connection)
 
 

@@ -47,7 +47,7 @@ class DroneSink:
         self._engagement = Engagement(
             grip.what,
             grip.period,
-            -math.inf,
+            grip.taken,
             lambda text: self.say(f"drone: {text}"),
             gap=grip.gap,
             repeats=grip.repeats,

@@ -28,6 +28,7 @@ class Grip(Protocol):
     say: Callable[[str], object]
     alone: str  # what becomes of the drone when nothing more reaches it
     gap: float  # s between two takings, at least
+    taken: float  # s: when an earlier run took it last, -inf if none is known to have
     repeats: bool  # whether giving back is sent again until it is confirmed
 
     @property

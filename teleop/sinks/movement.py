@@ -5,6 +5,7 @@ Control is the affair of `authority`, what the drone does by itself that of `tas
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 
 from teleop.dji import drone, movement
@@ -30,7 +31,8 @@ class MovementGrip:
     now. While a task runs nothing is streamed, which would break it off, until a stick is moved.
     """
 
-    what, period, alone, gap, repeats = "control", 0.02, MOVE_ALONE, 0.0, True
+    what, period, alone = "control", 0.02, MOVE_ALONE
+    gap, taken, repeats = 0.0, -math.inf, True
 
     def __init__(
         self,

@@ -15,6 +15,7 @@ from teleop.motion import STICKS
 from teleop.sinks.connection import Connection
 from teleop.sinks.engagement import CONFIRM, GAP
 from teleop.sinks.grips import ARMING, Deflections, not_in_standby
+from teleop.sinks.last_enable import LastEnable
 from teleop.sinks.telemetry import FRESH, Telemetry
 
 BACK_ALONE = "the drone goes back to its RC by itself, a second after the last sticks that it heard"
@@ -25,14 +26,21 @@ CORNERS: Deflections = dict(zip(STICKS, (-1.0, -1.0, -1.0, 1.0), strict=True))
 
 
 class VirtualRcGrip:
-    """The virtual RC: sticks, and the switches as an operator sets them. Neutral is P mode, gear down."""
+    """The virtual RC: sticks, and the switches as an operator sets them. Neutral is P mode, gear down.
+
+    `last` is where its enables are noted for the next run; a simulated drone, which ends with this one, needs none.
+    """
 
     what, period, gap, patience = "virtual RC", 0.05, GAP, CONFIRM
     repeats = False  # one disable for each enable; the drone leaves virtual RC by itself after 1 s without sticks
 
-    def __init__(self, connection: Connection, back_to_rc: bool, go_home: int | None) -> None:
+    def __init__(
+        self, connection: Connection, back_to_rc: bool, go_home: int | None, last: LastEnable | None = None
+    ) -> None:
         self._connection, self._back_to_rc, self._go_home = connection, back_to_rc, go_home
         self.say: Callable[[str], object] = lambda _text: None
+        self._last = last
+        self.taken = last.read(connection.opened) if last else -math.inf
         self._switches = NEUTRAL
         self._gesture_end = -math.inf
         self._changed = math.inf  # s: when it was last taken or given back
@@ -63,6 +71,8 @@ class VirtualRcGrip:
     def take(self, seen: Telemetry, now: float) -> None:  # noqa: ARG002 - whatever it says
         self._switches, self._gesture_end = NEUTRAL, -math.inf
         self._changed, self._mine, self._returned = now, True, False
+        if self._last and (trouble := self._last.write(now)):
+            self.say(trouble)
         self._connection.stream(VirtualRc(on=True, back_to_rc=self._back_to_rc))
 
     def drive(self, sticks: Deflections, seen: Telemetry, now: float) -> None:

@@ -45,7 +45,7 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
         assert send("version", url) == 0
         assert capsys.readouterr().out == (
             "drone.version: not_activated\n"
-            "  checksum  0x00000000\n  id        SIMULATED\n  version   M100 SIMULATED 03.01.10.00\n"
+            "  checksum  0xA6453AAC\n  id        041D492163\n  version   SDK-v1.0 BETA M100-03.01.01.00\n"
         )
         assert send("frequency control=hz_50", url) == 1
         assert capsys.readouterr().err == (
