@@ -47,9 +47,11 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
             "drone.version: not_activated\n"
             "  checksum  0xA6453AAC\n  id        041D492163\n  version   SDK-v1.0 BETA M100-03.01.01.00\n"
         )
-        assert send("frequency control=hz_50", url) == 1
+        assert send("frequency control=hz_50", url) == 0
+        capsys.readouterr()
+        assert send("release control", url) == 1
         assert capsys.readouterr().err == (
-            "teleop: drone.frequency was refused: not_activated: teleop send drone activate comes first\n"
+            "teleop: drone.control was refused: not_activated: teleop send drone activate comes first\n"
         )
         assert send("activate", url) == 0
         assert capsys.readouterr() == ("drone.activate: ok\n", "")
