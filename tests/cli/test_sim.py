@@ -13,7 +13,8 @@ from subprocess import Popen
 
 import pytest
 from command import running, teleop
-from onboard_client import ACTIVATE, OBTAIN
+from cryptography.hazmat.primitives.ciphers import Cipher, algorithms, modes
+from onboard_client import ACTIVATE, KEY, OBTAIN, encrypted
 from raw_frames import raw_frame
 from waiting import wait_until
 
@@ -130,6 +131,17 @@ def test_a_client_s_author_sees_why_it_is_not_obeyed(tmp_path: Path) -> None:
         assert json.loads(far.stdout.readline())["kinds"] == [
             {"command": "drone.move", "reason": "no control", "count": 1}
         ]
+
+
+def test_with_a_key_file_what_follows_the_activation_is_encrypted(tmp_path: Path) -> None:
+    (tmp_path / "key").write_text(KEY.hex())
+    with simulated_drone("--key-file", str(tmp_path / "key")) as (_, line):
+        os.write(line, raw_frame(ACTIVATE, 2, 1))
+        assert answers(line, 1) == [b"\x00\x00"]
+        os.write(line, encrypted(OBTAIN, 2, 2))
+        [answer] = answers(line, 1)
+        aes = Cipher(algorithms.AES256(KEY), modes.ECB()).decryptor()
+        assert aes.update(answer)[:2] == b"\x03\x00"
 
 
 @pytest.mark.parametrize(

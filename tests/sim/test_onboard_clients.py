@@ -7,7 +7,7 @@ import struct
 from pathlib import Path
 
 import pytest
-from onboard_client import ACTIVATE, OBTAIN, TAKE_OFF, Client
+from onboard_client import ACTIVATE, KEY, OBTAIN, TAKE_OFF, Client, encrypted
 from raw_frames import cut, raw_data, raw_frame
 
 from teleop.dji.encryption import Cipher
@@ -225,18 +225,6 @@ def test_damage_is_noted_with_its_checksum() -> None:
     drone.receive(b"", 0.2)
     [refusal] = drone.refusals.take()
     assert (refusal.why, refusal.detail.startswith("header CRC-16 is wrong: aa13")) == (Why.DAMAGED, True)
-
-
-KEY = bytes.fromhex("00112233445566778899aabbccddeeff0123456789abcdeffedcba9876543210")
-
-
-def encrypted(data: bytes, session: int, sequence: int, key: bytes = KEY) -> bytes:
-    from cryptography.hazmat.primitives.ciphers import Cipher as Library
-    from cryptography.hazmat.primitives.ciphers import algorithms, modes
-
-    padding = 16 - len(data) % 16
-    aes = Library(algorithms.AES256(key), modes.ECB()).encryptor()
-    return raw_frame(aes.update(data + b"\xee" * padding) + aes.finalize(), session, sequence, 1 << 5 | padding)
 
 
 def test_with_a_key_everything_after_activation_is_encrypted() -> None:

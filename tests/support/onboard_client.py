@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Iterator
 
+from cryptography.hazmat.primitives.ciphers import Cipher, algorithms, modes
 from raw_frames import cut, raw_data, raw_frame
 
 from teleop.sim.drone import SimulatedDrone
@@ -13,6 +14,16 @@ from teleop.sim.drone_settings import DroneSettings
 ACTIVATE = b"\x00\x01" + struct.pack("<III32s", 1030093, 2, 0x03010A00, b"9" * 32)
 OBTAIN, RELEASE = b"\x01\x00\x01", b"\x01\x00\x00"
 GO_HOME, TAKE_OFF, LAND = 1, 4, 6
+
+
+KEY = bytes.fromhex("00112233445566778899aabbccddeeff0123456789abcdeffedcba9876543210")  # of the maker's vectors
+
+
+def encrypted(data: bytes, session: int, sequence: int, key: bytes = KEY) -> bytes:
+    """A frame whose data are encrypted as osdk-facts.md "Link and frame" says, filled up with arbitrary bytes."""
+    padding = 16 - len(data) % 16
+    aes = Cipher(algorithms.AES256(key), modes.ECB()).encryptor()
+    return raw_frame(aes.update(data + b"\xee" * padding) + aes.finalize(), session, sequence, 1 << 5 | padding)
 
 
 class Client:
