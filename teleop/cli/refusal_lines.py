@@ -36,13 +36,13 @@ class RefusalLines:
 
     def summary(self, name: str, device: SimulatedGimbal | SimulatedDrone) -> None:
         """Write how many messages came and how many were refused for which reason."""
-        heard = sum(count for message, count in device.counts.items() if message != "refused")
+        messages = sum(count for message, count in device.counts.items() if message != "refused")
         refused = device.refusals.counts
         if self._as_json:
             kinds = [{"command": command, "reason": why.value, "count": n} for (command, why), n in refused.items()]
-            self._object(device=name, messages=heard, refused=refused.total(), kinds=kinds)
+            self._object(device=name, messages=messages, refused=refused.total(), kinds=kinds)
             return
-        self._write(f"{name}: {heard} messages, {refused.total() or 'none'} refused")
+        self._write(f"{name}: {messages} messages, {refused.total() or 'none'} refused")
         for (command, why), count in refused.most_common():
             self._write(f"  {command}: {why.value}, {count} x")
 

@@ -89,6 +89,10 @@ class GimbalSim:
             show_default=False,
         ),
     ] = ""
+    report_signs: Annotated[
+        str,
+        Parameter(group=GIMBAL, help="The same for the angles that it reports.", show_default=False),
+    ] = ""
     legacy_replies: Annotated[
         bool, flag(GIMBAL, "Reply without set and id, to 0x02 without the type byte too, as old firmware does.")
     ] = False
@@ -126,7 +130,8 @@ class GimbalSim:
         if not 0 < self.pitch_max < 180:
             raise UsageError(f"--pitch-max must be 1..179 deg, not {self.pitch_max}")
         firmware = Firmware(
-            self._signs(),
+            _signs("--speed-signs", self.speed_signs),
+            _signs("--report-signs", self.report_signs),
             self.legacy_replies,
             self.legacy_order,
             self.push_reply_bit,
@@ -139,14 +144,16 @@ class GimbalSim:
         )
         return SimulatedGimbal(push_rate=self.push_rate, reaction=self.reaction, firmware=firmware)
 
-    def _signs(self) -> tuple[int, int, int]:
-        signs = dict.fromkeys(_AXES, 1)
-        for part in filter(None, self.speed_signs.replace(" ", "").split(",")):
-            axis, _, sign = part.partition("=")
-            if axis not in signs or sign not in _SIGNS:
-                raise UsageError(f"--speed-signs {self.speed_signs}: write yaw, roll or pitch, as in yaw=-1,roll=1")
-            signs[axis] = _SIGNS[sign]
-        return signs["yaw"], signs["roll"], signs["pitch"]
+
+def _signs(option: str, text: str) -> tuple[int, int, int]:
+    """Of yaw, roll and pitch. Raises UsageError."""
+    signs = dict.fromkeys(_AXES, 1)
+    for part in filter(None, text.replace(" ", "").split(",")):
+        axis, _, sign = part.partition("=")
+        if axis not in signs or sign not in _SIGNS:
+            raise UsageError(f"{option} {text}: write yaw, roll or pitch with 1 or -1, as in yaw=-1,roll=1")
+        signs[axis] = _SIGNS[sign]
+    return signs["yaw"], signs["roll"], signs["pitch"]
 
 
 DRONE_DEFAULTS, GIMBAL_DEFAULTS = DroneSim(), GimbalSim()

@@ -30,11 +30,11 @@ class Automatic:
         return [(time, self._act) for time, _ in self._plan[:1]]
 
     def interrupt(self) -> None:
-        """Somebody flies: it does nothing by itself any more."""
+        """It is flown: it does nothing by itself any more."""
         self._begin(None)
 
     def touch_down(self) -> None:
-        """It has come to the ground, whoever flew it there."""
+        """It has come to the ground, by itself or not."""
         self._plan = [(self._flight.landed + FINISHING, self._stop_motors)]
 
     def take_off(self) -> bool:

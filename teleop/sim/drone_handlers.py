@@ -1,4 +1,4 @@
-"""What a simulated drone makes of each message: obeys it, or refuses it and says why.
+"""What a simulated drone makes of each message: obeys it, or refuses it with a reason.
 
 A command is a row in a table. It is read as generously as real ones read: bytes whose value is "arbitrary" may have
 any, reserved bits are not looked at, and of the virtual RC's channels only those count that mean something.
@@ -53,7 +53,7 @@ _RESULTS: Final = {
 
 
 class DroneHandlers:
-    """`refuse` hears the name of a command, why it is not obeyed, and more about it."""
+    """`refuse` is called with the name of a command, why it is not obeyed, and more about it."""
 
     def __init__(
         self, cockpit: Cockpit, beacon: Beacon, settings: DroneSettings, refuse: Callable[[str, Why, str], object]

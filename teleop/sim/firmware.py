@@ -14,7 +14,8 @@ class Firmware:
     """The defaults are those of V2.5.
 
     - `speed_signs`: of yaw, roll and pitch in speed commands (0x01, 0x0A) against teleop.motion, 1 or -1; None for the
-      signs of the angles. Some gimbals have other ones: one driver negates roll in 0x01 alone.
+      signs of the angles. Some gimbals have other ones: one driver negates roll in 0x01 alone. `report_signs` likewise
+      of the angles that it reports and pushes.
     - `legacy_replies`: replies without set and id, that of 0x02 without the type byte too, its angles in `legacy_order`
       (yaw, roll, pitch by two sources; yaw, pitch, roll by one).
     - `push_reply_bit`: pushes have CmdType 0x20. `short_push`: a push of 25 bytes (flags, yaw, roll, pitch).
@@ -26,6 +27,7 @@ class Firmware:
     """
 
     speed_signs: tuple[int, int, int] | None = None
+    report_signs: tuple[int, int, int] | None = None
     legacy_replies: bool = False
     legacy_order: Order = "yaw-roll-pitch"
     push_reply_bit: bool = False

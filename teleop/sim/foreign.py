@@ -6,7 +6,7 @@ from typing import Final
 
 IDS: Final = 0x530, 0x531, 0x426
 RATE: Final = 400.0  # frames/s, on all of them
-_MOST: Final = 40  # frames at once, however long nobody looked
+_MOST: Final = 40  # frames at once, after a pause of any length
 
 
 class ForeignTraffic:

@@ -52,6 +52,7 @@ class Head:
         self._boot = boot
         self._signs = signs
         self._speed_signs = Angles(*firmware.speed_signs) if firmware.speed_signs else signs
+        self._report_signs = Angles(*firmware.report_signs) if firmware.report_signs else signs
         self._firmware = firmware
         self._joystick_speed = joystick_speed
         self._motors = [Motor(angle, lag) for angle in boot]
@@ -77,7 +78,8 @@ class Head:
 
     def reported(self, time: float) -> Angles:
         """As on the wire: in the wire's signs, and within half a turn."""
-        return Angles(*(_half_turn(sign * angle) for sign, angle in zip(self._signs, self.angles(time), strict=True)))
+        signed = zip(self._report_signs, self.angles(time), strict=True)
+        return Angles(*(_half_turn(sign * angle) for sign, angle in signed))
 
     def limits(self) -> dict[str, Any]:
         """The fields of LimitsReply and Push, no more than these can name."""

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from teleop.dji.frame import Damage
 from teleop.dji.message import Message, Opaque
 
-_KEPT = 256  # refusals that nobody has taken yet; the counts are of all
+_KEPT = 256  # refusals that are not taken yet; the counts are of all
 
 
 class Why(Enum):

@@ -6,6 +6,10 @@ import struct
 
 import pytest
 from onboard_client import ACTIVATE, GO_HOME, LAND, OBTAIN, RELEASE, TAKE_OFF, Client
+from raw_frames import raw_data, raw_frame
+
+from teleop.sim.controls import Switch
+from teleop.sim.refusals import Why
 
 
 def test_control_is_obtained_and_released_at_the_second_time() -> None:
@@ -83,3 +87,19 @@ def test_movement_breaks_a_take_off() -> None:
     client.tell(b"\x01\x03" + struct.pack("<Bffff", 0x4B, 0, 0, 0, 0))
     client.wait(9.0)
     assert client.drone.cockpit.pose.height == 0.0
+
+
+def test_the_loss_of_control_is_pushed_and_its_acknowledgement_is_no_command() -> None:
+    """02 01 with the value 04; acknowledged by 00 00 in the same session with the same sequence (osdk-facts.md)."""
+    client = Client.in_control()
+    client.unasked.clear()
+    client.drone.turn_switch(client.now, Switch.P)
+    client.wait(0.001)
+    [push] = [frame for frame in client.unasked if raw_data(frame)[:2] == b"\x02\x01"]
+    assert raw_data(push) == b"\x02\x01\x04"
+    assert push[3] >= 2
+    client.drone.receive(raw_frame(b"\x00\x00", 0x20 | push[3], push[8] | push[9] << 8), client.now)
+    client.wait(1.0)
+    assert client.drone.refusals.total == 0
+    client.tell(b"\x01\x03" + struct.pack("<Bffff", 0x4B, 2.0, 0, 0, 0))
+    assert [refusal.why for refusal in client.drone.refusals.take()] == [Why.NO_CONTROL]

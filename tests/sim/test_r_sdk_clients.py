@@ -150,6 +150,15 @@ def test_the_sign_of_a_speed_may_differ_from_that_of_the_angle() -> None:
     assert client.gimbal.angles.yaw < 5, "so has the joystick"
 
 
+def test_the_sign_of_a_reported_angle_may_be_another_one() -> None:
+    client = Client(boot=(1.0, 2.0, 3.0), firmware=Firmware(report_signs=(-1, 1, 1)))
+    assert client.ask(ANGLES) == [bytes.fromhex("0e02 00 01 f6ff 1400 1e00")]
+    client.ask(position(100))
+    client.now = 1.0
+    client.listen()
+    assert client.gimbal.angles.yaw == 10.0
+
+
 @pytest.mark.parametrize(("bit", "short"), [(True, False), (False, True), (True, True)])
 def test_pushes_may_have_the_reply_bit_and_be_short(bit: bool, short: bool) -> None:
     client = Client(push_rate=1.0, boot=(1.0, 2.0, 3.0), firmware=Firmware(push_reply_bit=bit, short_push=short))
