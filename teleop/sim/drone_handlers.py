@@ -44,7 +44,7 @@ _ARBITRARY: Final = {  # their one byte may be any: OPENProtocol.md 3.1.9
 }
 _READ_GENEROUSLY: Final = drone.Frequency, VirtualRc, Sticks, drone.Activate
 _FIRST: Final = drone.Version, drone.Activate
-_LOCKS_WITHIN: Final = "enabled again within 2 s: its RC cannot end this"
+_LOCKS_IT: Final = "enabled again within 2 s: its RC cannot end this"
 _RESULTS: Final = {
     TaskState.RUNNING: TaskResultCode.IN_PROGRESS,
     TaskState.FAILED: TaskResultCode.FAILED,
@@ -211,7 +211,7 @@ class DroneHandlers:
         else:
             cockpit.disable_virtual(message.back_to_rc)
         if cockpit.locked:
-            return self._refused(message, Why.STATE, "it is locked" if locked else _LOCKS_WITHIN)
+            return self._refused(message, Why.STATE, "it is locked" if locked else _LOCKS_IT)
         if message.on and cockpit.rc.switch is not Switch.F:
             return self._refused(message, Why.MODE, "the RC's mode switch is not in F")
         return None
@@ -222,6 +222,8 @@ class DroneHandlers:
             return self._refused(message, Why.RANGE, detail)
         if not self._cockpit.virtual_on:
             return self._refused(message, Why.MODE, "virtual RC is off")
+        if self._cockpit.locked:
+            return self._refused(message, Why.STATE, "it is locked")
         self._cockpit.virtual_sticks(controls(message, self._cockpit.virtual))
         return None
 

@@ -215,6 +215,9 @@ def test_a_second_enable_within_two_seconds_is_noted() -> None:
     client.tell(ENABLE)
     [refusal] = client.drone.refusals.take()
     assert (refusal.why, "within 2 s" in refusal.detail) == (Why.STATE, True)
+    client.tell(sticks(1024, 1024, 1024, 1024))
+    [refusal] = client.drone.refusals.take()
+    assert (refusal.why, refusal.detail) == (Why.STATE, "it is locked")
 
 
 def test_damage_is_noted_with_its_checksum() -> None:
