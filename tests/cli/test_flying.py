@@ -190,6 +190,7 @@ def test_offsets_are_for_sequences(tmp_path: Path) -> None:
 
 def test_a_drone_on_a_real_line_wants_an_app_id(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
     with running("sim", "--drone") as far:
         assert far.stdout is not None
         line = far.stdout.readline()

@@ -178,6 +178,7 @@ def test_an_adapter_that_is_unplugged_and_back_flies_nothing(
 
 def flown(far: FarDrone, folder: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("TELEOP_DJI_APP_ID", "1")
+    monkeypatch.setenv("XDG_STATE_HOME", str(folder))  # where the last enable is noted for the next run
     (folder / "sticks.csv").write_text(STICKS)
     (folder / "rig.yaml").write_text(
         "name: Far\nlinks: {drone: 'sim:'}\naxes:\n"
