@@ -115,7 +115,7 @@ class DroneSink:
         if stage is Stage.IDLE or (stage is Stage.UNCONFIRMED and now - self._ends >= RELEASE_FOR):
             unreturned, self._engagement.unreturned = self._engagement.unreturned, ""
             if unreturned:
-                raise DeviceError(f"drone: {unreturned}")
+                raise DeviceError(f"drone: unconfirmed: {unreturned}")
             return None
         self._turn(now)
         return now + RELEASE_LOOK
