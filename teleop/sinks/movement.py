@@ -125,7 +125,7 @@ class MovementGrip:
         self._newest = self._connection.request(drone.Task(kind, number=self._number), now)
         self._number = self._number + 1 & 0xFF
         self._task.begin(kind, now)
-        return f"{word}: asked for; no sticks are sent until it ends or one is moved"
+        return f"{word}: asked for; no sticks until it ends or one is moved"
 
     def _here(self, seen: Telemetry, now: float) -> tuple[float, float]:
         """Heading (deg) and height (m) now, as far as they are known, else as they were when it was taken."""

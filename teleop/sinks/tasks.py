@@ -75,7 +75,7 @@ class TaskWatch:
             self._say(f"{self.word}: started")
         elif code is None:
             self._phase = Phase.UNANSWERED
-            self._say(f"{self.word}: no answer; it may have started, its status will show it")
+            self._say(f"{self.word}: no answer; its status will show whether it started")
         else:
             self._end(f"refused, {word_of(code)}")
 
@@ -115,7 +115,7 @@ class TaskWatch:
         if self.kind is None:
             return ""
         may = "goes on" if self._phase is Phase.RUNNING else "may go on"
-        return f"{self.word} {may} by itself: no order ends it, its pilot takes it over with the RC"
+        return f"{self.word} {may} by itself: take it over with the RC"
 
     def _watch_rise(self, seen: Telemetry, status: object, now: float) -> None:
         if status == FlightStatus.IN_AIR:
