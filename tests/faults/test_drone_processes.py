@@ -127,7 +127,7 @@ def test_a_process_that_is_stopped_leaves_the_drone_with_its_pilot(
         _, said = process.communicate(timeout=20)
     assert process.returncode == row.code, said
     assert row.said in said
-    wait_until(lambda: far.pilot is Pilot.RC, "its pilot has it", patience=3)
+    wait_until(lambda: far.pilots[-1][1] is Pilot.RC, "its pilot has it", patience=3)
     time_of_last, last = far.sticks()[-1]
     enables = [at for at, message in far.of(VirtualRc) if getattr(message, "on", False)]
     disables = [at for at, message in far.of(VirtualRc) if not getattr(message, "on", True)]
@@ -172,7 +172,7 @@ def test_an_adapter_that_is_unplugged_and_back_flies_nothing(
     assert process.returncode == 1
     assert "the adapter is gone: plug it in, then start again" in said
     assert "the drone goes back to its RC by itself, a second after the last sticks that it heard" in said
-    wait_until(lambda: far.pilot is Pilot.RC, "its pilot has it", patience=3)
+    wait_until(lambda: far.pilots[-1][1] is Pilot.RC, "its pilot has it", patience=3)
     assert len(far.heard) == count
 
 
