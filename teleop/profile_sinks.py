@@ -156,6 +156,8 @@ class FullSection(Section):
 class FlightSection(Section):
     """A drone flown by movement commands. `mode` is what its horizontal sticks are, `vertical` and `yaw` the others.
 
+    Modes 1 to 12 of the appendix can be had so; 13 and 14 are thrust, which has no neutral and so no stick.
+
     Angles, heights and offsets count from where the drone was when it was taken.
 
     `guidance` is whether Guidance is on board and set up, `indoors` whether it flies there.
@@ -188,7 +190,8 @@ SinkSection = GimbalSection | FocusSection | CameraSection | VirtualRcSection | 
 def _combination(mode: str, vertical: str, yaw: str) -> Combination:
     up = Vertical.VELOCITY if vertical == "velocity" else Vertical.POSITION
     made = Combination(FLIGHT_MODES[mode][0], up, Yaw.RATE if yaw == "rate" else Yaw.ANGLE)
-    assert made in COMBINATIONS
+    if made not in COMBINATIONS:
+        raise ValueError(f"the drone has no mode {made}")
     return made
 
 

@@ -44,13 +44,13 @@ from teleop.sinks.gimbal import Angles, PositionSink
 from teleop.sinks.gimbal_speed import SpeedSink
 from teleop.sinks.gimbal_stick import StickSink
 from teleop.sinks.grips import Grip
+from teleop.sinks.last_enable import LastEnable, default_file
 from teleop.sinks.movement import MovementGrip
 from teleop.sinks.preflight import Site
 from teleop.sinks.stall import StallGuard
 from teleop.sinks.telemetry import Telemetry
 from teleop.sinks.virtual_rc import VirtualRcGrip
 
-DRONE_KEEP_ALIVE = 0.05  # s: virtual RC wants its sticks 20 times a second, moving or not
 DRONE_FIRST_REPORT = 8.0  # s: an activation may be asked for three times, a second each
 
 
@@ -115,8 +115,8 @@ class Rig:
         )
         planner = Live(limits, PERIOD)
         keep_alive, first_report = KEEP_ALIVE, FIRST_REPORT
-        if self.drone(axes):
-            keep_alive, first_report = DRONE_KEEP_ALIVE, DRONE_FIRST_REPORT
+        if flown := self.drone(axes):
+            keep_alive, first_report = flown.period, DRONE_FIRST_REPORT
         directions = [device.direction for device in used if device.direction]
         all_sinks = [*sinks, *directions, guard, *watchers]
         return Loop(self.clock, planner, limits, sources, all_sinks, reporters, keep_alive, first_report)
@@ -186,7 +186,8 @@ def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis
 
 
 def _virtual_rc(section: VirtualRcSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
-    grip = VirtualRcGrip(connection, section.back_to_rc, section.go_home)
+    last = None if connection.simulated else LastEnable(default_file())
+    grip = VirtualRcGrip(connection, section.back_to_rc, section.go_home, last)
     return _drone(section, grip, connection)
 
 

@@ -16,6 +16,7 @@ STYLES = {
     Stage.ADRIFT.value: "bold black on yellow",
     Stage.LEAVING.value: "bold black on yellow",
     Stage.CHECKING.value: "bold yellow",
+    Stage.UNCONFIRMED.value: "bold white on red",
 }
 LOW = 30  # % of the battery, from which on it is shown as low
 UNKNOWN = "-"

@@ -15,15 +15,17 @@ from teleop.cli.options import Options
 from teleop.cli.sending import opened, tell
 from teleop.cli.told import in_units
 from teleop.clock import SystemClock
-from teleop.credentials import load_credentials
+from teleop.credentials import APP_KEY, load_credentials
 from teleop.dji import drone
 from teleop.dji.drone_catalogue import DRONE, hazard, never
 from teleop.dji.drone_words import ControlOrder
+from teleop.dji.encryption import Cipher
 from teleop.dji.frame import FrameReader
 from teleop.dji.message import STREAM, FieldError, Message
 from teleop.dji.onboard import M100
 from teleop.dji.onboard_session import ONCE, SENDS, OnboardSession
 from teleop.dji.record import Record, Transcriber, describe
+from teleop.dji.registry import Decoded
 from teleop.document import DocumentError
 from teleop.links import parse
 from teleop.ports import Clock, DeviceError, Link
@@ -38,6 +40,7 @@ DRONES: Final = ("virtual-rc", "flight")  # the types of a profile's sinks
 HINTS: Final[Mapping[str, str]] = {
     "not_activated": "teleop send drone activate comes first",
     "not_in_f_mode": "the pilot's mode switch must be on F",
+    "failed": "a task needs control (teleop send drone obtain control), a take-off also the motors off",
     "need_control": "teleop send drone obtain control comes first",
     "no_rights": "the app or the drone does not allow it, or control was not obtained",
     "new_device": "the app id was activated on another drone: confirm it in DJI's app",
@@ -57,9 +60,10 @@ def send_drone(words: Sequence[str], options: Options, understood: bool) -> int:
     message = asked_for(words, understood or simulated)
     if isinstance(message, drone.Activate) and not simulated:
         message = load_credentials().activation()
+    cipher = _cipher(profile)
     clock = SystemClock()
-    with opened(url, clock, lambda: _simulated(clock)) as link:
-        exchange = Exchange(link, url, clock)
+    with opened(url, clock, lambda: _simulated(clock, cipher)) as link:
+        exchange = Exchange(link, url, clock, cipher)
         if simulated:  # it lives no longer than this command
             exchange.ask(drone.Activate(0))
         record = exchange.stream(message) if message.cmd_type == STREAM else exchange.ask(message)
@@ -83,6 +87,16 @@ def asked_for(words: Sequence[str], understood: bool) -> Message:
     return message
 
 
+def _cipher(profile: Profile) -> Cipher | None:
+    """What encrypts, where the profile has it so. Raises DocumentError without a key."""
+    if not profile.encrypted:
+        return None
+    credentials = load_credentials()
+    if credentials.cipher is None:
+        raise DocumentError([f"encrypted: true needs the app's key: in {APP_KEY}, or key in {credentials.place}"])
+    return credentials.cipher
+
+
 def url_of(profile: Profile) -> str:
     """Where the rig has its drone. Raises DocumentError when it has none."""
     for sink in profile.sinks:
@@ -94,19 +108,21 @@ def url_of(profile: Profile) -> str:
 class Exchange:
     """Commands to one drone and what it acknowledges.
 
-    It numbers from anywhere: a command with the numbers of the last one would be taken for its repetition.
+    It numbers from anywhere: a command with the numbers of the last one would be taken for its repetition. With
+    `cipher` everything is encrypted but what comes before activation: version and activation themselves.
     """
 
-    def __init__(self, link: Link, url: str, clock: Clock) -> None:
-        self._link, self._url, self._clock = link, url, clock
+    def __init__(self, link: Link, url: str, clock: Clock, cipher: Cipher | None = None) -> None:
+        self._link, self._url, self._clock, self._cipher = link, url, clock, cipher
         self._session = OnboardSession(first_sequence=secrets.randbelow(0x10000))
 
     def stream(self, message: Message) -> Record:
         """Send a message that has no acknowledgement, once; its own record. Raises LinkError."""
+        cipher = self._session.cipher = self._cipher
         frame = self._session.command(message)
         self._link.send(frame)
         [sent] = FrameReader().feed(frame, 0.0)
-        return Transcriber(M100).record(sent)
+        return Transcriber(M100, None if cipher is None else lambda: cipher).record(sent)
 
     def ask(self, message: Message) -> Record:
         """The record of what the drone acknowledges, asked again while control changes hands.
@@ -122,13 +138,14 @@ class Exchange:
             self._clock.sleep_until(now + SENDS[drone.Control].timeout)
 
     def _acknowledged(self, message: Message) -> Record:
+        self._session.cipher = None if isinstance(message, drone.Version | drone.Activate) else self._cipher
         frame, _ = self._session.request(message, self._clock.now())
         self._link.send(frame)
         while True:
             now = self._clock.now()
             for received in self._session.receive(self._link.receive(), now):
                 if received.request is not None:
-                    return describe(M100, received.frame, M100.decode(received.frame, message.set_and_id))
+                    return describe(M100, received.frame, Decoded(received.message, message.set_and_id))
             for again in self._session.due(now):
                 self._link.send(again)
             if self._session.overdue(now):
@@ -140,8 +157,13 @@ class Exchange:
         often = f", sent {sends} times" if sends > 1 else ""
         return (
             f"{self._url}: no acknowledgement of {message.name} within {timeout * sends * 1000:.0f} ms{often}: "
-            "is it on, is the cable in, is Enable API control set in DJI Assistant 2?"
+            f"is it on, is the cable in, is Enable API control set in DJI Assistant 2?{self._doubt(message)}"
         )
+
+    @staticmethod
+    def _doubt(message: Message) -> str:
+        """What no answer does not exclude."""
+        return " It may have been done all the same." if hazard(message) else ""
 
 
 def refusal(message: Message, record: Record) -> str:
@@ -156,6 +178,10 @@ def refusal(message: Message, record: Record) -> str:
             done = code == "released"
         case drone.Arm():
             done = code in ("ok", "already")
+        case drone.Task():
+            done = code == "started"
+        case drone.TaskResult():
+            done = code in ("in_progress", "succeeded")
         case _:
             done = code == "ok"
     return "" if done else f"{code}: {HINTS[code]}" if code in HINTS else str(code)
@@ -168,11 +194,13 @@ def readable(name: str, record: Record) -> Iterator[str]:
         return
     fields = in_units(record)
     yield f"{name}: {fields.pop('code', 'acknowledged')}"
+    if "checksum" in fields:
+        fields["checksum"] = f"0x{int(fields['checksum']):08X}"
     width = max(map(len, fields), default=0)
     yield from (f"  {field:{width}}  {text}" for field, text in fields.items())
 
 
-def _simulated(clock: Clock) -> Device:
+def _simulated(clock: Clock, cipher: Cipher | None) -> Device:
     from teleop.sim.drone import SimulatedDrone
 
-    return SimulatedDrone(now=clock.now())
+    return SimulatedDrone(now=clock.now(), cipher=cipher)

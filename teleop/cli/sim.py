@@ -2,41 +2,38 @@
 
 from __future__ import annotations
 
+import json
 import sys
 import threading
-from collections.abc import Mapping
-from typing import Annotated
-
-from cyclopts import Parameter
+from collections.abc import Callable, Mapping
 
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.perform import signals_to
+from teleop.cli.refusal_lines import RefusalLines
+from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, DroneSim, GimbalSim
 from teleop.clock import SystemClock
 from teleop.document import DocumentError
 from teleop.links import ClosableLink, open_link, parse
+from teleop.links.can import CanLink
 from teleop.sim.drone import SimulatedDrone
+from teleop.sim.foreign import ForeignTraffic
 from teleop.sim.gimbal import SimulatedGimbal
 
 PERIOD = 0.002  # s between looks at the bus: a real gimbal answers within 5 ms
 STATUS = 1.0  # s between status lines
-
-
 BAUD = 230400  # of the Matrice 100: docs/protocol-facts.md; a pseudo-terminal does not mind
 
 SimulatedDevice = SimulatedGimbal | SimulatedDrone
 
 
-def sim(
-    *,
-    drone: Annotated[
-        bool, Parameter(help="Simulate a drone too, on a serial port that is made for it.", negative=())
-    ] = False,
-    options: Options = DEFAULTS,
-) -> int:
-    """Simulate the devices of a rig on real links, so that another process drives them: --link gimbal=URL."""
+def sim(*, drone: DroneSim = DRONE_DEFAULTS, gimbal: GimbalSim = GIMBAL_DEFAULTS, options: Options = DEFAULTS) -> int:
+    """Simulate the devices of a rig on real links, so that another process drives them: --link gimbal=URL.
+
+    What a device refuses is printed with the reason: each kind at once, then how often, and at the end all of it.
+    """
     profile = options.profile()
     urls = {name: url for name, url in profile.links.items() if parse(url).kind != "sim"}
-    if not urls and not drone:
+    if not urls and not drone.drone:
         raise DocumentError(
             ["teleop sim needs a bus to be on: --link gimbal=udp_multicast:239.74.163.2, or --drone for a drone"]
         )
@@ -44,23 +41,35 @@ def sim(
     stop = threading.Event()
     links: dict[str, ClosableLink] = {}
     devices: dict[str, SimulatedDevice] = {}
+    refusals = RefusalLines(_write, options.json)
     try:
         for name, url in urls.items():
+            devices[name] = drone.made(clock.now()) if name in profile.drones else gimbal.made()
             links[name] = open_link(url, host=False, now=clock.now)
-            devices[name] = SimulatedDrone(now=clock.now()) if name in profile.drones else SimulatedGimbal()
-            print(f"simulated {name} on {url}", flush=True)
-        if drone:
+            _ready(name, url, options.json)
+        if drone.drone:
             from teleop.links.pty import PtyLink
 
+            devices["drone"] = drone.made(clock.now())
             links["drone"] = line = PtyLink()
-            devices["drone"] = SimulatedDrone(now=clock.now())
-            print(f"simulated drone on serial:{line.path}@{BAUD}", flush=True)
+            _ready("drone", f"serial:{line.path}@{BAUD}", options.json)
         with signals_to(lambda _reason: stop.set()):
-            serve(links, devices, clock, stop)
+            serve(links, devices, clock, stop, refusals, gimbal.foreign_traffic)
     finally:
         for link in links.values():
             link.close()
+        for name, device in devices.items():
+            refusals.summary(name, device)
     return 130
+
+
+def _write(line: str) -> None:
+    print(line, flush=True)
+
+
+def _ready(name: str, url: str, as_json: bool) -> None:
+    line = f"simulated {name} on {url}"
+    _write(json.dumps({"ready": line, "device": name, "link": url}) if as_json else line)
 
 
 def serve(
@@ -68,21 +77,41 @@ def serve(
     devices: Mapping[str, SimulatedDevice],
     clock: SystemClock,
     stop: threading.Event,
+    refusals: RefusalLines | None = None,
+    foreign_traffic: bool = False,
 ) -> None:
     """Pass bytes between links and devices until told to stop; raises LinkError when a link is lost."""
     due = clock.now()
     said = -STATUS
+    strangers = _strangers(links, due) if foreign_traffic else []
     while not stop.is_set():
         now = clock.now()
         for name, link in links.items():
             devices[name].receive(link.receive(), now)
             if answer := devices[name].advance(now):
                 link.send(answer)
+            if refusals:
+                refusals.look(name, devices[name], now)
+        for send in strangers:
+            send(now)
         if sys.stderr.isatty() and now - said >= STATUS:
             said = now
             print(*(status(name, device) for name, device in devices.items()), sep="   ", file=sys.stderr)
         due = max(due + PERIOD, now)
         clock.sleep_until(due)
+
+
+def _strangers(links: Mapping[str, ClosableLink], now: float) -> list[Callable[[float], None]]:
+    """What sends a gimbal's own traffic on each CAN bus."""
+
+    def sender(link: CanLink, traffic: ForeignTraffic) -> Callable[[float], None]:
+        def send(time: float) -> None:
+            for can_id, data in traffic.due(time):
+                link.send_foreign(can_id, data)
+
+        return send
+
+    return [sender(link, ForeignTraffic(now)) for link in links.values() if isinstance(link, CanLink)]
 
 
 def status(name: str, device: SimulatedDevice) -> str:
@@ -91,8 +120,10 @@ def status(name: str, device: SimulatedDevice) -> str:
         cockpit, pose = device.cockpit, device.cockpit.pose
         state = "CRASHED" if cockpit.flight.crashed else "LOCKED" if cockpit.locked else cockpit.status.name.lower()
         where = f"{pose.north:+.1f} {pose.east:+.1f} m, {pose.height:.1f} m high"
-        return f"{name}: {state}, {where}, flown by {cockpit.pilot.value}, battery {cockpit.battery:.0f} %"
+        refused = f", {device.refusals.total} refused" if device.refusals.total else ""
+        return f"{name}: {state}, {where}, flown by {cockpit.pilot.value}, battery {cockpit.battery:.0f} %{refused}"
     yaw, roll, pitch = device.angles
     taken = ", speed control taken over" if device.controlled else ""
     recording = ", recording" if device.recording else ""
-    return f"{name}: yaw {yaw:+.1f} roll {roll:+.1f} pitch {pitch:+.1f} deg{taken}{recording}"
+    refused = f", {device.refusals.total} refused" if device.refusals.total else ""
+    return f"{name}: yaw {yaw:+.1f} roll {roll:+.1f} pitch {pitch:+.1f} deg{taken}{recording}{refused}"

@@ -21,7 +21,9 @@ from teleop.dji.drone_words import (
     Event,
     Rate,
     ShortArmCode,
+    TaskCode,
     TaskKind,
+    TaskResultCode,
 )
 from teleop.dji.message import STREAM, Message, message
 from teleop.dji.real import Text
@@ -53,11 +55,24 @@ class Version(Message):
 
 @message("drone.version", ACTIVATION, 0x00, reply=True)
 class VersionAck(Message):
-    """The drone's version; the code also says whether it is activated."""
+    """The drone's version; the code also says whether it is activated.
+
+    A Matrice 100 answers 0xFF01, 0xA6453AAC, `041D492163`, `SDK-v1.0 BETA M100-03.01.01.00`: code, CRC, serial number,
+    name (docs/protocol-facts.md).
+    """
 
     code: code
     checksum: Annotated[int, U32()]
     id: Annotated[str, Text("11s")]
+    version: Annotated[str, Text("32s")]
+
+
+@message("drone.short_version", ACTIVATION, 0x00, reply=True)
+class ShortVersionAck(Message):
+    """VersionAck without the serial number, as OPENProtocol.md 3.1.9 has it."""
+
+    code: code
+    checksum: Annotated[int, U32()]
     version: Annotated[str, Text("32s")]
 
 
@@ -149,9 +164,23 @@ class Task(Message):
 
 @message("drone.task", CONTROL, 0x01, reply=True)
 class TaskAck(Message):
-    """What became of the task. Only the common codes are known."""
+    """Whether the task has started; how it ends is in the broadcast's status."""
 
-    code: code
+    code: Annotated[int, U16(words=TaskCode)]
+
+
+@message("drone.task_result", CONTROL, 0x02, cmd_type=ACKNOWLEDGED)
+class TaskResult(Message):
+    """Ask how the task of this `number` went: "Request Switch Result" in OPENProtocol.md 3.1.9."""
+
+    number: Annotated[int, U8()] = 0
+
+
+@message("drone.task_result", CONTROL, 0x02, reply=True)
+class TaskResultAck(Message):
+    """How the task went."""
+
+    code: Annotated[int, U16(words=TaskResultCode)]
 
 
 @message("drone.arm", CONTROL, 0x05, cmd_type=ACKNOWLEDGED)

@@ -48,6 +48,28 @@ class ControlCode(IntEnum):
     NO_RIGHTS = 0xFF02
 
 
+class TaskCode(IntEnum):
+    """The answer to a task (01 01): STARTED is the only success (OPENProtocol.md 3.1.9; dji_error.cpp of v3.3.1)."""
+
+    FAILED = 1
+    STARTED = 2
+    KEY_ERROR = 0xFF00
+    NOT_ACTIVATED = 0xFF01
+    NO_RIGHTS = 0xFF02
+
+
+class TaskResultCode(IntEnum):
+    """How a task went (01 02): OPENProtocol.md 3.1.9, "Request Switch Result"."""
+
+    WRONG_NUMBER = 1
+    IN_PROGRESS = 3
+    FAILED = 4
+    SUCCEEDED = 5
+    KEY_ERROR = 0xFF00
+    NOT_ACTIVATED = 0xFF01
+    NO_RIGHTS = 0xFF02
+
+
 class ArmCode(IntEnum):
     """What became of arming or disarming (01 05)."""
 

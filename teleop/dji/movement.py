@@ -3,6 +3,16 @@
 The byte combines a horizontal, a vertical and a yaw control; the appendix lists fourteen of the eighteen combinations
 ("Combinations"), since thrust goes only with tilt angles. Only those are sent, and only within the ranges listed; what
 arrives is decoded whatever it says. Vertical is positive up in every mode, although the ground frame's z is down.
+
+What x and y are depends on the horizontal control: OPENProtocol.md 3.1.9, 01 03, calls offset 1 "Roll or X-axis" and
+offset 5 "Pitch or Y-axis", and the maker's attitudeControl(roll, pitch) and OSDK-ROS fly it so:
+
+| horizontal control | x | y |
+|---|---|---|
+| TILT | roll: right is positive, east in the ground frame | pitch: nose UP is positive, so BACKWARD; south |
+| VELOCITY, POSITION | forward, or north | right, or east |
+
+Forward by 10 degrees is x = 0, y = -10. (A Chinese comment in the appendix says otherwise; nothing that flies does.)
 """
 
 from __future__ import annotations
@@ -40,7 +50,7 @@ class Yaw(IntEnum):
 
 
 class Frame(IntEnum):
-    """Bits 2 and 1, of the horizontal control: x is north or forward, y is east or to the right."""
+    """Bits 2 and 1, of the horizontal control: north and east, or forward and right of the nose."""
 
     GROUND = 0
     BODY = 1
@@ -88,7 +98,11 @@ COMBINATIONS: Final = tuple(
 
 @message("drone.move", CONTROL, 0x03, cmd_type=STREAM)
 class Move(Message):
-    """Move so, in the combination's units; 50 times a second, in F mode, with control obtained."""
+    """Move so, in the combination's units; 50 times a second, in F mode, with control obtained.
+
+    x and y are velocities or offsets, forward (north) and right (east); with `horizontal` tilt they are roll (right)
+    and pitch (nose up, so backward), in deg.
+    """
 
     stable: Annotated[bool, Flag(first=0)]
     frame: Annotated[int, Bits(first=1, width=2, words=Frame)]

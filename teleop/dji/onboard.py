@@ -50,7 +50,8 @@ class OnboardRegistry(Registry):
 
 def _registry(*of_this_model: type[Message]) -> OnboardRegistry:
     common = [cls for module in _MODULES for cls in messages_of(module) if cls not in _OF_ONE_MODEL]
-    return OnboardRegistry(SETS, (*common, *of_this_model), names={drone.Arm.set_and_id: drone.Arm.name})
+    names = {cls.set_and_id: cls.name for cls in (drone.Arm, drone.Version)}
+    return OnboardRegistry(SETS, (*common, *of_this_model), names=names)
 
 
 M100: Final = _registry(drone.Frequency, Broadcast)

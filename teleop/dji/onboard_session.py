@@ -16,7 +16,7 @@ from typing import Final, NamedTuple
 
 from teleop.dji import drone
 from teleop.dji.encryption import Cipher
-from teleop.dji.frame import REPLY, Frame, FrameReader, encode
+from teleop.dji.frame import REPLY, Damage, Frame, FrameReader, encode
 from teleop.dji.message import Message, Opaque
 from teleop.dji.onboard import M100, SESSION, OnboardRegistry
 from teleop.dji.session import Counts, Lost, Received
@@ -95,6 +95,7 @@ class OnboardSession:
         self.cipher = cipher
         self._registry = registry
         self._sequence = first_sequence
+        self.last_damage: Damage | None = None  # the bytes that were no frame, most recently
         self._reader = FrameReader()
         self._open: dict[int, _Exchange] = {}  # by session
         self._past: dict[tuple[int, int], _Exchange] = {}  # by session and sequence: the last REMEMBERED
@@ -144,6 +145,7 @@ class OnboardSession:
                 received.append(self._understand(found))
             else:
                 self.counts.damage += 1
+                self.last_damage = found
         return received
 
     def due(self, now: float) -> list[bytes]:

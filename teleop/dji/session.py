@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
-from teleop.dji.frame import Frame, FrameReader, encode
+from teleop.dji.frame import Damage, Frame, FrameReader, encode
 from teleop.dji.message import REPLY, Message, Opaque
 from teleop.dji.r_sdk import R_SDK
 from teleop.dji.registry import Registry
@@ -68,6 +68,7 @@ class Session:
         self.counts = Counts()
         self._registry = registry
         self._sequence = first_sequence
+        self.last_damage: Damage | None = None  # the bytes that were no frame, most recently
         self._reader = FrameReader(in_pieces=True)
         self._open: dict[int, _Open] = {}
 
@@ -103,6 +104,7 @@ class Session:
                 received.append(self._understand(found))
             elif not found.is_padding:
                 self.counts.damage += 1
+                self.last_damage = found
         return received
 
     def overdue(self, now: float) -> list[Lost]:

@@ -57,7 +57,10 @@ class Acceleration(Message):
 
 @message("velocity", 0, 0)
 class Velocity(Message):
-    """Linear velocity in the ground frame (north, east, down)."""
+    """Linear velocity in the ground frame: north, east and UP are positive.
+
+    The ground frame's z is down everywhere else; the maker's take-off sample waits for z > 0.25 (docs/protocol-facts.md: takeoffConverged of 3.1.9, OSDK-ROS issue 25).
+    """
 
     x: metres_per_second
     y: metres_per_second

@@ -72,6 +72,11 @@ class CanLink(BufferedLink):
         self._adapter = _open(address, self.counts, now)
         self._failures = self._adapter.failures
 
+    def send_foreign(self, can_id: int, data: bytes) -> None:
+        """Sends one CAN frame of another id; a full queue drops it. Raises LinkError when the link is lost."""
+        with self._latching():
+            self._adapter.put(can_id, data)
+
     def _put(self, piece: bytes) -> int:
         return len(piece) if self._adapter.put(self._transmit_id, piece) else 0
 

@@ -13,9 +13,13 @@ FOCUS_RANGE = 4095  # counts from end to end: V2.5, section 2.3.4.19
 
 
 class FocusMotor:
-    """A motor on the lens with `speed` counts/s, which obeys only while it knows the ends of the lens."""
+    """A motor on the lens with `speed` counts/s, which obeys only while it knows the ends of the lens.
 
-    def __init__(self, speed: float, calibrated: bool) -> None:
+    Without a motor (`absent`) every command fails; one that `ignores_zero` does nothing for position 0.
+    """
+
+    def __init__(self, speed: float, calibrated: bool, absent: bool = False, ignores_zero: bool = False) -> None:
+        self._ignores_zero = ignores_zero
         self._speed = speed
         self._motor = Motor(0.0, lag=1.0, minimum=0.0, maximum=FOCUS_RANGE)
         self._calibrated_from = -math.inf if calibrated else math.inf  # s
@@ -26,6 +30,8 @@ class FocusMotor:
             focus.Calibrate: self._calibrate,
             focus.Get: self._get,
         }
+        if absent:
+            self.handlers = dict.fromkeys(self.handlers, timeless(lambda _message: ReturnCode.FAILED))
 
     def position(self, time: float) -> float:
         """Counts, exact."""
@@ -37,7 +43,7 @@ class FocusMotor:
         return focus.EndpointState.CALIBRATING if self._calibrating else focus.EndpointState.UNCALIBRATED
 
     def _set(self, message: focus.Set, now: float) -> Answer:
-        if self.state(now) != focus.EndpointState.CALIBRATED:
+        if self.state(now) != focus.EndpointState.CALIBRATED or (self._ignores_zero and not message.position):
             return ReturnCode.FAILED
         distance = abs(self._motor.clamp(message.position) - self.position(now))
         if distance:

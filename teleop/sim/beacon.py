@@ -1,6 +1,6 @@
 """What a simulated drone says of itself, unasked: parts of the broadcast at the rates they were set to.
 
-Rates divide 100 Hz, so every part falls on a beat of one clock of 10 ms that began with the activation, and the parts
+Rates divide 100 Hz, so every part falls on a beat of one clock of 10 ms that began with the broadcast, and the parts
 of a beat share a frame. Values are the flight model's at the time of the beat, not of the look.
 """
 
@@ -16,7 +16,6 @@ from teleop.dji.telemetry import (
     Acceleration,
     AngularRate,
     ControlSource,
-    Gimbal,
     Magnetometer,
     Position,
     Quaternion,
@@ -27,6 +26,7 @@ from teleop.dji.telemetry import (
 from teleop.sim.cockpit import Cockpit
 from teleop.sim.controls import Controls, Pilot, Switch
 from teleop.sim.flight import Pose
+from teleop.sim.payload import Payload
 from teleop.sim.pushes import Beat
 
 BEAT = 0.01  # s
@@ -87,19 +87,22 @@ class Beacon:
             if rate in EVERY and beat % EVERY[rate] == 0 and part not in self.hidden
         ]
 
-    def say(self, cockpit: Cockpit, parts: Collection[str]) -> Broadcast:
-        """These parts of the broadcast as they are now."""
+    def say(self, cockpit: Cockpit, payload: Payload, parts: Collection[str]) -> Broadcast:
+        """These parts of the broadcast as they are now.
+
+        Vertical velocity is up: the 3.1.9 sample takeoffConverged waits for v.z > 0.25 (docs/protocol-facts.md).
+        """
         pose = cockpit.pose
         whole = {
             "time": lambda: Time(round(cockpit.time * 400) & 0xFFFFFFFF, round(cockpit.time % 1 * 1e9), 0),
             "quaternion": lambda: quaternion(pose.roll, pose.pitch, pose.yaw),
             "acceleration": lambda: Acceleration(0.0, 0.0, 0.0),
-            "velocity": lambda: Velocity(pose.velocity_north, pose.velocity_east, -pose.climb),
+            "velocity": lambda: Velocity(pose.velocity_north, pose.velocity_east, pose.climb),
             "angular_rate": lambda: AngularRate(0.0, 0.0, pose.yaw_rate),
             "position": lambda: self._position(pose),
             "magnetometer": lambda: Magnetometer(0, 0, 0),
             "rc": lambda: _rc(cockpit.virtual if self._mirrors and cockpit.virtual_on else cockpit.rc),
-            "gimbal": lambda: Gimbal(0.0, 0.0, math.degrees(pose.yaw)),
+            "gimbal": lambda: payload.reported(cockpit.time, pose.yaw),
             "status": lambda: FlightStatus(cockpit.status.value),
             "battery": lambda: round(cockpit.battery),
             "control": lambda: self._control(cockpit),

@@ -13,25 +13,24 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from teleop.sim.controls import Controls, Pilot, Status, Switch
+from teleop.sim.automatic import FINISHING, Automatic, Due
+from teleop.sim.controls import Controls, Pilot, Status, Switch, TaskState
+from teleop.sim.drone_settings import M100, DroneSettings
 from teleop.sim.flight import Flight, Pose
 
-VIRTUAL_HOLD = 1.0  # s without sticks after which virtual RC ends: Virtual RC page
 LOCKS_WITHIN = 2.0  # s between two enables
-MOVE_HOLD = 0.5  # s for which a movement command is obeyed; the real time is not known
 GESTURE = 1.0  # s that the sticks are to be in the corners
-SPIN_UP = 1.0  # s from starting motors to lifting off by itself
 SPEED, CLIMB, TILT, YAW = 10.0, 4.0, math.radians(30), math.radians(100)  # of a full stick
-TAKE_OFF_HEIGHT, LANDING, HOME_SPEED = 1.2, -1.0, 5.0  # m, m/s, m/s
-FINISHING = 2.0  # s from touching down to standby: Appendix.md, Flight status
 FULL, IDLE = 100 / (18 * 60), 100 / (80 * 60)  # % of the battery a second, in the air and with idle motors
 
 
 class Cockpit:
     """A drone on the ground at `now`, its RC's mode switch in F as it is for flying from a computer."""
 
-    def __init__(self, now: float, yaw: float = 0.0, battery: float = 100.0) -> None:
+    def __init__(self, now: float, yaw: float = 0.0, battery: float = 100.0, settings: DroneSettings = M100) -> None:
         self.flight = Flight(now, yaw)
+        self._automatic = Automatic(self.flight)
+        self._settings = settings
         self.rc = Controls(switch=Switch.F)
         self.virtual = Controls()
         self.pilot = Pilot.RC
@@ -42,8 +41,11 @@ class Cockpit:
         self._in_corners = math.inf  # since when the sticks of whoever flies are
         self._gesture_made = False  # and have not left them since
         self._battery = battery
-        self._plan: list[tuple[float, Callable[[], object]]] = []  # what it does by itself, and when
-        self._auto: Status | None = None
+
+    @property
+    def task(self) -> TaskState:
+        """Of what it does by itself, or did last."""
+        return self._automatic.state
 
     @property
     def time(self) -> float:
@@ -61,10 +63,10 @@ class Cockpit:
     @property
     def status(self) -> Status:
         if self.flight.airborne:
-            return Status.LANDING if self._auto is Status.LANDING else Status.IN_AIR
+            return Status.LANDING if self._automatic.doing is Status.LANDING else Status.IN_AIR
         if self.time < self.flight.landed + FINISHING:
             return Status.FINISH_LANDING
-        return Status.TAKE_OFF if self._auto is Status.TAKE_OFF else Status.STANDBY
+        return Status.TAKE_OFF if self._automatic.doing is Status.TAKE_OFF else Status.STANDBY
 
     def pass_to(self, now: float) -> None:
         """Let time pass until `now` (s), and do what falls due meanwhile, each at its own time."""
@@ -76,16 +78,16 @@ class Cockpit:
             spent = FULL if airborne else IDLE if self.flight.motors else 0.0
             self._battery = max(0.0, self._battery - spent * (until - before))
             if airborne and not self.flight.airborne:
-                self._plan = [(self.flight.landed + FINISHING, self._finish_landing)]
+                self._automatic.touch_down()
             if act and due <= until:
                 act()
 
-    def _due(self) -> list[tuple[float, Callable[[], object]]]:
-        due: list[tuple[float, Callable[[], object]]] = [(time, self._go_on) for time, _ in self._plan[:1]]
+    def _due(self) -> list[Due]:
+        due = self._automatic.due()
         if self.virtual_on and not self.locked:
-            due.append((self._stick_heard + VIRTUAL_HOLD, self._virtual_timeout))
+            due.append((self._stick_heard + self._settings.virtual_rc_timeout, self._virtual_timeout))
         if self.pilot is Pilot.ONBOARD and self._move_heard > -math.inf:
-            due.append((self._move_heard + MOVE_HOLD, self._move_timeout))
+            due.append((self._move_heard + self._settings.movement_timeout, self._move_timeout))
         if self._in_corners < math.inf:
             due.append((self._in_corners + GESTURE, self._gesture))
         return due
@@ -119,9 +121,14 @@ class Cockpit:
         if self.pilot is Pilot.RC:
             self._obey(controls)
 
+    @property
+    def may_obtain(self) -> bool:
+        """Whether its RC lets the onboard computer have control."""
+        return self.rc.switch is Switch.F and not self.locked
+
     def obtain(self) -> bool:
         """Give the onboard computer control; whether its RC allows it."""
-        if self.rc.switch is not Switch.F or self.locked:
+        if not self.may_obtain:
             return False
         self.obtained = True
         if self.pilot is Pilot.RC:
@@ -143,60 +150,33 @@ class Cockpit:
         """A movement command of the onboard computer."""
         if self.pilot is Pilot.ONBOARD:
             self._move_heard = self.time
-            self._by_itself(None)
+            self._automatic.interrupt()
             move(self.flight)
 
-    def take_off(self) -> None:
-        if not self.flight.airborne:
-            self.flight.start_motors()
-            self._by_itself(Status.TAKE_OFF)
-            self._plan = [(self.time + SPIN_UP, lambda: self.flight.rise_to(TAKE_OFF_HEIGHT))]
+    def take_off(self) -> bool:
+        """Whether it does; see Automatic for each of the three."""
+        return self._does(self._automatic.take_off)
 
-    def land(self) -> None:
-        if self.flight.airborne:
-            self._by_itself(Status.LANDING)
-            self._hover()
-            self.flight.climb(LANDING)
+    def land(self) -> bool:
+        return self._does(self._automatic.land)
 
-    def go_home(self) -> None:
-        """In a straight line to where it took off, and down."""
-        if not self.flight.airborne:
-            return
-        self._by_itself(Status.IN_AIR)
-        self._hover()
-        way = -complex(self.pose.north, self.pose.east)
-        seconds = abs(way) / HOME_SPEED
-        if seconds:
-            self.flight.fly(way / seconds, to_north=True)
-        arrive, land = self.time + seconds, self.time + seconds + 5.0
-        self._plan = [(arrive, self._seek_home), (land, self.land)]
+    def go_home(self) -> bool:
+        return self._does(self._automatic.go_home)
 
-    def _seek_home(self) -> None:
-        self.flight.seek(-complex(self.pose.north, self.pose.east), to_north=True)
-
-    def _by_itself(self, doing: Status | None) -> None:
-        self._auto, self._plan = doing, []
-
-    def _go_on(self) -> None:
-        _, act = self._plan.pop(0)
-        act()
-
-    def _finish_landing(self) -> None:
-        self.flight.stop_motors()
-        self._auto = None
-
-    def _hover(self) -> None:
-        self.flight.fly(0j)
-        self.flight.climb(0.0)
-        self.flight.turn(0.0)
+    def _does(self, task: Callable[[], bool]) -> bool:
+        """A task holds against the end of movement commands that came before it."""
+        starts = task()
+        if starts:
+            self._move_heard = -math.inf
+        return starts
 
     def _hand_to(self, pilot: Pilot) -> None:
         self.pilot = pilot
         self._move_heard, self._in_corners = -math.inf, math.inf
         if pilot is Pilot.RC:
             self._obey(self.rc)
-        elif self._auto is None:
-            self._hover()
+        elif self._automatic.doing is None:
+            self._automatic.hover()
 
     def _end_virtual(self, back_to_rc: bool) -> None:
         self.virtual_on = False
@@ -211,16 +191,18 @@ class Cockpit:
 
     def _move_timeout(self) -> None:
         self._move_heard = -math.inf
-        self._hover()
+        self._automatic.hover()
 
     def _obey(self, controls: Controls) -> None:
         if controls.in_corners:
             self._in_corners = math.inf if self._gesture_made else min(self._in_corners, self.time)
             return
         self._in_corners, self._gesture_made = math.inf, False
-        if self._auto is not None and not (controls.roll or controls.pitch or controls.throttle or controls.yaw):
+        if self._automatic.doing is not None and not (
+            controls.roll or controls.pitch or controls.throttle or controls.yaw
+        ):
             return  # nobody interferes with what it does by itself
-        self._by_itself(None)
+        self._automatic.interrupt()
         flight = self.flight
         if controls.switch is Switch.A:
             flight.lean(controls.pitch * TILT, controls.roll * TILT)

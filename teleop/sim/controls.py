@@ -31,6 +31,15 @@ class Status(Enum):
     FINISH_LANDING = 5
 
 
+class TaskState(Enum):
+    """Of a take-off, a landing or a return home."""
+
+    NONE = auto()
+    RUNNING = auto()
+    FAILED = auto()  # something else ended it
+    SUCCEEDED = auto()
+
+
 @dataclass(frozen=True)
 class Controls:
     """What a remote control says: sticks -1..1 (right, up, up, right), and its switches."""

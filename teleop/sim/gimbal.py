@@ -2,8 +2,8 @@
 
 It is the far end of the same Session as the program's own, so a mistake in the frames, the fields or their meaning
 shows as a wrong angle, a refusal or silence. Which handler obeys a message is a table, put together from the parts of
-the gimbal; what no part knows, what is malformed and what has a value that the document does not list is a parse error.
-Only streams are read generously, as real firmware does: speeds are clipped and reserved bits ignored.
+the gimbal; what no part knows, what is malformed and what has a value that the document does not list is a parse error,
+and `refusals` has it with its reason. Reserved bits are not looked at where clients set them.
 
 Every part is a function of time between commands, so looking often or seldom makes no difference.
 
@@ -17,21 +17,24 @@ from collections import Counter, deque
 from operator import itemgetter
 from typing import Any
 
-from teleop.dji import gimbal
+from teleop.dji import focus, gimbal
 from teleop.dji.frame import Frame
 from teleop.dji.message import FieldError, Message, Result, ReturnCode
 from teleop.dji.session import Session
 from teleop.sim.accessories import Camera, FocusMotor
-from teleop.sim.handlers import Answer, Handlers
+from teleop.sim.firmware import DOCUMENTED, Firmware
+from teleop.sim.handlers import Answer, Handlers, without_reserved
 from teleop.sim.head import Angles, Head
 from teleop.sim.pushes import Beat, Due
+from teleop.sim.quirks import legacy_angles, pushed
+from teleop.sim.refusals import Refusals, Why, command_name
 from teleop.sim.settings import Settings
 from teleop.sim.tuning import Tuning
 
 PUSH_RATE = 10.0  # Hz; it varies with the firmware, from 1 Hz up (docs/protocol-facts.md)
 
 _MOTION = gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Mode
-_READ_GENEROUSLY = gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Dial
+_READ_GENEROUSLY = gimbal.Joystick, gimbal.Dial
 _REPLY_TYPE = 0x1F  # bits of cmd_type; 0 is the only type that is not answered: section 2.2
 
 
@@ -43,6 +46,7 @@ class SimulatedGimbal:
     has no stops for yaw. `focus_speed` is in counts/s. With `bare_replies` it leaves set and id out of its replies, as
     firmware before 01.04.00.20 does. `push_rate` is in Hz, once the push is switched on. What moves it is carried out
     `reaction` seconds after it came. While `tells_angles` is False it neither answers for its angles nor pushes them.
+    `firmware` is how else it differs from the document.
     """
 
     def __init__(
@@ -59,20 +63,24 @@ class SimulatedGimbal:
         bare_replies: bool = False,
         reaction: float = 0.0,
         version: str = "02.02.00.07",
+        firmware: Firmware = DOCUMENTED,
     ) -> None:
         self.counts: Counter[str] = Counter()  # messages by name, as they were understood
         self.follow = gimbal.FollowMode.YAW
         self.settings = Settings(version)
-        self._head = Head(Angles(*boot), Angles(*signs), lag, Angles(*joystick_speed), continuous)
+        self.refusals = Refusals()
+        self._head = Head(Angles(*boot), Angles(*signs), lag, Angles(*joystick_speed), continuous, firmware)
         self._camera = Camera()
-        self._focus = FocusMotor(focus_speed, focus_calibrated)
+        calibrated = focus_calibrated and firmware.focus_motor == "calibrated"
+        self._focus = FocusMotor(focus_speed, calibrated, firmware.focus_motor == "absent", firmware.ignores_zero_focus)
         self._tuning = Tuning()
         self.tells_angles = True
         self._push_rate = push_rate
         self._reaction = reaction
         self._to_come: deque[tuple[float, Message]] = deque()  # what has still to be reacted to, and when
         self._booted = float("-inf")  # s
-        self._bare_replies = bare_replies
+        self._bare_replies = bare_replies or firmware.legacy_replies
+        self._firmware = firmware
         self._push: Beat | None = None
         self._session = Session()
         self._now = float("-inf")
@@ -117,15 +125,19 @@ class SimulatedGimbal:
         self._pass(now)
         if self._now < self._booted:
             return
+        damage = self._session.last_damage
         for received in self._session.receive(data, self._now):
             frame = received.frame
             if frame.is_reply:
+                self.refusals.add(now, command_name(received.message), Why.REPLY)
                 continue
             self.counts[received.message.name] += 1
             answer = self._obey(received.message)
             told = self.tells_angles or not isinstance(received.message, gimbal.Angles)
-            if frame.cmd_type & _REPLY_TYPE and told:
+            if frame.cmd_type & _REPLY_TYPE and told and not _has_no_reply(received.message):
                 self._reply(frame, answer)
+        if self._session.last_damage is not damage and self._session.last_damage:
+            self.refusals.add_damage(now, self._session.last_damage)
 
     def advance(self, now: float) -> bytes:
         """What it has sent up to `now`: replies, and pushes at their own times."""
@@ -158,29 +170,39 @@ class SimulatedGimbal:
             beats = self._push.due(self._now)
             due += [(time, self._parameters(time)) for time in beats if self.tells_angles]
         for _, push in sorted(due, key=itemgetter(0)):
-            self._outgoing += self._session.command(push)
+            self._outgoing += pushed(self._session.command(push), push, self._firmware)
 
     def _obey(self, message: Message) -> Answer:
         handler = self._handlers.get(type(message))
         if handler is None:
-            return ReturnCode.PARSE_ERROR
+            known = any(cls.set_and_id == message.data()[:2] for cls in self._handlers)
+            return self._refused(message, ReturnCode.PARSE_ERROR, Why.LENGTH if known else Why.UNKNOWN)
         if not isinstance(message, _READ_GENEROUSLY):
             try:
-                message.check()
-            except FieldError:
-                return ReturnCode.PARSE_ERROR
+                without_reserved(message).check()
+            except FieldError as error:
+                return self._refused(message, ReturnCode.PARSE_ERROR, Why.RANGE, str(error).partition(": ")[2])
         if isinstance(message, _MOTION) and (self.settings.asleep or self._tuning.running(self._now)):
-            return ReturnCode.FAILED
+            doing = "its motors are off" if self.settings.asleep else "it is calibrating"
+            return self._refused(message, ReturnCode.FAILED, Why.STATE, doing)
         if isinstance(message, _MOTION) and self._reaction:
             self._to_come.append((self._now + self._reaction, message))
             return ReturnCode.OK
         answer = handler(message, self._now)
         if self.settings.asleep:
             self._head.halt(self._now)
+        if isinstance(answer, ReturnCode) and answer != ReturnCode.OK:
+            self._refused(message, answer, Why.STATE if answer == ReturnCode.FAILED else Why.RANGE)
         return answer
+
+    def _refused(self, message: Message, code: ReturnCode, why: Why, detail: str = "") -> ReturnCode:
+        self.refusals.add(self._now, command_name(message), why, detail)
+        return code
 
     def _reply(self, frame: Frame, answer: Answer) -> None:
         message = Result(answer) if isinstance(answer, ReturnCode) else answer
+        if self._firmware.legacy_replies and isinstance(message, gimbal.AnglesReply):
+            message = legacy_angles(message, self._firmware.legacy_order)
         self._outgoing += self._session.reply(frame, message, bare=self._bare_replies)
 
     def _switch_push(self, message: gimbal.PushSettings, now: float) -> Answer:
@@ -209,3 +231,11 @@ class SimulatedGimbal:
             **self._head.limits(),
             **{f"{axis}_stiffness": value for axis, value in self.settings.stiffness.items()},
         )
+
+
+def _has_no_reply(message: Message) -> bool:
+    """Whether no reply belongs to it, well formed or not, whatever its CmdType asks (V2.5, figures 17, 21, 22, 32)."""
+    data = message.data()
+    if data[:2] == gimbal.Version.set_and_id:
+        return isinstance(message, gimbal.VersionPush)
+    return data[:2] == gimbal.Joystick.set_and_id or data[:3] == focus.Set.set_and_id + b"\x01"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from teleop.dji.message import Message, ReturnCode
@@ -15,3 +16,8 @@ Handlers = dict[type[Message], Handler]
 def timeless(obey: Callable[[Any], Answer]) -> Handler:
     """A handler for which it does not matter when the message comes."""
     return lambda message, _now: obey(message)
+
+
+def without_reserved(message: Message) -> Message:
+    """The message as if its reserved bits were zero: clients set them, and real devices do not look at them."""
+    return replace(message, reserved=0) if getattr(message, "reserved", 0) else message  # type: ignore[call-arg]

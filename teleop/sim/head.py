@@ -1,9 +1,10 @@
 """The three axes of a simulated gimbal: what its commands make of the motors, and what they report.
 
-On the wire an axis may have the opposite sign (`signs`), as firmware differs; the motors turn in the signs of
-teleop.motion, and limits, which are magnitudes on the wire, are the motors' own. Angles are rounded to 0.1 degree by
-the messages, never in here. The document leaves open what happens to a target beyond a stop (it ends at the stop), to
-an axis that turns for ever (it goes the short way round), and to a position command under speed control (it wins).
+On the wire an axis may have the opposite sign, and its speed another one than its angle, as firmware differs; the
+motors turn in the signs of teleop.motion, and limits, which are magnitudes on the wire, are the motors' own. Angles are
+rounded to 0.1 degree by the messages, never in here. The document leaves open what happens to a target beyond a stop
+(it ends at the stop), to an axis that turns for ever (it goes the short way round), and to a position command under
+speed control (it wins).
 """
 
 from __future__ import annotations
@@ -13,12 +14,13 @@ from typing import Any, NamedTuple
 
 from teleop.dji import gimbal
 from teleop.dji.message import ReturnCode
+from teleop.sim.firmware import DOCUMENTED, Firmware
 from teleop.sim.handlers import Answer, Handlers, timeless
 from teleop.sim.motors import Motor
 
 SPEED_HOLDS = 0.5  # s after which a speed command no longer counts: V2.5, section 2.3.4.2
 STICK_FULL = 15_000  # full deflection on the wire: section 2.3.4.11
-FASTEST = 360.0  # deg/s, the range of a speed command: section 2.3.4.2
+SETTLES = 0.3  # s in which a roll that is left off level gets there
 CENTRING_LAG = 0.3  # s, so that recentring is all but done in 1.5 s
 
 
@@ -37,13 +39,25 @@ NAMEABLE_UP, NAMEABLE_DOWN = Angles(179.0, 30.0, 145.0), Angles(179.0, 30.0, 55.
 class Head:
     """Motors for yaw, roll and pitch, and the messages that move and ask them."""
 
-    def __init__(self, boot: Angles, signs: Angles, lag: float, joystick_speed: Angles, continuous: bool) -> None:
+    def __init__(
+        self,
+        boot: Angles,
+        signs: Angles,
+        lag: float,
+        joystick_speed: Angles,
+        continuous: bool,
+        firmware: Firmware = DOCUMENTED,
+    ) -> None:
         self.controlled = False  # whether a speed command has taken over, and none has given back
         self._boot = boot
         self._signs = signs
+        self._speed_signs = Angles(*firmware.speed_signs) if firmware.speed_signs else signs
+        self._report_signs = Angles(*firmware.report_signs) if firmware.report_signs else signs
+        self._firmware = firmware
         self._joystick_speed = joystick_speed
         self._motors = [Motor(angle, lag) for angle in boot]
-        self._restrict(MECHANICAL_UP, MECHANICAL_DOWN)
+        self._nameable_up = NAMEABLE_UP._replace(pitch=float(firmware.pitch_max))
+        self._restrict(MECHANICAL_UP._replace(pitch=firmware.pitch_max + 1.0), MECHANICAL_DOWN)
         if continuous:
             self._motors[0].minimum, self._motors[0].maximum = -math.inf, math.inf
         self.handlers: Handlers = {
@@ -64,11 +78,12 @@ class Head:
 
     def reported(self, time: float) -> Angles:
         """As on the wire: in the wire's signs, and within half a turn."""
-        return Angles(*(_half_turn(sign * angle) for sign, angle in zip(self._signs, self.angles(time), strict=True)))
+        signed = zip(self._report_signs, self.angles(time), strict=True)
+        return Angles(*(_half_turn(sign * angle) for sign, angle in signed))
 
     def limits(self) -> dict[str, Any]:
         """The fields of LimitsReply and Push, no more than these can name."""
-        up = [min(motor.maximum, most) for motor, most in zip(self._motors, NAMEABLE_UP, strict=True)]
+        up = [min(motor.maximum, most) for motor, most in zip(self._motors, self._nameable_up, strict=True)]
         down = [min(-motor.minimum, most) for motor, most in zip(self._motors, NAMEABLE_DOWN, strict=True)]
         names = ("yaw", "roll", "pitch")
         most = {f"{name}_max": round(value) for name, value in zip(names, up, strict=True)}
@@ -97,8 +112,6 @@ class Head:
             motor.place(angle)
 
     def _position(self, message: gimbal.Position, now: float) -> Answer:
-        if message.time_for_action <= 0.0:  # what 25.6 s become when they wrap
-            return ReturnCode.PARSE_ERROR
         ignored = message.yaw_ignored, message.roll_ignored, message.pitch_ignored
         wanted = message.yaw, message.roll, message.pitch
         for motor, sign, angle, ignore in zip(self._motors, self._signs, wanted, ignored, strict=True):
@@ -109,9 +122,15 @@ class Head:
         return ReturnCode.OK
 
     def _speed(self, message: gimbal.Speed, now: float) -> Answer:
+        if self._firmware.ignores_speed:
+            return ReturnCode.OK
+        released = self.controlled and not message.take_over
         self.controlled = message.take_over
         speeds = (message.yaw, message.roll, message.pitch) if message.take_over else (0.0, 0.0, 0.0)
         self._cruise(Angles(*speeds), now)
+        if released and self._firmware.roll_error:
+            roll = self._motors[1]
+            roll.travel(now, roll.at(now)[0] + self._firmware.roll_error, SETTLES)
         return ReturnCode.OK
 
     def _joystick(self, message: gimbal.Joystick, now: float) -> Answer:
@@ -121,8 +140,8 @@ class Head:
         return ReturnCode.OK
 
     def _cruise(self, speeds: Angles, now: float) -> None:
-        for motor, sign, speed in zip(self._motors, self._signs, speeds, strict=True):
-            motor.cruise(now, sign * min(max(speed, -FASTEST), FASTEST), now + SPEED_HOLDS)
+        for motor, sign, speed in zip(self._motors, self._speed_signs, speeds, strict=True):
+            motor.cruise(now, sign * speed, now + SPEED_HOLDS)
 
     def _report(self, message: gimbal.Angles, now: float) -> Answer:
         if message.kind == gimbal.AngleKind.NONE:

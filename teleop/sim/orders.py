@@ -11,20 +11,33 @@ from teleop.sim.controls import Controls, Switch
 from teleop.sim.flight import Flight
 
 SWITCHES = {ModeChannel.P: Switch.P, ModeChannel.A: Switch.A, ModeChannel.F: Switch.F}
+GEARS = {GearChannel.UP: True, GearChannel.DOWN: False}
+STICKS = "roll", "pitch", "throttle", "yaw"
 HOVER = 50.0  # % of thrust that neither climbs nor sinks
 
 
-def controls(sticks: Sticks) -> Controls:
-    """What the channels of the virtual RC say."""
-    roll, pitch, throttle, yaw = (
-        (channel - CENTRE) / DEFLECTION for channel in (sticks.roll, sticks.pitch, sticks.throttle, sticks.yaw)
-    )
-    mode, gear = SWITCHES[ModeChannel(sticks.mode)], sticks.gear == GearChannel.UP
+def out_of_range(sticks: Sticks) -> str:
+    """Which of the four sticks is beyond its range, in words."""
+    for name in STICKS:
+        if abs(getattr(sticks, name) - CENTRE) > DEFLECTION:
+            return f"{name} must be {CENTRE - DEFLECTION}..{CENTRE + DEFLECTION}, not {getattr(sticks, name)}"
+    return ""
+
+
+def controls(sticks: Sticks, before: Controls) -> Controls:
+    """What the channels of the virtual RC say after those `before`: a switch with an unknown value stays as it was."""
+    roll, pitch, throttle, yaw = ((getattr(sticks, name) - CENTRE) / DEFLECTION for name in STICKS)
+    mode, gear = SWITCHES.get(sticks.mode, before.switch), GEARS.get(sticks.gear, before.gear_up)  # type: ignore[call-overload]
     return Controls(roll, pitch, throttle, yaw, mode, gear)
 
 
 def move(flight: Flight, message: Move) -> None:
-    """What a movement command has the drone do; vertical is positive up."""
+    """What a movement command makes the drone do; vertical is positive up.
+
+    Tilt: x is roll, right positive, and y is pitch, nose up positive, so backward; in the ground frame positive roll
+    goes east and positive pitch south (OPENProtocol.md 3.1.9, 01 03, offsets 1 and 5; docs/protocol-facts.md).
+    Velocity and position: x is forward or north, y is right or east.
+    """
     to_north = message.frame == Frame.GROUND
     if message.yaw_control == Yaw.RATE:
         flight.turn(math.radians(message.yaw))
@@ -32,7 +45,7 @@ def move(flight: Flight, message: Move) -> None:
         flight.face(math.radians(message.yaw))
     match message.horizontal:
         case Horizontal.TILT:
-            flight.lean(math.radians(message.x), math.radians(message.y), to_north=to_north)
+            flight.lean(-math.radians(message.y), math.radians(message.x), to_north=to_north)
         case Horizontal.VELOCITY:
             flight.fly(complex(message.x, message.y), to_north=to_north)
         case _:

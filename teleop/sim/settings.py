@@ -10,6 +10,8 @@ from teleop.sim.handlers import Answer, Handlers, timeless
 
 _PARAMETER_SIZE = 1  # bytes, of every known user parameter: V2.5, section 2.3.4.12
 
+DOCUMENTED_PARAMETERS = 0x00, 0x22, 0x23  # V2.5, figure 23; their reply was observed to have 28 bytes
+
 
 class Settings:
     """Settable and askable; none but `asleep` changes how the gimbal moves."""
@@ -58,9 +60,10 @@ class Settings:
         return ReturnCode.OK
 
     def _report_parameters(self, message: gimbal.Parameters) -> Answer:
-        if not message.ids or not set(message.ids) <= self.parameters.keys():
+        ids = message.ids or DOCUMENTED_PARAMETERS  # clients ask for none
+        if not set(ids) <= self.parameters.keys():
             return ReturnCode.FAILED
-        known = tuple(gimbal.Parameter(number, self.parameters[number]) for number in message.ids)
+        known = tuple(gimbal.Parameter(number, self.parameters[number]) for number in ids)
         return gimbal.ParametersReply(ReturnCode.OK, known)
 
     def _set_parameters(self, message: gimbal.SetParameters) -> Answer:

@@ -25,6 +25,7 @@ CENTRED = 0.02  # of full deflection: a stick that is seen there once is centred
 LATE = 0.2  # s without a tick after which its sticks are stale
 PATIENCE = 4.0  # s after activation in which a drone that a script engages must be ready
 RELEASE_LOOK = 0.01  # s between looks while giving back
+RELEASE_FOR = 4.0  # s for which a run that ends goes on giving back what is not confirmed
 PREFIX = "drone "
 
 log = logging.getLogger(__name__)
@@ -43,7 +44,14 @@ class DroneSink:
         self.telemetry = telemetry
         self._grip, self._low_battery = grip, low_battery
         self._opened = opened
-        self._engagement = Engagement(grip.what, grip.period, opened, lambda text: self.say(f"drone: {text}"))
+        self._engagement = Engagement(
+            grip.what,
+            grip.period,
+            grip.taken,
+            lambda text: self.say(f"drone: {text}"),
+            gap=grip.gap,
+            repeats=grip.repeats,
+        )
         grip.say = lambda text: self.say(f"drone: {text}")
         self._sticks: Deflections = dict.fromkeys(STICKS, 0.0)
         self._hand = False
@@ -51,6 +59,12 @@ class DroneSink:
         self._control_lost = 0
         self._readings: dict[Axis, Reading] = {}
         self._turned = -math.inf
+        self._ends = math.inf  # s: since when the run ends
+
+    @property
+    def period(self) -> float:
+        """s between two frames, moving or not."""
+        return self._grip.period
 
     @property
     def engaged(self) -> bool:
@@ -89,14 +103,19 @@ class DroneSink:
             raise DeviceError(f"drone: {failure}")
 
     def release(self, now: float) -> float | None:
-        """Neutral sticks, one giving back, and a look at whether it worked; nothing where nothing was taken."""
+        """Neutral sticks, giving back, and a look at whether it worked; nothing where nothing was taken.
+
+        Raises DeviceError, once, when the drone has not confirmed it: what can be sent again is, for RELEASE_FOR.
+        """
         self._hand = False
+        self._ends = min(self._ends, now)
         self._engagement.leave(now, "the run ends", asked=True)
         self._withdraw()
-        if self._engagement.stage is Stage.IDLE:
-            if unreturned := self._engagement.unreturned:
-                self._engagement.unreturned = ""
-                raise DeviceError(f"drone: {unreturned}")
+        stage = self._engagement.stage
+        if stage is Stage.IDLE or (stage is Stage.UNCONFIRMED and now - self._ends >= RELEASE_FOR):
+            unreturned, self._engagement.unreturned = self._engagement.unreturned, ""
+            if unreturned:
+                raise DeviceError(f"drone: unconfirmed: {unreturned}")
             return None
         self._turn(now)
         return now + RELEASE_LOOK
@@ -125,7 +144,11 @@ class DroneSink:
         self._turned = now
         for trouble in self._troubles(now):
             self._engagement.leave(now, trouble)
-        order = self._engagement.advance(now, self._hand, self._grip.held(self.telemetry, now))
+        self._grip.watch(self.telemetry, now)
+        if self._grip.contradicted(self.telemetry, now):
+            self._engagement.contradicted(now)
+        held = self._grip.held(self.telemetry, now)
+        order = self._engagement.advance(now, self._hand, held, self._grip.patience)
         self._withdraw()
         try:
             with self._explaining():
@@ -147,6 +170,8 @@ class DroneSink:
                 self._grip.neutral(self.telemetry, now)
             case Order.GIVE_BACK:
                 self._grip.give_back(now)
+            case Order.NOTHING if self._engagement.stage in (Stage.CHECKING, Stage.UNCONFIRMED):
+                self._grip.give_back_again(now)
 
     def _troubles(self, now: float) -> Iterator[str]:
         if not self.engaged:

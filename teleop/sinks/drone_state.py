@@ -58,7 +58,7 @@ def drone_state(seen: Telemetry, now: float, stage: Stage, sticks: Deflections) 
         longitude=None if position is None else math.degrees(position.longitude),
         height=None if position is None else position.height,
         gps_health=None if position is None else position.health,
-        velocity=None if velocity is None or not velocity.valid else (velocity.x, velocity.y, -velocity.z),
+        velocity=None if velocity is None or not velocity.valid else (velocity.x, velocity.y, velocity.z),
         battery=parts["battery"],
         rc=None if rc is None else (rc.roll / 1e4, rc.pitch / 1e4, rc.throttle / 1e4, rc.yaw / 1e4),
         rc_mode=None if rc is None else rc.mode.name if isinstance(rc.mode, RcMode) else str(rc.mode),

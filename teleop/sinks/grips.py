@@ -27,6 +27,14 @@ class Grip(Protocol):
     period: float
     say: Callable[[str], object]
     alone: str  # what becomes of the drone when nothing more reaches it
+    gap: float  # s between two takings, at least
+    taken: float  # s: when an earlier run took it last, -inf if none is known to have
+    repeats: bool  # whether giving back is sent again until it is confirmed
+
+    @property
+    def patience(self) -> float:
+        """How long the drone may take to confirm that it is taken (s)."""
+        ...
 
     def refusals(self, seen: Telemetry, now: float) -> Iterator[str]:
         """Why the drone cannot be held so now."""
@@ -35,6 +43,10 @@ class Grip(Protocol):
     def warnings(self, seen: Telemetry, now: float) -> Iterator[str]: ...
 
     def take(self, seen: Telemetry, now: float) -> None: ...
+
+    def watch(self, seen: Telemetry, now: float) -> None:
+        """Look at what the drone does by itself, held or not."""
+        ...
 
     def drive(self, sticks: Deflections, seen: Telemetry, now: float) -> None:
         """Send the sticks as they are."""
@@ -49,6 +61,14 @@ class Grip(Protocol):
         ...
 
     def give_back(self, now: float) -> None: ...
+
+    def give_back_again(self, now: float) -> None:
+        """It is not confirmed yet: send it again, at its own pace, where that is of use."""
+        ...
+
+    def contradicted(self, seen: Telemetry, now: float) -> bool:
+        """Whether the drone says that it is held, though it was given back, and giving back again is of use."""
+        ...
 
     def held(self, seen: Telemetry, now: float) -> bool | None:
         """Whether the drone says that it is held so, None where it says nothing."""

@@ -1,6 +1,6 @@
 """A drone held by movement commands, for which it has to give control: tilts, velocities or offsets, 50 times a second.
 
-Control is asked for once, and again only when the drone says that it is at it; what it refuses is said.
+Control is the affair of `authority`, what the drone does by itself that of `tasks`.
 """
 
 from __future__ import annotations
@@ -9,26 +9,30 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 
 from teleop.dji import drone, movement
-from teleop.dji.drone_words import ControlCode, ControlDevice, ControlOrder, TaskKind
+from teleop.dji.drone_words import ArmCode, ArmOrder
 from teleop.motion import STICKS
+from teleop.sinks.authority import ControlAuthority
 from teleop.sinks.connection import Answer, Connection
 from teleop.sinks.grips import ARMING, Deflections, attitude, not_in_standby, word_of
 from teleop.sinks.preflight import Site, mode_refusals, mode_warnings
+from teleop.sinks.stick_numbers import numbers
+from teleop.sinks.tasks import WORDS, TaskWatch, take_off_refusal
 from teleop.sinks.telemetry import Telemetry
 
-OBTAIN_AGAIN = 0.5  # s between two requests for control: docs/protocol-facts.md
 MOVE_ALONE = "what the drone does then is not known: its pilot has to take it, by leaving F"
+CENTERED: Deflections = dict.fromkeys(STICKS, 0.0)
 
 
 class MovementGrip:
     """Movement commands with control obtained: the sticks as shares of `full`, x, y, z and yaw of a combination.
 
     A yaw angle is counted from the heading that the drone had when it was taken, and a height from its height then, so
-    that centred sticks are where it is. Neutral is where it is now. While it does a task by itself nothing is streamed,
-    which could contradict it, until a stick is moved.
+    that centered sticks are where it is; after a task both count from where that has left it. Neutral is where it is
+    now. While a task runs nothing is streamed, which would break it off, until a stick is moved.
     """
 
     what, period, alone = "control", 0.02, MOVE_ALONE
+    gap, taken, repeats = 0.0, -math.inf, True
 
     def __init__(
         self,
@@ -41,13 +45,19 @@ class MovementGrip:
         self._connection, self._combination, self._frame = connection, combination, frame
         self._full, self._site = full, site
         self.say: Callable[[str], object] = lambda _text: None
-        self._heading = self._height = 0.0  # when it was taken: deg, m
-        self._obtained: bool | None = None
-        self._ask_at = math.inf  # s: when control is to be asked for
-        self._tasks, self._by_itself = 0, False
-        connection.on_answer(drone.Control, self._answered)
-        connection.on_answer(drone.Task, self._told)
-        connection.on_answer(drone.Arm, self._told)
+        self._authority = ControlAuthority(connection, lambda text: self.say(text))
+        self._task = TaskWatch(lambda text: self.say(text))
+        self._heading = self._height = 0.0  # from which places count: deg, m
+        self._number = 0  # of the next task
+        self._newest = -1  # the sequence number of the newest task's order
+        self._arming: ArmOrder | None = None  # asked for
+        self._armed = False  # by this program
+        connection.on_answer(drone.Task, self._task_answered)
+        connection.on_answer(drone.Arm, self._arm_answered)
+
+    @property
+    def patience(self) -> float:
+        return self._authority.patience
 
     def refusals(self, seen: Telemetry, now: float) -> Iterator[str]:
         position = seen.get("position", now)
@@ -63,47 +73,59 @@ class MovementGrip:
 
     def take(self, seen: Telemetry, now: float) -> None:
         self._heading, self._height = self._here(seen, now)
-        self._obtained, self._ask_at, self._by_itself = None, now, False
-        self._ask(now)
+        self._authority.obtain(now)
 
-    def drive(self, sticks: Deflections, seen: Telemetry, now: float) -> None:  # noqa: ARG002 - the sticks alone say it
-        self._ask(now)
-        self._by_itself = self._by_itself and not any(sticks.values())
-        if self._obtained and not self._by_itself:
-            self._connection.stream(self._move(sticks, self._heading, self._height))
+    def watch(self, seen: Telemetry, now: float) -> None:
+        ran = self._task.runs
+        self._task.watch(seen, now)
+        if ran and not self._task.runs:
+            self._heading, self._height = self._here(seen, now)
+
+    def drive(self, sticks: Deflections, seen: Telemetry, now: float) -> None:
+        self._authority.service(now)
+        if self._task.moved(sticks):
+            self._heading, self._height = self._here(seen, now)
+        if self._authority.obtained(seen, now) and not self._task.runs:
+            self._stream(CENTERED if self._task.locks_sticks else sticks, self._heading, self._height)
 
     def neutral(self, seen: Telemetry, now: float) -> None:
-        if self._obtained and not self._by_itself:
-            self._connection.stream(self._move(dict.fromkeys(STICKS, 0.0), *self._here(seen, now)))
+        if self._authority.obtained(seen, now) and not self._task.runs:
+            self._stream(CENTERED, *self._here(seen, now))
 
     def withdraw(self) -> None:
-        self._connection.withdraw(drone.Control, drone.Task, drone.Arm)
+        self._authority.cancel()
+        self._connection.withdraw(drone.Task, drone.Arm)
 
     def give_back(self, now: float) -> None:
-        self._connection.request(drone.Control(ControlOrder.RELEASE), now)
+        if goes_on := self._task.goes_on():
+            self.say(goes_on)
+        self._authority.release(now)
+
+    def give_back_again(self, now: float) -> None:
+        self._authority.service(now)
 
     def held(self, seen: Telemetry, now: float) -> bool | None:
-        control = seen.get("control", now)
-        if self._obtained and control is not None:
-            return control.device == ControlDevice.ONBOARD_DEVICE
-        return self._obtained
+        return self._authority.held(seen, now)
+
+    def contradicted(self, seen: Telemetry, now: float) -> bool:
+        return self._authority.still_held(seen, now)
 
     def tell(self, word: str, seen: Telemetry, now: float) -> str:
         if word in ARMING:
             if refusal := not_in_standby(seen, now):
                 return f"{word} refused: {refusal}"
+            self._arming = ARMING[word]
             self._connection.request(drone.Arm(ARMING[word]), now)
             return f"{word}: asked for"
-        tasks = {"take-off": TaskKind.TAKE_OFF, "land": TaskKind.LAND, "home": TaskKind.RETURN_HOME}
-        self._connection.request(drone.Task(tasks[word], number=self._tasks), now)
-        self._tasks, self._by_itself = self._tasks + 1 & 0xFF, True
-        return f"{word}: asked for; no sticks are sent until one is moved"
-
-    def _ask(self, now: float) -> None:
-        """Ask for control: once, and again when the drone says that it is at it."""
-        if now >= self._ask_at:
-            self._ask_at = math.inf
-            self._connection.request(drone.Control(ControlOrder.OBTAIN), now)
+        kind = WORDS[word]
+        if kind is self._task.kind:
+            return f"{word}: it is under way"
+        if word == "take-off" and (refusal := take_off_refusal(seen, now, self._armed)):
+            return f"{word} refused: {refusal}"
+        self._newest = self._connection.request(drone.Task(kind, number=self._number), now)
+        self._number = self._number + 1 & 0xFF
+        self._task.begin(kind, now)
+        return f"{word}: asked for; no sticks until it ends or one is moved"
 
     def _here(self, seen: Telemetry, now: float) -> tuple[float, float]:
         """Heading (deg) and height (m) now, as far as they are known, else as they were when it was taken."""
@@ -111,42 +133,32 @@ class MovementGrip:
         heading = self._heading if quaternion is None else attitude(quaternion)[2]
         return heading, self._height if position is None else position.height
 
-    def _move(self, sticks: Deflections, heading: float, height: float) -> movement.Move:
-        roll, pitch, throttle, yaw = (sticks[axis] for axis in STICKS)
-        turn, rise = yaw * self._full["yaw"], throttle * self._full["vertical"]
-        if self._combination.yaw == movement.Yaw.ANGLE:
-            turn = math.remainder(heading + turn, 360.0)
-        if self._combination.vertical == movement.Vertical.POSITION:
-            rise = max(0.0, height + rise)
-        return movement.Move(
-            stable=self._combination.horizontal == movement.Horizontal.VELOCITY,
-            frame=self._frame,
-            yaw_control=self._combination.yaw,
-            vertical=self._combination.vertical,
-            horizontal=self._combination.horizontal,
-            x=pitch * self._full["horizontal"],
-            y=roll * self._full["horizontal"],
-            z=rise,
-            yaw=turn,
+    def _stream(self, sticks: Deflections, heading: float, height: float) -> None:
+        x, y, z, yaw = numbers(self._combination, self._full, sticks, heading, height)
+        self._connection.stream(
+            movement.Move(
+                stable=self._combination.horizontal == movement.Horizontal.VELOCITY,
+                frame=self._frame,
+                yaw_control=self._combination.yaw,
+                vertical=self._combination.vertical,
+                horizontal=self._combination.horizontal,
+                x=x,
+                y=y,
+                z=z,
+                yaw=yaw,
+            )
         )
 
-    def _answered(self, answer: Answer) -> None:
-        code = getattr(answer.reply, "code", None)
-        if code == ControlCode.OBTAINING:
-            self._ask_at = answer.sent + OBTAIN_AGAIN
-            return
-        self._obtained = code == ControlCode.OBTAINED
-        if code is None:
-            self.say("the drone did not answer when asked about control")
-        elif code not in (ControlCode.OBTAINED, ControlCode.RELEASED, ControlCode.RELEASING):
-            self.say(f"the drone refuses control: {word_of(code)}")
+    def _task_answered(self, answer: Answer) -> None:
+        if answer.sequence == self._newest:
+            self._armed = False  # what runs now was started by the task
+            self._task.answered(None if answer.reply is None else getattr(answer.reply, "code", "unknown"))
 
-    def _told(self, answer: Answer) -> None:
-        name = "motors" if isinstance(answer.reply, drone.ArmAck | drone.ShortArmAck) else "task"
-        code = getattr(answer.reply, "code", None)
-        if answer.reply is None:
-            self.say(f"{name}: no answer")
-            self._by_itself = False
+    def _arm_answered(self, answer: Answer) -> None:
+        code = None if answer.reply is None else getattr(answer.reply, "code", "unknown")
+        if code in (ArmCode.OK, ArmCode.ALREADY):
+            self._armed = self._arming == ArmOrder.ARM
+        if code is None:
+            self.say("motors: no answer")
         elif code:
-            self._by_itself = False
-            self.say(f"{name}: refused, {word_of(code)}")
+            self.say(f"motors: refused, {word_of(code)}")

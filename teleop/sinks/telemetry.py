@@ -1,9 +1,10 @@
 """What the drone says of itself, from the first question to it on: the connection brought up, then its broadcast kept.
 
-The drone says nothing before it is activated, and its control field, in which the virtual-RC bit is, only when asked
-to (docs/protocol-facts.md). So a connection is brought up by a short list of requests, each sent when the one before
-was acknowledged; what the drone refuses or leaves unanswered ends the run, in words. From then on every part of the
-broadcast is kept with the time it came: an old value is not a value.
+A real M100 broadcasts, and takes 00 10, before it is activated (OSDK issue 145); others may not, so nothing here
+depends on it. Its control field, in which the virtual-RC bit is, comes only when asked for (docs/protocol-facts.md).
+So a connection is brought up by a short list of requests, each sent when the one before was acknowledged; what the
+drone refuses or leaves unanswered ends the run, in words. From then on every part of the broadcast is kept with the
+time it came: an old value is not a value.
 """
 
 from __future__ import annotations

@@ -11,12 +11,14 @@ from far_drone import BAUD, far_drone
 from waiting import wait_until
 
 from teleop.cli import run
-from teleop.cli.send_drone import Exchange, asked_for, refusal
+from teleop.cli.send_drone import Exchange, asked_for, readable, refusal
 from teleop.clock import VirtualClock
 from teleop.dji import drone
 from teleop.dji.drone_catalogue import COMMANDS, PLAIN, hazard, never
 from teleop.dji.drone_words import ActivationCode, ArmOrder, ControlCode, ControlOrder, TaskKind
+from teleop.dji.encryption import Cipher
 from teleop.dji.frame import Frame
+from teleop.dji.message import Opaque
 from teleop.dji.onboard_session import OnboardSession
 from teleop.document import DocumentError
 from teleop.ports import DeviceError
@@ -43,11 +45,13 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
         assert send("version", url) == 0
         assert capsys.readouterr().out == (
             "drone.version: not_activated\n"
-            "  checksum  0\n  id        SIMULATED\n  version   M100 SIMULATED 03.01.10.00\n"
+            "  checksum  0xA6453AAC\n  id        041D492163\n  version   SDK-v1.0 BETA M100-03.01.01.00\n"
         )
-        assert send("frequency control=hz_50", url) == 1
+        assert send("frequency control=hz_50", url) == 0
+        capsys.readouterr()
+        assert send("release control", url) == 1
         assert capsys.readouterr().err == (
-            "teleop: drone.frequency was refused: not_activated: teleop send drone activate comes first\n"
+            "teleop: drone.control was refused: not_activated: teleop send drone activate comes first\n"
         )
         assert send("activate", url) == 0
         assert capsys.readouterr() == ("drone.activate: ok\n", "")
@@ -56,11 +60,14 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
         assert send("arm", url, "--i-understand") == 0
         assert send("arm", url, "--i-understand") == 0  # which it is
         assert capsys.readouterr().out.endswith("drone.control: obtained\ndrone.arm: ok\ndrone.arm: already\n")
+        assert send("take off", url, "--i-understand") == 1
+        assert "take-off also the motors off" in capsys.readouterr().err
+        assert send("disarm", url, "--i-understand") == 0
         assert send("take off", url, "--i-understand") == 0
         wait_until(lambda: far.cockpit.flight.airborne, "flight")
         assert send("disarm", url, "--i-understand") == 1
         assert send("land", url, "--i-understand", "--json") == 0
-        assert json.loads(capsys.readouterr().out.splitlines()[-1])["fields"] == {"code": "ok"}
+        assert json.loads(capsys.readouterr().out.splitlines()[-1])["fields"] == {"code": "started"}
         assert send("release control", url) == 0
         assert send(MOVE, url, "--i-understand") == 0
         assert capsys.readouterr().out.endswith("drone.move: sent once, it is never acknowledged\n")
@@ -104,7 +111,7 @@ def test_what_is_not_sent_is_said_before_a_port_opens(
 
 def test_whatever_can_make_it_fly_is_a_hazard_and_the_rest_is_not() -> None:
     harmless = {
-        *("drone version", "drone frequency", "drone gimbal speed", "drone gimbal angle"),
+        *("drone version", "drone frequency", "drone gimbal speed", "drone gimbal angle", "drone task result"),
         *("drone photo", "drone start video", "drone stop video", "drone activate", "drone release control"),
     }
     given = {
@@ -136,7 +143,7 @@ def test_a_rig_without_a_drone_says_so(capsys: pytest.CaptureFixture[str]) -> No
 def test_what_is_simulated_is_activated_for_each_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["send", "drone", "frequency", "control=hz_50", "--rig", "sim-drone"]) == 0
     assert run(["send", "drone", "take", "off", "--rig", "sim-drone"]) == 1
-    assert "no_rights" in capsys.readouterr().err
+    assert "failed: a task needs control" in capsys.readouterr().err
 
 
 def test_help_has_what_can_be_sent(capsys: pytest.CaptureFixture[str]) -> None:
@@ -214,6 +221,71 @@ def test_without_an_acknowledgement_it_is_sent_again_byte_for_byte() -> None:
     assert (len(far.heard), len(set(far.heard))) == (3, 1)
     with pytest.raises(DeviceError, match=r"no acknowledgement of drone\.arm within 100 ms: is it on"):
         Exchange(far, "serial:x@1", clock).ask(drone.Arm(ArmOrder.ARM))
+
+
+class FarEnd:
+    """Answers every request with these bytes, and keeps what it understood."""
+
+    def __init__(self, value: bytes, cipher: Cipher | None = None) -> None:
+        self._session, self._value, self._said = OnboardSession(cipher=cipher), value, bytearray()
+        self.heard: list[Frame] = []
+
+    def send(self, data: bytes) -> None:
+        for received in self._session.receive(data, 0.0):
+            self.heard.append(received.frame)
+            self._said += self._session.reply(received.frame, Opaque(b"", self._value))
+
+    def receive(self) -> bytes:
+        said = bytes(self._said)
+        self._said.clear()
+        return said
+
+
+@pytest.mark.parametrize(
+    ("value", "code", "refused"),
+    [
+        ("0200", "started", ""),
+        ("0100", "failed", "failed: a task needs control"),
+        ("0000", 0, "0"),
+        ("0500", 5, "5"),
+        ("02ff", "no_rights", "no_rights: "),
+    ],
+)
+def test_a_task_has_started_only_by_answer_2(value: str, code: object, refused: str) -> None:
+    take_off = drone.Task(TaskKind.TAKE_OFF)
+    record = Exchange(FarEnd(bytes.fromhex(value)), "sim:", VirtualClock()).ask(take_off)
+    assert record["fields"] == {"code": code}
+    assert refusal(take_off, record).startswith(refused)
+    assert bool(refusal(take_off, record)) is bool(refused)
+
+
+def test_a_real_matrice_100_is_shown_as_it_says_it_is() -> None:
+    value = bytes.fromhex("01ff ac3a45a6") + b"041D492163\0" + b"SDK-v1.0 BETA M100-03.01.01.00".ljust(32, b"\0")
+    record = Exchange(FarEnd(value), "sim:", VirtualClock()).ask(drone.Version())
+    assert refusal(drone.Version(), record) == ""
+    assert list(readable("drone.version", record)) == [
+        "drone.version: not_activated",
+        "  checksum  0xA6453AAC",
+        "  id        041D492163",
+        "  version   SDK-v1.0 BETA M100-03.01.01.00",
+    ]
+
+
+def test_an_encrypted_link_is_encrypted_but_for_what_comes_before_activation() -> None:
+    cipher = Cipher(bytes(range(32)))
+    far = FarEnd(b"\2\0", cipher)
+    exchange = Exchange(far, "sim:", VirtualClock(), cipher)
+    exchange.ask(drone.Activate(1))
+    assert exchange.ask(drone.Task(TaskKind.LAND))["fields"] == {"code": "started"}
+    assert exchange.stream(drone.Photo())["message"] == "drone.photo"
+    assert [frame.is_encrypted for frame in far.heard] == [False, True, True]
+
+
+def test_an_encrypted_rig_without_a_key_sends_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = (Path(__file__).parents[2] / "profiles" / "m100.yaml").read_text()
+    (tmp_path / "rig.yaml").write_text(text.replace("{type: virtual-rc,", "{type: virtual-rc, encrypted: true,"))
+    assert run(["send", "drone", "version", "--rig", str(tmp_path / "rig.yaml")]) == 2
+    assert "encrypted: true needs the app's key: in TELEOP_DJI_APP_KEY" in capsys.readouterr().err
 
 
 def test_an_acknowledgement_of_nothing_known_is_a_refusal() -> None:

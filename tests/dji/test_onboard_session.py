@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from teleop.dji import drone, virtual_rc
 from teleop.dji.broadcast import Broadcast
-from teleop.dji.drone_words import ArmOrder, Code, ControlCode, ControlOrder, TaskKind
+from teleop.dji.drone_words import ArmOrder, Code, ControlCode, ControlOrder, TaskCode, TaskKind
 from teleop.dji.encryption import Cipher
 from teleop.dji.frame import Frame, FrameReader
 from teleop.dji.message import FieldError, Message, Opaque
@@ -112,10 +112,10 @@ def test_each_open_request_has_a_session_of_its_own_and_answers_find_them_in_any
     frames = [session.request(message, 0.0)[0] for message in (OBTAIN, TAKE_OFF, drone.Version())]
     assert [frame_of(frame).cmd_type for frame in frames] == [2, 3, 4]
     assert [frame_of(frame).sequence for frame in frames] == [0xFFFF, 0, 1]
-    second = session.receive(answer(frames[1], drone.TaskAck(Code.OK)), 0.01)
+    second = session.receive(answer(frames[1], drone.TaskAck(TaskCode.STARTED)), 0.01)
     first = session.receive(answer(frames[0], OBTAINED), 0.02)
     assert [(each.message, each.request) for each in (*second, *first)] == [
-        (drone.TaskAck(Code.OK), TAKE_OFF),
+        (drone.TaskAck(TaskCode.STARTED), TAKE_OFF),
         (OBTAINED, OBTAIN),
     ]
     assert frame_of(session.request(TAKE_OFF, 0.03)[0]).cmd_type == 2
@@ -221,12 +221,12 @@ def test_with_a_key_everything_is_encrypted_and_answers_are_as_their_commands() 
     assert host.due(0.15) == [asked]
     (command,) = far.receive(asked, 0.0)
     assert command.message == TAKE_OFF
-    acknowledged = far.reply(command.frame, drone.TaskAck(Code.NO_RIGHTS))
+    acknowledged = far.reply(command.frame, drone.TaskAck(TaskCode.NO_RIGHTS))
     assert frame_of(acknowledged).is_encrypted
     (received,) = host.receive(acknowledged, 0.2)
-    assert (received.message, received.request) == (drone.TaskAck(Code.NO_RIGHTS), TAKE_OFF)
+    assert (received.message, received.request) == (drone.TaskAck(TaskCode.NO_RIGHTS), TAKE_OFF)
     plain, _ = OnboardSession().request(TAKE_OFF, 0.0)
-    assert not frame_of(far.reply(frame_of(plain), drone.TaskAck(Code.OK))).is_encrypted
+    assert not frame_of(far.reply(frame_of(plain), drone.TaskAck(TaskCode.STARTED))).is_encrypted
 
 
 def test_without_the_key_what_is_encrypted_is_unknown_and_still_an_answer() -> None:

@@ -301,6 +301,30 @@ def test_it_is_not_engaged_twice_within_two_seconds_however_often_it_is_asked(tm
     assert any("twice within 2 s would lock the drone" in text for text in scene.said)
 
 
+def test_it_is_engaged_at_once_after_the_start_since_the_wait_counts_from_an_enable(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.airborne()
+        scene.engage_at(1.3)
+        scene.quit_at(4)
+        scene.run()
+    assert scene.enables == [pytest.approx(1.3, abs=0.02)]
+    assert not any("wait" in text for text in scene.said)
+
+
+def test_it_is_not_enabled_while_it_is_on_for_another_nor_soon_after(tmp_path: Path) -> None:
+    with sky(tmp_path) as scene:
+        scene.airborne()
+        scene.at(1.0, lambda: scene.drone.cockpit.enable_virtual(back_to_rc=True))  # it lasts for a second
+        scene.engage_at(1.5)
+        scene.engage_at(2.3)
+        scene.engage_at(3.5)
+        scene.quit_at(6)
+        scene.run()
+    assert scene.said[0].startswith("drone: not engaged: virtual RC is on already, for another program")
+    assert scene.said[1].startswith("drone: not engaged: wait 0.8 s: an earlier run or another program enabled")
+    assert scene.enables == [pytest.approx(3.5, abs=0.02)]
+
+
 def test_motors_start_by_gesture_in_standby_and_are_never_cut_in_the_air(tmp_path: Path) -> None:
     with sky(tmp_path) as scene:
         scene.engage_at(READY)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from sky import FLIGHT, VIRTUAL_RC, Sky, sky
 
@@ -53,11 +53,23 @@ STEPS = st.lists(
     ),
     max_size=18,
 )
+SHORT = 0.05  # s
+LOST_RELEASE = [  # the release leaves while nothing reaches the drone, which hears again just before the end
+    *[("engage", SHORT)] * 3,
+    ("deaf", SHORT),
+    ("engage", SHORT),
+    ("disengage", SHORT),
+    *[("engage", SHORT)] * 7,
+    ("engage", 0.5),
+    *[("engage", SHORT)] * 2,
+    ("deaf", SHORT),
+]
 
 
 @pytest.mark.parametrize("sink", [VIRTUAL_RC, FLIGHT], ids=["virtual-rc", "flight"])
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(steps=STEPS)
+@example(steps=LOST_RELEASE)
 def test_nothing_flies_by_accident(sink: str, steps: list[tuple[str, float]]) -> None:
     with tempfile.TemporaryDirectory() as folder, sky(Path(folder), sink) as scene:
         scene.airborne()
@@ -67,9 +79,14 @@ def test_nothing_flies_by_accident(sink: str, steps: list[tuple[str, float]]) ->
             now += seconds
         scene.quit_at(now)
         scene.run(after=3.0)  # and its monitor looks at all that was sent
-        assert scene.sink.state(scene.clock.now()).stage in (Stage.IDLE.value, Stage.LEAVING.value)
+        stage = scene.sink.state(scene.clock.now()).stage
+        assert stage in (Stage.IDLE.value, Stage.LEAVING.value, Stage.UNCONFIRMED.value)
+        if stage == Stage.UNCONFIRMED.value:
+            assert any("take it over with its RC" in reason for reason in scene.ended.reasons), "it is named"
         engages = sum({"engage": 1, "impatient": 2}.get(name, 0) for name, _ in steps)
         assert len(scene.enables) <= engages, "only by an operator's act"
         assert scene.drone.cockpit.pilot in (Pilot.RC, Pilot.ONBOARD), "its pilot has it, or it hovers"
         assert scene.cable.unplugged or scene.cable.deaf or scene.drone.cockpit.pilot is Pilot.RC
+        if scene.said and scene.said[-1].endswith("is given back: the drone confirms"):
+            assert scene.drone.cockpit.pilot is Pilot.RC, "nothing is called confirmed that is not"
         assert not scene.drone.cockpit.flight.crashed

@@ -20,9 +20,9 @@ from teleop.dji.message import Message
 from teleop.dji.onboard_session import OnboardSession
 from teleop.dji.virtual_rc import NEUTRAL, Sticks, VirtualRc
 from teleop.links.pty import PtyLink
-from teleop.sim.cockpit import VIRTUAL_HOLD
 from teleop.sim.controls import Pilot
 from teleop.sim.drone import SimulatedDrone
+from teleop.sim.drone_settings import VIRTUAL_RC_TIMEOUT
 
 AXES = "stick_roll", "stick_pitch", "stick_throttle", "stick_yaw"
 STICKS = "time,stick_roll,stick_pitch,stick_throttle,stick_yaw\n0,0,0,0,0\n0.5,0,0.5,0,0\n40,0,0,0,0\n"
@@ -127,7 +127,7 @@ def test_a_process_that_is_stopped_leaves_the_drone_with_its_pilot(
         _, said = process.communicate(timeout=20)
     assert process.returncode == row.code, said
     assert row.said in said
-    wait_until(lambda: far.pilot is Pilot.RC, "its pilot has it", patience=3)
+    wait_until(lambda: far.pilots[-1][1] is Pilot.RC, "its pilot has it", patience=3)
     time_of_last, last = far.sticks()[-1]
     enables = [at for at, message in far.of(VirtualRc) if getattr(message, "on", False)]
     disables = [at for at, message in far.of(VirtualRc) if not getattr(message, "on", True)]
@@ -139,7 +139,7 @@ def test_a_process_that_is_stopped_leaves_the_drone_with_its_pilot(
         assert [message for _, message in far.sticks()[-6:]] == [NEUTRAL] * 6
     else:
         assert last.pitch == FORWARD, "killed with the stick forward,"
-        assert back - time_of_last == pytest.approx(VIRTUAL_HOLD, abs=0.05), "it goes back by itself"
+        assert back - time_of_last == pytest.approx(VIRTUAL_RC_TIMEOUT, abs=0.05), "it goes back by itself"
 
 
 def test_a_new_run_flies_only_when_it_is_asked_to(
@@ -172,12 +172,13 @@ def test_an_adapter_that_is_unplugged_and_back_flies_nothing(
     assert process.returncode == 1
     assert "the adapter is gone: plug it in, then start again" in said
     assert "the drone goes back to its RC by itself, a second after the last sticks that it heard" in said
-    wait_until(lambda: far.pilot is Pilot.RC, "its pilot has it", patience=3)
+    wait_until(lambda: far.pilots[-1][1] is Pilot.RC, "its pilot has it", patience=3)
     assert len(far.heard) == count
 
 
 def flown(far: FarDrone, folder: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("TELEOP_DJI_APP_ID", "1")
+    monkeypatch.setenv("XDG_STATE_HOME", str(folder))  # where the last enable is noted for the next run
     (folder / "sticks.csv").write_text(STICKS)
     (folder / "rig.yaml").write_text(
         "name: Far\nlinks: {drone: 'sim:'}\naxes:\n"

@@ -22,24 +22,30 @@ from teleop.dji.drone_words import (
     ModeChannel,
     Rate,
     RcMode,
+    TaskCode,
     TaskKind,
 )
 from teleop.dji.frame import encode
 from teleop.dji.movement import Frame, Horizontal, Move, Vertical, Yaw
 from teleop.dji.virtual_rc import Sticks, VirtualRc
 from teleop.sim.controls import Pilot, Switch
+from teleop.sim.drone_settings import DroneSettings
 
 UP = Sticks(throttle=1684)
 CORNERS = Sticks(364, 364, 364, 1684)
 
 
-def test_before_activation_it_tells_its_version_and_refuses_the_rest() -> None:
-    bench = DroneBench()
+@pytest.mark.parametrize("broadcasts", [True, False])
+def test_before_activation_it_takes_rates_and_broadcasts_or_not_and_refuses_the_rest(broadcasts: bool) -> None:
+    """OSDK issue 145: an M100 broadcasts and takes 00 10 before activation."""
+    bench = DroneBench(settings=DroneSettings(broadcasts_before_activation=broadcasts))
     assert bench.ask(drone.Version()).code == Code.NOT_ACTIVATED
     assert bench.ask(drone.Control(ControlOrder.OBTAIN)).code == ControlCode.NOT_ACTIVATED
     bench.tell(VirtualRc(on=True))
+    assert bench.ask(drone.Frequency(control=Rate.HZ_50)).code == (Code.OK if broadcasts else Code.NOT_ACTIVATED)
     bench.run(1)
-    assert bench.heard == []
+    assert bool(bench.heard) == broadcasts
+    assert any(each.control for _, each in bench.heard) == broadcasts
     assert not bench.drone.cockpit.virtual_on
     assert bench.ask(drone.Activate(1)).code == ActivationCode.OK
     assert bench.ask(drone.Version()).code == Code.OK
@@ -120,7 +126,7 @@ def test_control_is_given_in_f_mode_and_taken_by_the_pilot_who_leaves_it() -> No
     bench.drone.turn_switch(bench.now, Switch.P)
     assert bench.ask(drone.Control(ControlOrder.OBTAIN)).code == ControlCode.NOT_IN_F_MODE
     bench.drone.turn_switch(bench.now, Switch.F)
-    assert bench.ask(drone.Control(ControlOrder.OBTAIN)).code == ControlCode.OBTAINED
+    bench.obtain()
     bench.ask(drone.Frequency(control=Rate.HZ_50))
     bench.run(0.05)
     assert bench.last("control").device == ControlDevice.ONBOARD_DEVICE
@@ -133,10 +139,12 @@ def test_control_is_given_in_f_mode_and_taken_by_the_pilot_who_leaves_it() -> No
 def test_motors_obey_whoever_has_control_and_never_stop_in_the_air() -> None:
     bench = DroneBench.activated()
     assert bench.ask(drone.Arm(ArmOrder.ARM)).code == ArmCode.NEED_CONTROL
-    bench.ask(drone.Control(ControlOrder.OBTAIN))
+    bench.obtain()
     assert bench.ask(drone.Arm(ArmOrder.ARM)).code == ArmCode.OK
     assert bench.ask(drone.Arm(ArmOrder.ARM)).code == ArmCode.ALREADY
-    assert bench.ask(drone.Task(TaskKind.TAKE_OFF)).code == Code.OK
+    assert bench.ask(drone.Task(TaskKind.TAKE_OFF)).code == TaskCode.FAILED, "only with the motors off"
+    assert bench.ask(drone.Arm(ArmOrder.DISARM)).code == ArmCode.OK
+    assert bench.ask(drone.Task(TaskKind.TAKE_OFF)).code == TaskCode.STARTED
     bench.run(5)
     assert bench.ask(drone.Arm(ArmOrder.DISARM)).code == ArmCode.IN_THE_AIR
 
@@ -155,7 +163,7 @@ def moves(**changes: Any) -> Move:
 
 def flying() -> DroneBench:
     bench = DroneBench.activated(yaw=90.0)
-    bench.ask(drone.Control(ControlOrder.OBTAIN))
+    bench.obtain()
     bench.ask(drone.Task(TaskKind.TAKE_OFF))
     bench.run(8)
     return bench
@@ -166,7 +174,7 @@ def test_velocities_are_along_the_nose_or_north_and_up_is_positive() -> None:
     bench.hold(moves(x=2.0, z=1.0), 4, rate=50)
     velocity = bench.last("velocity")
     assert (velocity.x, velocity.y) == (pytest.approx(0, abs=0.01), pytest.approx(2, abs=0.01))
-    assert velocity.z == pytest.approx(-1, abs=0.01), "the ground frame's z is down"
+    assert velocity.z == pytest.approx(1, abs=0.01), "the vertical velocity of the broadcast is up"
     bench.hold(moves(x=2.0, frame=Frame.GROUND), 4, rate=50)
     assert bench.last("velocity").x == pytest.approx(2, abs=0.01)
 
@@ -182,7 +190,7 @@ def test_a_heading_and_a_height_are_sought() -> None:
 def test_movement_without_control_or_in_no_listed_mode_is_refused() -> None:
     bench = DroneBench.activated()
     bench.tell(moves())
-    bench.ask(drone.Control(ControlOrder.OBTAIN))
+    bench.obtain()
     refused = bench.drone.counts["refused"]
     assert refused == 1
     bench.send(encode(b"\x01\x03\x6a" + bytes(16), 0, 9))
@@ -191,7 +199,7 @@ def test_movement_without_control_or_in_no_listed_mode_is_refused() -> None:
 
 def test_a_request_that_comes_again_is_acknowledged_again_and_obeyed_once() -> None:
     bench = DroneBench.activated()
-    bench.ask(drone.Control(ControlOrder.OBTAIN))
+    bench.obtain()
     bench.drone.acknowledges = False
     frame, _ = bench.session.request(drone.Arm(ArmOrder.ARM), bench.now)
     bench.send(frame)
@@ -203,10 +211,14 @@ def test_a_request_that_comes_again_is_acknowledged_again_and_obeyed_once() -> N
 
 def test_a_reboot_forgets_the_activation() -> None:
     bench = DroneBench.activated()
+    bench.ask(drone.Frequency(control=Rate.HZ_50))
     bench.drone.reboot(bench.now, 3.0)
     bench.heard.clear()
-    bench.run(5)
+    bench.run(3)
     assert bench.heard == []
+    bench.run(1)
+    assert bench.heard
+    assert not any(each.control for _, each in bench.heard)
     assert bench.ask(drone.Version()).code == Code.NOT_ACTIVATED
 
 

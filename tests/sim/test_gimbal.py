@@ -273,7 +273,9 @@ def test_looking_often_changes_nothing(script: list[tuple[float, Message]], look
 def test_whatever_arrives_is_answered_or_ignored(value: bytes, cmd_type: int, command_set: int, command: int) -> None:
     bench = Bench()
     replies = bench.ask_raw(bytes((command_set, command)) + value, cmd_type)
-    wants = not cmd_type & 0x20 and cmd_type & 0x1F
+    unanswered = command_set == 0x0E and (command == 0x0A or (command == 0x12 and value[:1] == b"\x01"))
+    unanswered |= command_set == 0x0E and command == 0x09 and len(value) >= 8  # the version push
+    wants = not cmd_type & 0x20 and cmd_type & 0x1F and not unanswered
     assert [reply[:2] for reply in replies] == ([bytes((command_set, command))] if wants else [])
     bench.wait(1.0)
     assert all(math.isfinite(angle) for angle in bench.gimbal.angles)

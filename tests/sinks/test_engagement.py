@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 
 import pytest
@@ -17,6 +18,7 @@ from teleop.sinks.engagement import (
     OFF_AFTER,
     TRANSITIONS,
     Engagement,
+    EngagementError,
     Event,
     Order,
     Stage,
@@ -166,11 +168,56 @@ def test_a_pilot_who_takes_it_back_is_told_to_have_it() -> None:
     assert len(drone.of(Order.GIVE_BACK)) == 1
 
 
-def test_the_first_taking_waits_as_long_as_any_other() -> None:
-    said: list[str] = []
-    engagement = Engagement("virtual RC", 0.05, 100.0, said.append)
-    assert "wait 1.5 s" in engagement.refusal(100.5)
+def test_the_wait_counts_from_the_last_enable_and_is_never_said_to_be_nothing() -> None:
+    engagement = Engagement("virtual RC", 0.05, 100.0, lambda _text: None)
+    assert engagement.refusal(100.5).startswith("wait 1.5 s: twice within 2 s")
+    assert engagement.refusal(101.999).startswith("wait 0.1 s"), "not 0.0"
     assert engagement.refusal(102.0) == ""
+
+
+def test_without_an_enable_or_a_gap_there_is_no_wait() -> None:
+    assert Engagement("virtual RC", 0.05, -math.inf, print).refusal(0.0) == ""
+    assert Engagement("control", 0.02, 5.0, print, gap=0.0).refusal(5.0) == ""
+
+
+def test_a_drone_that_must_not_be_taken_is_not_taken_even_by_a_defect() -> None:
+    drone = Drone()
+    drone.engage()
+    with pytest.raises(EngagementError, match="it is engaged"):
+        drone.engagement.engage(drone.now)
+
+
+def test_what_can_be_given_back_again_stays_unconfirmed_until_the_drone_says_otherwise() -> None:
+    drone = Drone()
+    drone.engagement = Engagement("control", 0.02, -math.inf, drone.said.append, gap=0.0, repeats=True)
+    drone.engage()
+    drone.run(2)
+    drone.lag = 1e9
+    drone.engagement.leave(drone.now, "bye", asked=True)
+    drone.run(60)
+    assert drone.stage is Stage.UNCONFIRMED
+    assert drone.engagement.unreturned.endswith("take it over with its RC")
+    assert drone.engagement.refusal(drone.now) == "", "it can be taken again"
+    drone.changes.append((drone.now, False))
+    drone.run(0.1)
+    assert drone.stage is Stage.IDLE
+    assert drone.said[-1] == "control is given back: the drone confirms"
+    assert drone.engagement.unreturned == ""
+
+
+def test_a_confirmation_that_is_contradicted_long_after_leads_to_another_giving_back() -> None:
+    drone = Drone()
+    drone.engage()
+    drone.run(2)
+    drone.engagement.leave(drone.now, "bye", asked=True)
+    drone.run(1)
+    assert drone.stage is Stage.IDLE
+    drone.engagement.contradicted(drone.now)
+    assert drone.stage is Stage.IDLE, "an older broadcast may still be under way"
+    drone.run(3)
+    drone.engagement.contradicted(drone.now)
+    drone.run(1)
+    assert len(drone.of(Order.GIVE_BACK)) == 2
 
 
 STEPS = st.lists(

@@ -6,6 +6,7 @@ from typing import Any, Self
 
 from teleop.dji import drone
 from teleop.dji.broadcast import Broadcast
+from teleop.dji.drone_words import ControlCode, ControlOrder
 from teleop.dji.message import Message
 from teleop.dji.onboard_session import OnboardSession
 from teleop.dji.session import Received
@@ -44,6 +45,11 @@ class DroneBench:
         self.send(self.session.request(message, self.now)[0])
         [answer] = [each.message for each in self.received if each.request is message]
         return answer
+
+    def obtain(self) -> None:
+        """Control, which has to be asked for twice."""
+        codes = [self.ask(drone.Control(ControlOrder.OBTAIN)).code for _ in range(2)]
+        assert codes == [ControlCode.OBTAINING, ControlCode.OBTAINED]
 
     def run(self, seconds: float) -> None:
         end = self.now + seconds

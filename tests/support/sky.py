@@ -51,6 +51,8 @@ class Cable:
     def __init__(self, link: Link, now: Callable[[], float]) -> None:
         self._link, self._now = link, now
         self.unplugged = self.deaf = self.mute = False
+        self.late = 0.0  # s by which everything that comes from the drone is delayed
+        self._delayed: list[tuple[float, bytes]] = []
         self.damage: Callable[[bytes], bytes] = lambda data: data
         self.wire: list[tuple[float, Message]] = []
         self._session = OnboardSession()
@@ -64,7 +66,11 @@ class Cable:
     def receive(self) -> bytes:
         self._check()
         data = self._link.receive()
-        return b"" if self.mute else data
+        if not self.mute and data:
+            self._delayed.append((self._now() + self.late, data))
+        arrived = [data for time, data in self._delayed if time <= self._now() + 1e-9]
+        del self._delayed[: len(arrived)]
+        return b"".join(arrived)
 
     def _check(self) -> None:
         if self.unplugged:
@@ -79,6 +85,7 @@ class Sky:
         self.begin = clock.now()
         self.pad, self.keys = FakeInput("pad"), FakeInput("keys")
         self.said: list[str] = []
+        self.times: list[tuple[float, str]] = []  # the same, with s after the start
         self.held: list[tuple[float, Mapping[Axis, float]]] = []  # what hands that are there held, by time
         self.pilots: list[tuple[float, Pilot]] = []
         self.ended: Supervisor
@@ -132,6 +139,7 @@ class Sky:
     def hear(self, text: str) -> None:
         """What the drone has said to the operator."""
         self.said.append(text)
+        self.times.append((self.clock.now() - self.begin, text))
         self.operator.say(text)
 
     def _pass(self, now: float) -> None:

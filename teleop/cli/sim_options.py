@@ -1,0 +1,159 @@
+"""The options of `teleop sim`: how the simulated devices differ from the documents."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Group, Parameter
+
+from teleop.cli.drone_options import cipher_of
+from teleop.dji.encryption import Cipher
+from teleop.ports import UsageError
+from teleop.sim.drone import SimulatedDrone
+from teleop.sim.drone_settings import MOVEMENT_TIMEOUT, VIRTUAL_RC_TIMEOUT, DroneSettings
+from teleop.sim.firmware import Firmware
+from teleop.sim.gimbal import PUSH_RATE, SimulatedGimbal
+
+DRONE = Group("Drone", sort_key=1)
+GIMBAL = Group("Gimbal", sort_key=2)
+_AXES = "yaw", "roll", "pitch"
+_SIGNS = {"1": 1, "+1": 1, "-1": -1}
+
+
+def flag(group: Group, about: str) -> Parameter:
+    return Parameter(group=group, help=about, negative=(), show_default=False)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class DroneSim:
+    """How the simulated drones behave; without options, as far as it is known of a Matrice 100."""
+
+    drone: Annotated[bool, flag(DRONE, "Simulate a drone too, on a serial port that is made for it.")] = False
+    key_file: Annotated[
+        Path | None,
+        Parameter(
+            group=DRONE,
+            help="File with the app's key, 64 hexadecimal digits: after activation everything is encrypted.",
+            show_default=False,
+        ),
+    ] = None
+    answer_delay: Annotated[float, Parameter(group=DRONE, help="Seconds by which acknowledgements come late.")] = 0.0
+    immediate_control: Annotated[
+        bool, flag(DRONE, "Confirm obtain and release at once; a real drone answers 3 or 4 first.")
+    ] = False
+    silent_until_activated: Annotated[
+        bool, flag(DRONE, "Neither broadcast nor take push frequencies before activation.")
+    ] = False
+    virtual_rc_timeout: Annotated[
+        float, Parameter(group=DRONE, help="Seconds without sticks after which virtual RC ends.")
+    ] = VIRTUAL_RC_TIMEOUT
+    movement_timeout: Annotated[
+        float, Parameter(group=DRONE, help="Seconds for which a movement command is obeyed.")
+    ] = MOVEMENT_TIMEOUT
+    mirror_rc: Annotated[
+        bool, flag(DRONE, "Broadcast the virtual RC's channels as the RC's while virtual RC is on.")
+    ] = False
+
+    def made(self, now: float) -> SimulatedDrone:
+        """A drone with these settings. Raises UsageError."""
+        for name in ("answer_delay", "virtual_rc_timeout", "movement_timeout"):
+            if not 0 <= getattr(self, name) < 60:
+                raise UsageError(f"--{name.replace('_', '-')} must be 0..60 s, not {getattr(self, name):g}")
+        settings = DroneSettings(
+            not self.immediate_control,
+            not self.silent_until_activated,
+            self.answer_delay,
+            self.virtual_rc_timeout,
+            self.movement_timeout,
+        )
+        return SimulatedDrone(now=now, mirrors=self.mirror_rc, cipher=self._cipher(), settings=settings)
+
+    def _cipher(self) -> Cipher | None:
+        make = cipher_of(self.key_file) if self.key_file else None
+        return make() if make else None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class GimbalSim:
+    """How the simulated gimbals behave; without options, as the R SDK document V2.5 says."""
+
+    speed_signs: Annotated[
+        str,
+        Parameter(
+            group=GIMBAL,
+            help="Axes whose speed has another sign than their angle: yaw=-1 or yaw=-1,roll=-1.",
+            show_default=False,
+        ),
+    ] = ""
+    report_signs: Annotated[
+        str,
+        Parameter(group=GIMBAL, help="The same for the angles that it reports.", show_default=False),
+    ] = ""
+    legacy_replies: Annotated[
+        bool, flag(GIMBAL, "Reply without set and id, to 0x02 without the type byte too, as old firmware does.")
+    ] = False
+    legacy_order: Annotated[
+        Literal["yaw-roll-pitch", "yaw-pitch-roll"],
+        Parameter(group=GIMBAL, help="The order of the angles in a legacy reply."),
+    ] = "yaw-roll-pitch"
+    push_rate: Annotated[float, Parameter(group=GIMBAL, help="Pushes a second, once they are on.")] = PUSH_RATE
+    push_reply_bit: Annotated[bool, flag(GIMBAL, "Push with the reply bit set.")] = False
+    short_push: Annotated[bool, flag(GIMBAL, "Push 25 bytes: flags, yaw, roll, pitch.")] = False
+    ignore_speed: Annotated[
+        bool, flag(GIMBAL, "Answer speed commands and do nothing, as some RS 3 Pro and RS 4 Pro firmware does.")
+    ] = False
+    focus_motor: Annotated[
+        Literal["calibrated", "uncalibrated", "absent"], Parameter(group=GIMBAL, help="The focus motor.")
+    ] = "calibrated"
+    ignore_zero_focus: Annotated[bool, flag(GIMBAL, "Let the focus motor ignore position 0.")] = False
+    roll_error: Annotated[
+        float, Parameter(group=GIMBAL, help="Degrees from level at which roll is left after speed control.")
+    ] = 0.0
+    pitch_max: Annotated[int, Parameter(group=GIMBAL, help="The upper limit of pitch to report; an RS 5: 155.")] = 145
+    reaction: Annotated[float, Parameter(group=GIMBAL, help="Seconds from a command to the motion.")] = 0.0
+    foreign_traffic: Annotated[
+        bool, flag(GIMBAL, "Send on ids 0x530, 0x531 and 0x426 400 times a second, as gimbals do.")
+    ] = False
+
+    def made(self) -> SimulatedGimbal:
+        """A gimbal with this firmware. Raises UsageError."""
+        if not 0 < self.push_rate <= 100:
+            raise UsageError(f"--push-rate must be above 0 and at most 100 Hz, not {self.push_rate:g}")
+        if not 0 <= self.reaction < 60:
+            raise UsageError(f"--reaction must be 0..60 s, not {self.reaction:g}")
+        if not -30 <= self.roll_error <= 30:
+            raise UsageError(f"--roll-error must be -30..30 deg, not {self.roll_error:g}")
+        if not 0 < self.pitch_max < 180:
+            raise UsageError(f"--pitch-max must be 1..179 deg, not {self.pitch_max}")
+        firmware = Firmware(
+            _signs("--speed-signs", self.speed_signs),
+            _signs("--report-signs", self.report_signs),
+            self.legacy_replies,
+            self.legacy_order,
+            self.push_reply_bit,
+            self.short_push,
+            self.ignore_speed,
+            self.focus_motor,
+            self.ignore_zero_focus,
+            self.roll_error,
+            self.pitch_max,
+        )
+        return SimulatedGimbal(push_rate=self.push_rate, reaction=self.reaction, firmware=firmware)
+
+
+def _signs(option: str, text: str) -> tuple[int, int, int]:
+    """Of yaw, roll and pitch. Raises UsageError."""
+    signs = dict.fromkeys(_AXES, 1)
+    for part in filter(None, text.replace(" ", "").split(",")):
+        axis, _, sign = part.partition("=")
+        if axis not in signs or sign not in _SIGNS:
+            raise UsageError(f"{option} {text}: write yaw, roll or pitch with 1 or -1, as in yaw=-1,roll=1")
+        signs[axis] = _SIGNS[sign]
+    return signs["yaw"], signs["roll"], signs["pitch"]
+
+
+DRONE_DEFAULTS, GIMBAL_DEFAULTS = DroneSim(), GimbalSim()

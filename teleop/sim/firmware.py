@@ -1,0 +1,42 @@
+"""How real gimbals differ from one another: the settings of a simulated one. Sources: docs/protocol-facts.md."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Order = Literal["yaw-roll-pitch", "yaw-pitch-roll"]
+FocusMotorState = Literal["calibrated", "uncalibrated", "absent"]
+
+
+@dataclass(frozen=True)
+class Firmware:
+    """The defaults are those of V2.5.
+
+    - `speed_signs`: of yaw, roll and pitch in speed commands (0x01, 0x0A) against teleop.motion, 1 or -1; None for the
+      signs of the angles. Some gimbals have other ones: one driver negates roll in 0x01 alone. `report_signs` likewise
+      of the angles that it reports and pushes.
+    - `legacy_replies`: replies without set and id, that of 0x02 without the type byte too, its angles in `legacy_order`
+      (yaw, roll, pitch by two sources; yaw, pitch, roll by one).
+    - `push_reply_bit`: pushes have CmdType 0x20. `short_push`: a push of 25 bytes (flags, yaw, roll, pitch).
+    - `ignores_speed`: 0x01 is answered and does nothing, as some RS 3 Pro and RS 4 Pro firmware does.
+    - `focus_motor`: one that is not calibrated ignores positions; without one, it is answered that that failed.
+      `ignores_zero_focus`: position 0 does nothing, as with some motors.
+    - `roll_error`: how far from level (deg) the roll is left when speed control is given back, until a position comes.
+    - `pitch_max`: the upper limit of pitch (deg) that it reports; an RS 5 reports 155, beyond the document's 145.
+    """
+
+    speed_signs: tuple[int, int, int] | None = None
+    report_signs: tuple[int, int, int] | None = None
+    legacy_replies: bool = False
+    legacy_order: Order = "yaw-roll-pitch"
+    push_reply_bit: bool = False
+    short_push: bool = False
+    ignores_speed: bool = False
+    focus_motor: FocusMotorState = "calibrated"
+    ignores_zero_focus: bool = False
+    roll_error: float = 0.0
+    pitch_max: int = 145
+
+
+DOCUMENTED = Firmware()

@@ -1,0 +1,222 @@
+"""Control that is obtained and released over lines that lose, delay and deafen: nothing is called confirmed unanswered.
+
+Released means: answered by 1, or another control device in the broadcast (osdk-facts.md, Corrections). Until then the
+order is repeated, and at the end of a run the drone is named as one that has not confirmed it.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from sky import FLIGHT, READY, Sky, sky
+
+from teleop.dji import drone
+from teleop.dji.drone_words import ControlOrder
+from teleop.dji.movement import Move
+from teleop.sim.controls import Pilot
+from teleop.sim.drone_settings import DroneSettings
+from teleop.sinks.authority import AGAIN
+from teleop.sinks.drone import RELEASE_FOR
+from teleop.sinks.engagement import Stage
+from teleop.sources.inputs import Command
+from teleop.supervisor import Result
+
+CONFIRMED = "drone: control is given back: the drone confirms"
+SILENT = "drone: control was given back, but the drone says that it still has it: take it over with its RC"
+UNHEARD = "drone: control was given back, but the drone says nothing: take it over with its RC"
+
+
+def orders(scene: Sky, order: ControlOrder) -> list[float]:
+    return [time for time, message in scene.of(drone.Control) if message.order == order]
+
+
+def deafen(scene: Sky, begin: float, end: float = 1e9) -> None:
+    scene.at(begin, lambda: setattr(scene.cable, "deaf", True))
+    if end < 1e9:
+        scene.at(end, lambda: setattr(scene.cable, "deaf", False))
+
+
+def disengage_at(scene: Sky, seconds: float) -> None:
+    scene.at(seconds, lambda: scene.keys.press(Command.DISENGAGE))
+
+
+def test_a_release_that_a_deaf_line_has_lost_is_sent_until_the_drone_confirms_it(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.engage_at(READY)
+        deafen(scene, READY + 2, READY + 6)
+        disengage_at(scene, READY + 3)
+        scene.at(READY + 5.9, lambda: pilots.append(scene.drone.cockpit.pilot))
+        scene.at(READY + 5.9, lambda: said.extend(scene.said))
+        pilots: list[Pilot] = []
+        said: list[str] = []
+        scene.quit_at(READY + 12)
+        scene.run()
+    assert pilots == [Pilot.ONBOARD], "it still obeys,"
+    assert CONFIRMED not in said, "and nobody says otherwise"
+    assert SILENT in said
+    assert scene.said[-1] == CONFIRMED
+    assert scene.drone.cockpit.pilot is Pilot.RC
+    assert scene.ended.result is Result.DONE
+    releases = orders(scene, ControlOrder.RELEASE)
+    assert all(later - earlier >= AGAIN - 1e-6 for earlier, later in pairwise(releases)), "each after a pause"
+    assert releases[-1] < READY + 9, "and none once it is confirmed"
+
+
+@pytest.mark.parametrize("seconds", [1.0, 2.5])
+def test_one_second_of_deafness_over_a_disengagement_ends_with_the_pilot(seconds: float, tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.engage_at(READY)
+        deafen(scene, READY + 1, READY + 1.1 + seconds)
+        disengage_at(scene, READY + 1.1)
+        scene.quit_at(READY + 10)
+        scene.run()
+    assert scene.drone.cockpit.pilot is Pilot.RC
+    assert not scene.drone.cockpit.obtained
+    assert scene.said[-1] == CONFIRMED
+
+
+def test_a_drone_that_is_deaf_to_the_end_is_named_as_one_that_has_not_confirmed(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.engage_at(READY)
+        deafen(scene, READY + 2)
+        scene.quit_at(READY + 3)
+        scene.run()
+    assert scene.ended.result is Result.FAILED
+    assert SILENT.replace("drone:", "drone: unconfirmed:") in scene.ended.reasons
+    assert CONFIRMED not in scene.said
+    last = orders(scene, ControlOrder.RELEASE)[-1]
+    assert RELEASE_FOR - 1.5 < last - READY - 3 < RELEASE_FOR + 0.5, "it is repeated for a bounded time"
+    assert scene.drone.cockpit.pilot is Pilot.ONBOARD
+
+
+def test_a_release_that_is_never_answered_is_confirmed_by_the_broadcast(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.engage_at(READY)
+        scene.at(READY + 2, lambda: setattr(scene.drone, "acknowledges", False))
+        disengage_at(scene, READY + 2.5)
+        scene.quit_at(READY + 8)
+        scene.run()
+    assert scene.said[-1] == CONFIRMED
+    assert scene.drone.cockpit.pilot is Pilot.RC
+    assert scene.ended.result is Result.DONE
+
+
+def test_a_release_without_answer_and_without_broadcast_is_not_confirmed(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.engage_at(READY)
+        scene.at(READY + 2, lambda: setattr(scene.drone, "acknowledges", False))
+        scene.at(READY + 2, lambda: scene.drone.hide("control"))
+        disengage_at(scene, READY + 2.5)
+        scene.quit_at(READY + 8)
+        scene.run()
+    assert UNHEARD in scene.said
+    assert CONFIRMED not in scene.said
+    assert scene.ended.result is Result.FAILED
+    assert UNHEARD.replace("drone:", "drone: unconfirmed:") in scene.ended.reasons
+
+
+def test_an_answer_alone_confirms_where_the_broadcast_does_not_say_who_has_control(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.drone.hide("control")
+        scene.engage_at(READY)
+        disengage_at(scene, READY + 2)
+        scene.quit_at(READY + 6)
+        scene.run()
+    assert scene.said[0] == "drone: engaged: the drone confirms control"
+    assert scene.said[-1] == CONFIRMED
+    assert scene.drone.cockpit.pilot is Pilot.RC
+
+
+def test_control_whose_answers_are_lost_is_confirmed_by_the_broadcast(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.at(READY - 0.5, lambda: setattr(scene.drone, "acknowledges", False))
+        scene.engage_at(READY)
+        scene.quit_at(READY + 6)
+        scene.run()
+    assert "drone: engaged: the drone confirms control" in scene.said
+    assert scene.of(Move), "and it is flown"
+
+
+@pytest.mark.parametrize("late", [0.05, 0.3, 0.7, 0.95])
+@pytest.mark.parametrize("settings", [DroneSettings(), DroneSettings(asks_twice=False)], ids=["twice", "once"])
+def test_late_answers_are_waited_for(late: float, settings: DroneSettings, tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.drone.settings = settings
+        scene.airborne()
+        scene.at(READY - 0.3, lambda: setattr(scene.cable, "late", late))
+        scene.engage_at(READY)
+        disengage_at(scene, READY + 5)
+        scene.quit_at(READY + 15)
+        scene.run()
+    assert "drone: engaged: the drone confirms control" in scene.said, scene.said
+    assert scene.said[-1] == CONFIRMED
+    assert scene.drone.cockpit.pilot is Pilot.RC
+    assert scene.ended.result is Result.DONE
+
+
+def test_a_new_engagement_ends_the_repetition_and_an_old_answer_is_none_of_it(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.engage_at(READY)
+        deafen(scene, READY + 1, READY + 5.5)
+        disengage_at(scene, READY + 1.5)
+        scene.engage_at(READY + 5)
+        scene.quit_at(READY + 9)
+        scene.run()
+    releases = orders(scene, ControlOrder.RELEASE)
+    assert not [time for time in releases if READY + 5.01 < time < READY + 8.99]
+    assert scene.pilot(READY + 8.9) is Pilot.ONBOARD
+    assert scene.said.count("drone: engaged: the drone confirms control") == 2
+    assert scene.said[-1] == CONFIRMED
+
+
+def test_a_drone_that_has_control_again_by_an_old_request_is_given_back_again(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        scene.engage_at(READY)
+        disengage_at(scene, READY + 2)
+        scene.at(READY + 6, lambda: scene.drone.cockpit.obtain())
+        scene.quit_at(READY + 10)
+        scene.run()
+    assert "drone: the drone says again that control is on: giving it back" in scene.said
+    assert scene.drone.cockpit.pilot is Pilot.RC
+    assert scene.said[-1] == CONFIRMED
+
+
+def test_it_is_engaged_again_at_once_since_movement_locks_nothing(tmp_path: Path) -> None:
+    with sky(tmp_path, FLIGHT) as scene:
+        scene.airborne()
+        for second in range(4):
+            scene.engage_at(1.3 + second)
+            disengage_at(scene, 1.7 + second)
+        scene.quit_at(6)
+        scene.run()
+    assert scene.said.count("drone: engaged: the drone confirms control") == 4
+    assert not [text for text in scene.said if "wait" in text]
+
+
+def test_control_is_flown_and_given_back_over_an_encrypted_link(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TELEOP_DJI_APP_KEY", "5a" * 32)
+    with sky(tmp_path, FLIGHT.replace("link", "encrypted: true, link")) as scene:
+        scene.airborne()
+        scene.engage_at(READY)
+        scene.hold_at(READY + 1, stick_pitch=0.5)
+        scene.tell_at(READY + 4, "land")
+        disengage_at(scene, READY + 8)
+        scene.quit_at(READY + 11)
+        scene.run()
+    assert "drone: land: started" in scene.said
+    assert scene.said[-1] == CONFIRMED
+    assert scene.drone.cockpit.pose.north > 3
+    assert scene.sink.state(scene.clock.now()).stage == Stage.IDLE.value
