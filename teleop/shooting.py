@@ -175,6 +175,11 @@ class Shooting:
         if self._loop is not None:
             self._loop.interrupt(reason)
 
+    def release_at_once(self) -> None:
+        """One attempt to release every device; safe to call from another thread."""
+        if self._loop is not None:
+            self._loop.release_at_once()
+
     def _rests(self, seconds: float) -> bool:
         """Wait, but not past a signal; whether there was none."""
         end = self._clock.now() + seconds

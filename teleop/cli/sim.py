@@ -9,8 +9,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.perform import signals_to
 from teleop.clock import SystemClock
 from teleop.document import DocumentError
 from teleop.links import ClosableLink, open_link, parse
