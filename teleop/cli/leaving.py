@@ -22,6 +22,7 @@ from teleop.ports import LeaveAtOnce
 STOPPING = ("SIGINT", "SIGTERM")
 LEAVING = ("SIGHUP", "SIGQUIT")  # these stop it too, unless they were ignored when the program started: nohup
 PRESSES = 3  # of STOPPING, until it leaves
+SOON = 0.05  # s in which the main thread's handler has been called, unless it hangs
 GRACE = 0.6  # s for the main thread to release every device
 AT_MOST = 2.0  # s from the third signal to the end of the process, whatever hangs
 CODE = 130
@@ -103,12 +104,13 @@ class _Desk:
                 if hint := _HINTS.get(self._counted):
                     self._say(f"stopping; press Ctrl-C {hint} more to leave at once")
             if self._counted >= PRESSES:
-                self._leave()
+                self._leave(numbers[-1])
                 return
 
-    def _leave(self) -> None:
-        if not self.leaving and hasattr(signal, "pthread_kill"):
-            signal.pthread_kill(self._main, signal.SIGINT)  # its handler has seen fewer: they came together
+    def _leave(self, number: int) -> None:
+        released = self._out.wait(SOON)
+        if not released and not self.leaving and hasattr(signal, "pthread_kill"):
+            signal.pthread_kill(self._main, number)  # several that came together were one call of its handler
         released = self._out.wait(GRACE)
         if not self._owned:
             return
@@ -129,14 +131,14 @@ class _Process:
         self._terminal: tuple[int, list] | None = None
 
     def own(self) -> None:
-        """What hangs may be ended, and a hang-up after a run is ignored.
+        """What hangs may be ended; and after a run, when only its report is left, a late signal is no death.
 
-        What is left to do then is a report, and a hang-up may come late or twice.
+        A hang-up, which may come late or twice, is then ignored, and SIGTERM is a Ctrl-C.
         """
         self.owned = True
-        for number in _known(LEAVING):
+        for number in _known((*LEAVING, "SIGTERM")):
             if signal.getsignal(number) == signal.SIG_DFL:
-                signal.signal(number, self._hung_up)
+                signal.signal(number, self._outside)
         with contextlib.suppress(ImportError, OSError, ValueError, AttributeError):
             import termios
 
@@ -158,10 +160,13 @@ class _Process:
                     os.write(2, _SHOWN_AGAIN)
         os._exit(CODE)
 
-    def _hung_up(self, number: int, _frame: FrameType | None) -> None:
+    def _outside(self, number: int, _frame: FrameType | None) -> None:
+        """Before a run a signal does what it does anywhere."""
         if not self._ran:
             signal.signal(number, signal.SIG_DFL)
             os.kill(os.getpid(), number)
+        elif number == signal.SIGTERM:
+            raise KeyboardInterrupt
 
 
 process = _Process()
