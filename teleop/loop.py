@@ -32,6 +32,7 @@ from teleop.whereabouts import PATIENCE, Whereabouts
 RATE = 100  # Hz
 PERIOD = 1 / RATE  # s
 LEAD = 0.002  # s before its moment a tick is prepared, so that commands leave evenly however long they took to make
+ON_GRID = 1e-3  # of a tick: so near is on it; floats are off by a hundredth of that after thirty years of uptime
 KEEP_ALIVE = 0.4  # s: the longest a resting loop sleeps; a gimbal forgets a speed after 0.5 s
 STALL = 0.25  # s: a tick later than this was not lateness but a stall; the gimbal has long stopped following
 FIRST_REPORT = 2.0  # s to wait for the first report of every axis in use
@@ -150,11 +151,11 @@ class Loop:
         running = self.supervisor.state is Run.RUNNING
         if self._resting and running:
             wake = min(self._wake, self._time(self._ticks) + self._keep_alive)
-            due = max(due, math.ceil((wake - self._origin) * RATE - 1e-6))
+            due = max(due, math.ceil((wake - self._origin) * RATE - ON_GRID))
         early = self._time(due) - LEAD
         self._clock.sleep_until(early)
         late = self._clock.now() - early
-        elapsed = due - self._ticks + max(0, math.floor(late * RATE + 1e-6))
+        elapsed = due - self._ticks + max(0, math.floor(late * RATE + ON_GRID))
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (Run.RUNNING, Run.STOPPING):
             self._fault(StallError(f"the computer stalled for {late:.2f} s"))
@@ -164,7 +165,7 @@ class Loop:
         return self._time(self._ticks), 1 if self._resting else elapsed
 
     def _time(self, ticks: int) -> float:
-        return self._origin + ticks * PERIOD
+        return self._origin + ticks / RATE
 
     def _wait(self, now: float, _steps: int) -> None:
         self._report(now)
