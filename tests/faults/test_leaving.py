@@ -14,15 +14,20 @@ import pytest
 from far_gimbal import FarGimbal, far_gimbal
 from network import own_network
 from scene import Scene, scene
+from sky import FLIGHT, READY, VIRTUAL_RC, sky
 from waiting import wait_until
 
 from teleop.cli.leaving import AT_MOST, PRESSES, signals_to
 from teleop.dji import gimbal
+from teleop.dji.virtual_rc import NEUTRAL, Sticks
 from teleop.loop import AT_ONCE
 from teleop.motion import Cruise
 from teleop.ports import LeaveAtOnce
+from teleop.sim.controls import Pilot
+from teleop.sinks.engagement import LAST_NEUTRALS
 from teleop.supervisor import Run
 
+BREAKS = 8.0  # s after the start
 MODES = ("position", "speed", "stick")
 URL = "udp_multicast:239.74.163.3"
 PROFILES = Path(__file__).parents[2] / "profiles"
@@ -90,6 +95,44 @@ def test_two_signals_only_ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
         stage.assert_no_jump()
         stage.assert_given_back()
         assert stage.ended.reasons == ["SIGTERM received"]
+
+
+@pytest.mark.parametrize("held", [VIRTUAL_RC, FLIGHT], ids=["virtual RC", "movement"])
+@pytest.mark.parametrize("hung", [True, False])
+def test_the_third_signal_leaves_a_drone_neutral_and_released(hung: bool, held: str, tmp_path: Path) -> None:
+    with sky(tmp_path, held) as air:
+        air.airborne()
+        air.engage_at(READY)
+        air.hold_at(READY + 1, stick_pitch=0.5)
+        for press in range(PRESSES):
+            air.at(BREAKS + press * 0.02, lambda: signal.raise_signal(signal.SIGINT))
+        if hung:
+            air.at(BREAKS - 0.001, lambda: setattr(air.operator, "write", hangs_with(air.clock.sleep_until)))
+
+        def run() -> None:
+            with signals_to(lambda reason: air.loop.interrupt(reason), lambda: air.loop.release_at_once()):
+                air.run()
+
+        with pytest.raises(LeaveAtOnce):
+            run()
+        left = air.clock.now() - air.begin
+        assert left <= BREAKS + PRESSES * 0.02 + AT_ONCE + 0.05
+        air.clock.sleep_until(air.clock.now() + 2)
+        air.check()
+        assert air.pilot(left + 2) is Pilot.RC
+        if held == VIRTUAL_RC:
+            assert [message for _, message in air.of(Sticks)][-LAST_NEUTRALS:] == [NEUTRAL] * LAST_NEUTRALS
+            assert len(air.disables) == 1
+
+
+def hangs_with(sleep_until):
+    """A call that lets time pass and does not come back by itself."""
+
+    def call(tick) -> None:
+        for step in range(10_000):
+            sleep_until(tick.time + step / 100)
+
+    return call
 
 
 # A gimbal that never comes to rest, a sink that hangs in Python, one that hangs where no handler can run, and a
