@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from fake_hid import FakeBackend, FakeDevice, real
+from fake_hid import BrokenDevice, FakeBackend, FakeDevice, real
 
 from teleop.sources import hid_reader
 from teleop.sources.hid_input import HidInput
@@ -12,23 +12,6 @@ from teleop.sources.inputs_section import InputSection
 
 F310 = bytes.fromhex(real("Logitech F310")["descriptor"])
 MINUTE = 60.0
-
-
-class BrokenDevice(FakeDevice):
-    """Opens, and fails at read number `good`, counted from 0, as a hub with a loose contact does."""
-
-    good = 0
-
-    def __init__(self, **options) -> None:
-        super().__init__(F310, **options)
-        self._reads = 0
-
-    def read(self, timeout: float) -> bytes:
-        self._reads += 1
-        if self._reads > self.good:
-            self._reads = 0
-            raise OSError(5, "Input/output error")
-        return b""
 
 
 class VirtualPause:
@@ -63,7 +46,7 @@ def minute(monkeypatch: pytest.MonkeyPatch, *devices: FakeDevice) -> tuple[HidRe
 
 
 def test_a_device_that_cannot_be_read_is_opened_a_few_times_a_minute(monkeypatch: pytest.MonkeyPatch) -> None:
-    device = BrokenDevice()
+    device = BrokenDevice(F310)
     reader, pause = minute(monkeypatch, device)
     assert 3 <= device.opened <= MINUTE / LOOK_EVERY / LOOKS_APART + 4
     assert device.closed == device.opened
@@ -79,7 +62,7 @@ def test_a_device_that_cannot_be_read_is_opened_a_few_times_a_minute(monkeypatch
 def test_a_device_that_fails_after_some_reads_is_opened_once_a_second(
     good: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    device = BrokenDevice()
+    device = BrokenDevice(F310)
     device.good = good
     minute(monkeypatch, device)
     assert device.opened <= MINUTE / LOOK_EVERY
@@ -106,7 +89,7 @@ def test_whatever_fails_for_ever_there_is_a_pause_between_two_tries(call: str, m
 
 
 def test_another_device_is_read_in_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
-    broken = BrokenDevice()
+    broken = BrokenDevice(F310)
     sound = FakeDevice(F310, path=b"/dev/hidraw1")
     taken: list[str] = []
     monkeypatch.setattr(
