@@ -53,6 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         code = run(sys.argv[1:] if arguments is None else arguments)
     finally:
         process.owned = False
+    process.finish(code)
     sys.exit(code)
 
 

@@ -8,6 +8,7 @@ that is ours (`owned`) the thread then ends the process, whatever still hangs; e
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import os
 import select
@@ -135,6 +136,8 @@ class _Process:
 
         A hang-up, which may come late or twice, is then ignored, and SIGTERM is a Ctrl-C.
         """
+        if threading.current_thread() is not threading.main_thread():
+            return
         self.owned = True
         for number in _known((*LEAVING, "SIGTERM")):
             if signal.getsignal(number) == signal.SIG_DFL:
@@ -148,6 +151,16 @@ class _Process:
 
     def run_ends(self) -> None:
         self._ran = self.owned
+
+    def finish(self, code: int) -> None:
+        """All is done, and `code` is the exit code: a late Ctrl-C does not change that, and ends what hangs."""
+        with contextlib.suppress(OSError, ValueError):
+            sys.stdout.flush()
+        if threading.current_thread() is not threading.main_thread():
+            return  # no handlers can be set here
+        for number in _known(STOPPING):
+            signal.signal(number, lambda *_: os._exit(code))
+        atexit.register(_ignore)
 
     def end(self) -> None:
         """Leave without waiting for anything, the terminal as it was found."""
@@ -167,6 +180,11 @@ class _Process:
             os.kill(os.getpid(), number)
         elif number == signal.SIGTERM:
             raise KeyboardInterrupt
+
+
+def _ignore() -> None:
+    for number in _known(STOPPING):
+        signal.signal(number, signal.SIG_IGN)
 
 
 process = _Process()

@@ -220,3 +220,20 @@ def test_three_signals_end_a_process_that_hangs(
     assert [each.yaw for each in last] == [0, 0, 0, 0]
     assert not last[-1].take_over
     assert time.monotonic() - pressed < AT_MOST + 10, "far from for ever, on a loaded machine too"
+
+
+def test_a_late_ctrl_c_changes_no_exit_code_and_ends_a_wait(tmp_path: Path) -> None:
+    """All is over but for a thread that never ends, as one that hangs in a disk: the code is that of the run."""
+    (tmp_path / "move.yaml").write_text("keyframes: [{at: 0, pan: 0}, {at: 2, pan: 10}]\n")
+    defect = "threading.Thread(target=threading.Event().wait).start()"
+    command = [sys.executable, "-c", PROGRAM.format(defect=defect), "play", "move.yaml", "--fast", "--json"]
+    with subprocess.Popen(command, stdout=PIPE, stderr=PIPE, stdin=DEVNULL, text=True, cwd=tmp_path) as process:
+        assert process.stdout is not None
+        try:
+            assert "done" in process.stdout.readline()
+            time.sleep(0.3)  # for the little that is left until it hangs, of which nothing can be seen
+            process.send_signal(signal.SIGINT)
+            process.wait(timeout=30)
+        finally:
+            process.kill()
+        assert process.returncode == 0
