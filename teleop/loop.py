@@ -4,13 +4,15 @@ Ticks lie on a grid of absolute times, so a late one does not delay the next; th
 went by and makes one legal step of that length. While nothing moves and no source will change its mind, the loop
 sleeps over ticks, but never past the keep-alive. Only this module decides what a fault means: whatever is raised
 anywhere in a tick, by whomever, becomes a reason to ramp to rest, release and end with a result that is not DONE.
-Nothing a piece does can keep a run from ending: stopping and releasing (`releasing`) have their own longest times.
+Nothing a piece does can keep a run from ending: stopping and releasing (`releasing`) have their own longest times, and
+a LeaveAtOnce, which a signal handler may raise out of a call that hangs, ends both.
 
 A tick is prepared a little before its moment (LEAD) and its commands leave at the moment itself: how long reading,
 planning and reporting took, which varies, is then not heard in their spacing.
 
 After a stall the planner no longer knows where the axes are (`whereabouts`): the ramp to rest then starts from what
-two fresh readings say, and nothing is commanded before they are in.
+two fresh readings say, and nothing is commanded before they are in. An axis that no reading is found of gets no command
+at all: the devices are released as they are.
 """
 
 from __future__ import annotations
@@ -22,18 +24,21 @@ from typing import Any, Protocol
 
 from teleop.motion import STICKS, Act, Axis, Demand, Halt, Limits, Motion, Reading, State, Tick, Wish
 from teleop.planner.stop import stop_phases, stop_state
-from teleop.ports import Clock, DeviceError, Interrupted, Reporter, Sink, Source, TeleopError
+from teleop.ports import Clock, DeviceError, Interrupted, LeaveAtOnce, Reporter, Sink, Source, TeleopError
 from teleop.releasing import Release
 from teleop.supervisor import Event, Run, Supervisor
-from teleop.whereabouts import Whereabouts
+from teleop.whereabouts import PATIENCE, Whereabouts
 
 RATE = 100  # Hz
 PERIOD = 1 / RATE  # s
 LEAD = 0.002  # s before its moment a tick is prepared, so that commands leave evenly however long they took to make
+ON_GRID = 1e-3  # of a tick: so near is on it; floats are off by a hundredth of that after thirty years of uptime
 KEEP_ALIVE = 0.4  # s: the longest a resting loop sleeps; a gimbal forgets a speed after 0.5 s
 STALL = 0.25  # s: a tick later than this was not lateness but a stall; the gimbal has long stopped following
 FIRST_REPORT = 2.0  # s to wait for the first report of every axis in use
 STOP_SHARE, STOP_EXTRA = 2.0, 1.0  # a planner has so many times the fastest stop, and so many s, to come to rest
+AT_ONCE = 0.4  # s for releasing every device without a ramp: three zero speeds, release, and the reply
+STOP_SLACK = 1.0  # s beyond all of these after which the run no longer waits for rest
 FAULTS = 8  # that are kept: one repeats every tick
 
 log = logging.getLogger(__name__)
@@ -86,7 +91,7 @@ class Loop:
         self._reported: dict[Axis, Reading] = {}
         self._interrupt = ""
         self._planner_failed = False  # while stopping
-        self._stop_end = math.inf
+        self._stop_end = self._stop_limit = math.inf
         self._lost: Whereabouts | None = None  # since a stall, until they are found
         self._giving_back = Release(sinks, PERIOD)
         self._turns: Mapping[Run, Callable[[float, int], None]] = {
@@ -101,13 +106,32 @@ class Loop:
         self._interrupt = reason
 
     def run(self) -> Supervisor:
-        """Turn until it is over. A fault is not raised: the supervisor returned has the result and the reasons."""
+        """Turn until it is over. A fault is not raised: the supervisor returned has the result and the reasons.
+
+        Raises LeaveAtOnce where a signal handler does, after one attempt to release every device.
+        """
         while self.supervisor.state is not Run.OVER:
             try:
                 self._turn()
             except KeyboardInterrupt:  # where nobody handles the signal it may come between any two lines
                 self.interrupt("Ctrl-C")
+            except LeaveAtOnce:
+                self.release_at_once()
+                raise
         return self.supervisor
+
+    def release_at_once(self) -> None:
+        """One attempt to release every device, without a ramp; takes AT_ONCE at most, unless a device hangs.
+
+        Safe to call from another thread: a step that is under way in the control thread is left to it.
+        """
+        now = self._quietly(self._clock.now, default=self._time(self._ticks))
+        end = now + AT_ONCE
+        while now < end and not self._giving_back.once(now, self._quietly):
+            self._quietly(self._clock.sleep_until, now + PERIOD)
+            now = max(now + PERIOD, self._quietly(self._clock.now, default=now))
+            for reporter in self._reporters:  # what the links hold back leaves, and answers come in
+                self._quietly(reporter.report, now)
 
     def _turn(self) -> None:
         tick = self._guarded(self._next_tick)
@@ -118,6 +142,8 @@ class Loop:
             reason, self._interrupt = self._interrupt, ""
             self.supervisor.happened(Event.INTERRUPT, reason)
         self._guarded(self._turns[self.supervisor.state], *tick)
+        if self.supervisor.state is Run.STOPPING:
+            self._limit_stopping(tick[0])
 
     def _next_tick(self) -> tuple[float, int]:
         """Sleep until the next tick that is needed: its time on the grid, and the periods the planner has to cover."""
@@ -125,11 +151,11 @@ class Loop:
         running = self.supervisor.state is Run.RUNNING
         if self._resting and running:
             wake = min(self._wake, self._time(self._ticks) + self._keep_alive)
-            due = max(due, math.ceil((wake - self._origin) * RATE - 1e-6))
+            due = max(due, math.ceil((wake - self._origin) * RATE - ON_GRID))
         early = self._time(due) - LEAD
         self._clock.sleep_until(early)
         late = self._clock.now() - early
-        elapsed = due - self._ticks + max(0, math.floor(late * RATE + 1e-6))
+        elapsed = due - self._ticks + max(0, math.floor(late * RATE + ON_GRID))
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (Run.RUNNING, Run.STOPPING):
             self._fault(StallError(f"the computer stalled for {late:.2f} s"))
@@ -139,7 +165,7 @@ class Loop:
         return self._time(self._ticks), 1 if self._resting else elapsed
 
     def _time(self, ticks: int) -> float:
-        return self._origin + ticks * PERIOD
+        return self._origin + ticks / RATE
 
     def _wait(self, now: float, _steps: int) -> None:
         self._report(now)
@@ -174,8 +200,10 @@ class Loop:
         """Ramp to rest; once even the planner has failed, by the closed form alone, from what was last sent."""
         if self._lost and not self._find(now):
             return
+        if self.supervisor.state is not Run.STOPPING:
+            return
         if math.isinf(self._stop_end):
-            self._stop_end = now + STOP_EXTRA + STOP_SHARE * max(map(self._stop_time, self._motion), default=0.0)
+            self._stop_end = now + STOP_EXTRA + STOP_SHARE * self._longest_stop()
         self._planner_failed |= now > self._stop_end
         demand: Demand = {axis: Halt() for axis in self._limits}
         motion = None if self._planner_failed else self._guarded(self._halted, demand, steps)
@@ -195,11 +223,31 @@ class Loop:
         self._report(now)
         if self._lost is None or not self._lost.known(now, self._reported):
             return self._lost is None
-        for axis, here in self._lost.found(now).items():
+        lost, self._lost = self._lost, None
+        for axis, here in lost.found(now).items():
             self._motion = {**self._motion, axis: here}
-            self._guarded(self._planner.reset, {axis: here})
-        self._lost = None
+            self._planner_failed |= self._guarded(self._planner.reset, {axis: here}, default=self) is self
+        if lost.read_once:
+            self._fault(DeviceError(f"{_measured(lost.read_once)} only once since the stall: held there"))
+        if lost.unread:
+            self._fault(
+                DeviceError(f"no position of {' or '.join(lost.unread)} since the stall: released without a ramp")
+            )
+            self.supervisor.happened(Event.AT_REST)
         return True
+
+    def _limit_stopping(self, now: float) -> None:
+        """Stopping has a longest time, whatever keeps failing or stalling; after it the devices are released."""
+        if math.isinf(self._stop_limit):
+            ramp = self._guarded(self._longest_stop, default=0.0)
+            self._stop_limit = now + PATIENCE + STOP_EXTRA + (STOP_SHARE + 1) * ramp + STOP_SLACK
+        elif not now <= self._stop_limit:
+            self._fault(DeviceError("the axes did not come to rest in time: released as they are"))
+            self.supervisor.happened(Event.AT_REST)
+
+    def _longest_stop(self) -> float:
+        ramps = [self._stop_time(axis) for axis in self._motion]
+        return max((ramp for ramp in ramps if math.isfinite(ramp)), default=0.0)
 
     def _stop_time(self, axis: Axis) -> float:
         _, velocity, acceleration = self._motion[axis]
@@ -243,14 +291,28 @@ class Loop:
             return call(*arguments)
         except KeyboardInterrupt:
             self.interrupt("Ctrl-C")
+        except LeaveAtOnce:
+            raise
         except BaseException as fault:  # noqa: BLE001 - the one place where any exception is turned into a smooth stop
             self._fault(fault)
+        return default
+
+    def _quietly(self, call: Callable[..., Any], *arguments: Any, default: Any = None) -> Any:
+        """For leaving at once: what fails now is no reason for anything any more."""
+        try:
+            return call(*arguments)
+        except LeaveAtOnce:
+            raise
+        except BaseException as fault:
+            log.debug("fault while leaving at once", exc_info=fault)
         return default
 
     def _fault(self, fault: BaseException) -> None:
         try:
             reason = str(fault) if isinstance(fault, TeleopError) else f"{type(fault).__name__}: {fault}"
-        except Exception:  # noqa: BLE001 - an error that cannot say what it is still ends the run
+        except LeaveAtOnce:
+            raise
+        except BaseException:  # noqa: BLE001 - an error that cannot say what it is still ends the run
             reason = type(fault).__name__
         log.debug("fault: %s", reason, exc_info=fault)
         if len(self.faults) < FAULTS:
@@ -264,3 +326,7 @@ def _finite(motion: Mapping[Axis, State]) -> Motion:
         if not math.isfinite(sum(state)):
             raise ArithmeticError(f"the planner has {axis} at {state.position}, {state.velocity}, {state.acceleration}")
     return motion
+
+
+def _measured(axes: Sequence[Axis]) -> str:
+    return f"{' and '.join(axes)} {'was' if len(axes) == 1 else 'were'} measured"

@@ -31,6 +31,10 @@ class Interrupted(TeleopError):  # noqa: N818 - the user's word for it, as in Ct
     """The operator wants the run to end: it stops as smoothly as for a fault, and nothing has failed."""
 
 
+class LeaveAtOnce(BaseException):
+    """The third Ctrl-C or SIGTERM: the run ends now, after one attempt to release every device."""
+
+
 class Source(Protocol):
     """Says what the axes should do. Times are the loop's clock, in seconds."""
 

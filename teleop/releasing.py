@@ -7,6 +7,7 @@ for a while, because a link that is full or off may come back. Nothing that a si
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -22,6 +23,7 @@ class Release:
     def __init__(self, sinks: Sequence[Sink], period: float) -> None:
         self._sinks, self._period = sinks, period
         self._due = dict.fromkeys(range(len(sinks)), -math.inf)  # sink -> when its next step is
+        self._steps = [threading.Lock() for _ in sinks]  # held while a sink is in a step, which may hang
         self._end = self._limit = math.inf
 
     def step(self, now: float, guarded: Callable[..., Any]) -> bool:
@@ -31,18 +33,29 @@ class Release:
         """
         if math.isinf(self._limit):
             self._end, self._limit = now + RELEASE_PATIENCE, now + RELEASE_LONGEST
-        failed = object()
-        for index, due in list(self._due.items()):
-            if now < due - self._period / 2:
-                continue
-            again = guarded(self._sinks[index].release, now, default=failed)
-            if again is failed and now < self._end:
-                again = now + self._period
-            if again is None or again is failed:
-                del self._due[index]
-            else:
-                self._due[index] = again
+        self._advance(now, guarded, again_until=self._end)
         if self._due and now > self._limit:
             self._due.clear()
             raise TeleopError(f"not everything could be given back within {RELEASE_LONGEST:g} s")
         return not self._due
+
+    def once(self, now: float, guarded: Callable[..., Any]) -> bool:
+        """As `step`, but what fails is not tried again. Safe beside a thread that hangs in a sink's step."""
+        self._advance(now, guarded, again_until=-math.inf)
+        return not self._due
+
+    def _advance(self, now: float, guarded: Callable[..., Any], again_until: float) -> None:
+        failed = object()
+        for index, due in list(self._due.items()):
+            if now < due - self._period / 2 or not self._steps[index].acquire(blocking=False):
+                continue
+            try:
+                again = guarded(self._sinks[index].release, now, default=failed)
+            finally:
+                self._steps[index].release()
+            if again is failed and now < again_until:
+                again = now + self._period
+            if isinstance(again, int | float):
+                self._due[index] = again
+            else:  # released, failed for good, or nothing that is a time
+                self._due.pop(index, None)

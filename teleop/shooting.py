@@ -31,6 +31,7 @@ from teleop.supervisor import Result
 
 LOOK = 0.1  # s between looks for a signal while waiting
 RETRY = 2.0  # s between two tries to reach a rig that was lost
+LONGEST_WAIT = 24 * 3600.0  # s of such pauses in a row, after which the shoot ends
 STALLS = 5  # runs in a row that a stalled computer may end without a frame
 InDoubt = Literal["shoot", "skip"]
 
@@ -89,7 +90,7 @@ class Shooting:
 
     def run(self) -> Ended:
         """Shoot until it is over. Raises LinkError where the rig cannot be reached at first."""
-        fruitless, waiting = 0, False
+        fruitless, waiting, waited = 0, False, 0.0
         while True:
             before = self.progress.shot
             self._settle_doubt()
@@ -103,6 +104,9 @@ class Shooting:
             if reached:
                 said = "waiting for the link, then going" if waiting else "going"
                 self._say(f"{ended.reasons[0]}: {said} on at frame {self._journal.next}")
+            waited = waited + RETRY if waiting and not reached else 0.0
+            if waited > LONGEST_WAIT:
+                return ended
             if not self._rests(RETRY if waiting else 0.0):
                 return Ended(Result.INTERRUPTED, [self._interrupted])
 
@@ -174,6 +178,11 @@ class Shooting:
         self._interrupted = reason
         if self._loop is not None:
             self._loop.interrupt(reason)
+
+    def release_at_once(self) -> None:
+        """One attempt to release every device; safe to call from another thread."""
+        if self._loop is not None:
+            self._loop.release_at_once()
 
     def _rests(self, seconds: float) -> bool:
         """Wait, but not past a signal; whether there was none."""

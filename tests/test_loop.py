@@ -15,6 +15,7 @@ from teleop.planner.live import Live
 from teleop.ports import Clock, Interrupted, LinkError
 from teleop.releasing import RELEASE_LONGEST, RELEASE_PATIENCE
 from teleop.supervisor import Result, Run
+from teleop.whereabouts import PATIENCE
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-56, 146, 60, 120, 600)}
 ASLEEP = 0.005  # s before a tick, while nothing is prepared for it yet
@@ -247,16 +248,49 @@ def test_what_was_prepared_before_a_stall_is_not_sent_after_it() -> None:
     assert 1.0 not in [round(tick.time, 3) for tick in sink.ticks]
 
 
-def test_an_axis_that_is_not_found_after_a_stall_goes_on_as_planned() -> None:
+def test_an_axis_that_is_not_found_after_a_stall_is_released_without_a_command() -> None:
+    """Any position for it would be made up, and by then every device has stopped by itself."""
     sink, clock = RecordingSink(), StallingClock(1.0 - ASLEEP, STALL + 0.05)
     old = Measured(lambda t: 50 * min(t, 1.0))
     report = old.report
     old.report = lambda now: report(min(now, 1.0))  # type: ignore[method-assign]  # it falls silent
     ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], [old], clock).run()
-    assert ended.result is Result.FAILED
-    velocities = [tick.motion[Axis.PAN].velocity for tick in sink.ticks]
-    assert velocities[-1] == 0
-    assert max(abs(after - before) for before, after in pairwise(velocities)) <= 120 * PERIOD + 1e-6
+    assert ended.reasons == [
+        "the computer stalled for 0.30 s",
+        "no position of pan since the stall: released without a ramp",
+    ]
+    assert sink.ticks[-1].time < 1.01, "nothing was sent after the stall"
+    assert sink.released == [pytest.approx(1.0 + STALL + 0.05 + PATIENCE, abs=3 * PERIOD)]
+
+
+def test_an_axis_that_is_read_once_after_a_stall_is_held_where_it_was_read() -> None:
+    sink, clock = RecordingSink(), StallingClock(1.0 - ASLEEP, STALL + 0.05)
+    once = Measured(lambda t: 50 * t)
+    report = once.report
+    once.report = lambda now: report(now if now < 1 else min(now, 1.39))  # type: ignore[method-assign]
+    ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], [once], clock).run()
+    assert ended.reasons[1:] == ["pan was measured only once since the stall: held there"]
+    after = [tick.motion[Axis.PAN] for tick in sink.ticks if tick.time > 1.2]
+    assert after
+    assert set(after) == {State(once.report(1.39)[Axis.PAN].position)}
+
+
+def test_two_readings_of_one_moment_end_the_search_like_any_other() -> None:
+    """As a device with a coarse clock gives them: the same time, another place, in every tick."""
+    sink, clock = RecordingSink(), StallingClock(1.0 - ASLEEP, STALL + 0.05)
+    turned = iter(range(1 << 30))
+
+    class Coarse:
+        def report(self, now: float):
+            return {
+                Axis.PAN: Reading(50 * now if now < 1 else 60 + next(turned) / 1000, now if now < 1 else 1.35),
+                Axis.TILT: Reading(-5.0, now),
+            }
+
+    ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], [Coarse()], clock).run()
+    assert ended.reasons[1:] == ["pan was measured only once since the stall: held there"]
+    assert clock.now() < 1.0 + STALL + 0.05 + PATIENCE + 0.1
+    assert sink.released
 
 
 def test_a_stall_of_a_resting_loop_needs_no_search() -> None:

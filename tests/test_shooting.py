@@ -13,6 +13,7 @@ import pytest
 from at_once import AtOnce
 from shoot_bench import Keys, SlowBook, Stage, small_disk
 
+from teleop import shooting
 from teleop.clock import SystemClock
 from teleop.dji.camera import CameraCommand, Command
 from teleop.journal import Frame, Note
@@ -338,6 +339,18 @@ def test_signals_end_the_wait_for_a_link(stage: Stage) -> None:
     stage.clock.hook = lambda now: stage.shooting.interrupt("SIGTERM received") if now > 1100 else None
     ended = stage.shoot()
     assert (ended.result, list(ended.reasons)) == (Result.INTERRUPTED, ["SIGTERM received"])
+
+
+def test_the_wait_for_a_link_has_an_end(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A day in earnest; here a minute, of tries with a pause between them."""
+    monkeypatch.setattr(shooting, "LONGEST_WAIT", 60.0)
+    stage.profile = stage.profile.model_copy(update={"timelapse": ShootingSection(wait_for_link=True)})
+    stage.write(30, "2s")
+    stage.prepare = lambda gimbal: setattr(gimbal, "deaf", lambda now: now > 1020.0)
+    ended = stage.shoot()
+    assert ended.result is Result.FAILED
+    assert 1020 + 60 < stage.clock.now() < 1020 + 60 * 3
+    assert stage.shooting._runs <= 60 / shooting.RETRY + 2
 
 
 def test_steps_of_the_wall_clock_move_no_frame(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:

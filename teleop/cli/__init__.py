@@ -14,9 +14,10 @@ from importlib.metadata import version
 from cyclopts import App, CycloptsError
 
 import teleop
+from teleop.cli.leaving import process
 from teleop.cli.staging_options import joined
 from teleop.document import DocumentError, UnplayableError
-from teleop.ports import TeleopError, UsageError
+from teleop.ports import LeaveAtOnce, TeleopError, UsageError
 
 MOST_SAID = 50  # problems of a file: nobody mends more at a time
 DONE, FAILED, BAD_USAGE, INTERRUPTED = 0, 1, 2, 130
@@ -47,7 +48,13 @@ for _name, (_place, _help) in COMMANDS.items():
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """The `teleop` command; exits with one of the codes above."""
-    sys.exit(run(sys.argv[1:] if arguments is None else arguments))
+    process.own()
+    try:
+        code = run(sys.argv[1:] if arguments is None else arguments)
+    finally:
+        process.owned = False
+    process.finish(code)
+    sys.exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -63,6 +70,12 @@ def run(arguments: Sequence[str]) -> int:
         _say(error)
         bad_usage = isinstance(error, CycloptsError | UsageError) and not isinstance(error, UnplayableError)
         return BAD_USAGE if bad_usage else FAILED
+    except LeaveAtOnce as signal:
+        print(
+            f"teleop: {signal} received for the third time: left at once, every device asked once to release",
+            file=sys.stderr,
+        )
+        return INTERRUPTED
     except KeyboardInterrupt:
         print("teleop: interrupted", file=sys.stderr)
         return INTERRUPTED

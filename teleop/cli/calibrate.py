@@ -15,8 +15,9 @@ from cyclopts import App
 
 from teleop.cli.calibrate_signs import signs
 from teleop.cli.display import Display
+from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.perform import EXIT_CODES, signals_to
+from teleop.cli.perform import EXIT_CODES
 from teleop.cli.play import Fast, the_clock
 from teleop.motion import Axis
 from teleop.ports import DeviceError, UsageError
@@ -58,7 +59,7 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
     traces = Traces(moved)
     with open_rig(profile, clock) as rig:
         loop = rig.loop([moved], [swing], [traces, display])
-        with signals_to(loop.interrupt), display:
+        with signals_to(loop.interrupt, loop.release_at_once, display.say), display:
             ended = loop.run()
     if ended.result is not Result.DONE:
         return _stopped(ended, options.json)

@@ -10,8 +10,9 @@ import json
 import sys
 from collections.abc import Mapping, Sequence
 
+from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.perform import EXIT_CODES, signals_to
+from teleop.cli.perform import EXIT_CODES
 from teleop.cli.play import Fast, the_clock
 from teleop.loop import PERIOD, Loop
 from teleop.motion import Axis
@@ -48,7 +49,7 @@ def signs(*, axis: Angle | None = None, fast: Fast = False, options: Options = D
         loop = Loop(clock, Live(limits, PERIOD), limits, [probe], [probe], [reporter])
         if not options.json:
             print(f"measuring the signs of {', '.join(axes)}: {REACH:g} deg to one side and back", file=sys.stderr)
-        with signals_to(loop.interrupt):
+        with signals_to(loop.interrupt, loop.release_at_once):
             ended = loop.run()
     if ended.result is Result.DONE:
         _tell(section, probe.signs, options.json)

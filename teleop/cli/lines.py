@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import select
 import sys
+import threading
 from collections import deque
 
 MOST = 1000  # lines that wait; beyond that the oldest are left out
@@ -17,11 +18,13 @@ LONGEST = 4096  # bytes for which a pipe that takes anything has room: PIPE_BUF
 class Lines:
     def __init__(self) -> None:
         self._waiting: deque[str] = deque(maxlen=MOST)
+        self._writing = threading.Lock()  # a signal's hint comes from a thread of its own
 
     def say(self, text: str) -> None:
         self._waiting.append(text[: LONGEST // 4])  # a character has four bytes at most
-        while self._waiting and _has_room():
-            print(self._waiting.popleft(), file=sys.stderr)
+        with self._writing:
+            while self._waiting and _has_room():
+                print(self._waiting.popleft(), file=sys.stderr)
 
     def finish(self) -> None:
         """Write what still waits, and wait for it; to be called when nothing moves any more."""

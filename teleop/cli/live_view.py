@@ -66,6 +66,7 @@ class LiveView:
         self._plain = Plain(title, drone)
         self._stack = ExitStack()
         self._over = threading.Event()
+        self._word = ""  # what was said last
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
@@ -94,6 +95,10 @@ class LiveView:
         if not self._on_screen and not self._silent:
             self._plain.show(tick, tick.time - self._begin, self._status())
 
+    def say(self, text: str) -> None:
+        """Show a line above the messages, on a screen; safe to call from any thread."""
+        self._word = text
+
     def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
         return None
 
@@ -121,7 +126,8 @@ class LiveView:
         middle = [Text(), *flying, *state_rows(status, links), Text()]
         question = keyboard.question if keyboard else ""
         helping = keyboard is not None and keyboard.helping
-        messages = help_rows() if helping else [said(message, now) for message in status.messages]
+        word = [Text(f" {self._word}", "yellow")] if self._word else []
+        messages = help_rows() if helping else word + [said(message, now) for message in status.messages]
         bottom = [] if helping and not question else key_rows(question, keyboard is not None)
         if helping and height < len(top) + len(middle) + len(messages) + len(bottom):
             middle = [Text()]  # a help that lacks a key is none, and it is open for a moment only

@@ -23,6 +23,7 @@ from cyclopts import Parameter
 from cyclopts.validators import Number
 
 from teleop.cli.drone_options import Model, cipher_of
+from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.told import line
 from teleop.clock import SystemClock
@@ -62,8 +63,6 @@ def monitor(
     A CAN bus is heard in both directions. A serial line is heard in one, what the device sends, and by one program at a
     time; there, an acknowledgement cannot say what it answers.
     """
-    from teleop.cli.perform import signals_to  # costs what a rig costs, which `send` need not pay for `in_units`
-
     tapped = tap(options.profile(), place, model)
     clock, stop = SystemClock(), threading.Event()
     listener = open_listener(tapped.url, now=clock.now)

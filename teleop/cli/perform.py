@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import gc
 import json
-import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from types import FrameType
 from typing import TYPE_CHECKING, Protocol
 
 from teleop.cli.display import Display, error_table
+from teleop.cli.leaving import signals_to
 from teleop.motion import Axis
 from teleop.ports import Sink, Source
 from teleop.rig import Rig
@@ -27,8 +26,6 @@ if TYPE_CHECKING:
 EXIT_CODES: Mapping[Result, int] = {Result.DONE: 0, Result.FAILED: 1, Result.INTERRUPTED: 130}
 SWITCH_INTERVAL = 0.0005  # s: how long the display's thread may hold up the control thread
 TRAFFIC = ("frames_out", "frames_in", "replies")  # of a connection's counts, those that are no trouble
-STOPPING = ("SIGINT", "SIGTERM")
-LEAVING = ("SIGHUP", "SIGQUIT")  # these stop it too, unless whoever started it had them ignored: nohup
 
 
 class Extra(Protocol):
@@ -54,7 +51,7 @@ def perform(
 ) -> int:
     """Run the sources on the rig, show it, record it if asked to, print the report and `extras`; the exit code."""
     loop = rig.loop(axes, sources, [tally, *watchers, *([] if take is None else [take]), display])
-    with undisturbed(loop.interrupt), display:
+    with undisturbed(loop.interrupt, loop.release_at_once, display.say), display:
         ended = loop.run()
     if take is not None:
         links = {name: dict(connection.counts) for name, connection in rig.connections.items()}
@@ -100,38 +97,32 @@ def commands(rig: Rig, axes: Sequence[Axis], say: Callable[[str], object]) -> li
 
 
 @contextmanager
-def undisturbed(interrupt: Callable[[str], object]) -> Iterator[None]:
-    """For a run: nothing of this process holds it up for long, and a signal asks it to stop by `interrupt`."""
-    sys.setswitchinterval(SWITCH_INTERVAL)
-    gc.collect()
-    gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
-    with signals_to(interrupt):
+def undisturbed(
+    interrupt: Callable[[str], object], release: Callable[[], object], say: Callable[[str], object]
+) -> Iterator[None]:
+    """For a run: nothing of this process holds it up for long, and signals end it, see `signals_to`.
+
+    Afterwards the process is as it was found, whatever was raised.
+    """
+    with unhurried(), signals_to(interrupt, release, say):
         yield
-    gc.unfreeze()
 
 
 @contextmanager
-def signals_to(interrupt: Callable[[str], object]) -> Iterator[None]:
-    """Ctrl-C and its kin call `interrupt` with their name, however often they are sent, and do nothing else.
-
-    Afterwards a terminal that closes is ignored: what is left to do is a report, and a hang-up may come late or twice.
-    """
-
-    def stop(number: int, _frame: FrameType | None) -> None:
-        interrupt(f"{signal.Signals(number).name} received")
-
-    numbers = [*_known(STOPPING), *(number for number in _known(LEAVING) if signal.getsignal(number) != signal.SIG_IGN)]
-    before = {number: signal.signal(number, stop) for number in numbers}
+def unhurried() -> Iterator[None]:
+    """Threads give way to the control thread soon, and the collector passes over what is loaded by now."""
+    interval = sys.getswitchinterval()
+    gc.collect()
+    thaw = gc.get_freeze_count() == 0  # what somebody else has frozen stays so, and there is no thawing a part
+    if thaw:
+        gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
+    sys.setswitchinterval(SWITCH_INTERVAL)
     try:
         yield
     finally:
-        for number, handler in before.items():
-            signal.signal(number, signal.SIG_IGN if number.name in LEAVING else handler)
-
-
-def _known(names: Sequence[str]) -> Sequence[signal.Signals]:
-    """Those of the signals that this system has."""
-    return [signal.Signals[name] for name in names if name in signal.Signals.__members__]
+        sys.setswitchinterval(interval)
+        if thaw:
+            gc.unfreeze()
 
 
 def _troubles(counts: Mapping[str, int]) -> Mapping[str, int]:

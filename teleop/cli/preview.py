@@ -19,6 +19,7 @@ from teleop.cli.options import DEFAULTS, Options, warn
 from teleop.ports import UsageError
 from teleop.preview.output import replacing
 from teleop.profile import Profile
+from teleop.sources.frame_rates import exact_rate
 from teleop.sources.sequence_file import Performance
 
 Write = Callable[[Performance, Profile, BinaryIO], None]
@@ -68,7 +69,7 @@ def _writes(output: Path | None, csv: Path | None, rate: float) -> Mapping[Path,
             raise UsageError(f"--rate {rate:g}: must be more than 0 rows per second")
         if output is not None and csv.resolve() == output.resolve():
             raise UsageError(f"--csv {csv}: is where -o writes too")
-        writes[csv] = _table(rate)
+        writes[csv] = _table(exact_rate(rate))  # 29.97 rows a second are those of the frames
     if not writes:
         raise UsageError("nothing to write: give -o FILE.html, .svg or .png, or --csv FILE")
     return writes

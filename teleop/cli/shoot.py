@@ -62,7 +62,7 @@ def shoot(
         watchers += [tally, view]
         if not options.json:
             print(f"{summary(timelapse)}; journal {path}", file=sys.stderr)
-        with undisturbed(shooting.interrupt), view:
+        with undisturbed(shooting.interrupt, shooting.release_at_once, view.say), view:
             ended = shooting.run()
         if recorder is not None:
             recorder.finish(ended.result, ended.reasons, shooting.links)

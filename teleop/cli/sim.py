@@ -7,8 +7,8 @@ import sys
 import threading
 from collections.abc import Callable, Mapping
 
+from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.perform import signals_to
 from teleop.cli.refusal_lines import RefusalLines
 from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, DroneSim, GimbalSim
 from teleop.clock import SystemClock

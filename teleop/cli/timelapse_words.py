@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from teleop.sources.frame_rates import shown_rate
+
 if TYPE_CHECKING:
     from teleop.sources.timelapse_file import Timelapse
 
@@ -13,7 +15,11 @@ def summary(timelapse: Timelapse) -> str:
     """`720 frames, 5 s apart: 59 m 55 s of shooting, 30.00 s of clip at 24 fps`."""
     slots = timelapse.slots
     apart = f"{slots.first:g} s" if not slots.change else f"{slots.first:g} to {slots.last:g} s"
-    clip = f", {timelapse.clip:.2f} s of clip at {timelapse.fps:g} fps" if timelapse.clip else ""
+    clip = (
+        f", {timelapse.clip:.2f} s of clip at {shown_rate(timelapse.fps)} fps"
+        if timelapse.clip and timelapse.fps
+        else ""
+    )
     lead = timelapse.path.lead, slots.frames - timelapse.path.lead - timelapse.moving
     still = f" ({lead[0]} still, {timelapse.moving} moving, {lead[1]} still)" if any(lead) else ""
     return f"{slots.frames} frames{still}, {apart} apart: {clock(slots.at(slots.frames - 1))} of shooting{clip}"

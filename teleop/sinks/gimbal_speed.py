@@ -91,8 +91,11 @@ class SpeedSink:
         self._connection.request(gimbal.Speed(yaw, roll, pitch, take_over=True, ignore_focal_length=True), now)
 
     def _settled(self, now: float) -> Mapping[Axis, float]:
-        """Where to settle: nowhere when the gimbal is not known to be close, it must not set out again unasked."""
-        if self._last is None:
+        """Where to settle: nowhere when the gimbal is not known to be close, it must not set out again unasked.
+
+        An axis that was last commanded to move was left in the middle of that, and has no place to settle at.
+        """
+        if self._last is None or any(state.velocity or state.acceleration for state in self._last.motion.values()):
             return {}
         targets = {axis: state.position for axis, state in self._last.motion.items() if axis in self._wiring.axes}
         for axis, target in targets.items():

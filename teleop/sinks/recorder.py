@@ -28,6 +28,7 @@ CAPACITY = 6000  # ticks in the queue: a minute of a disk that does not answer
 POLL = 0.1  # s between looks at the queue
 FLUSH = 8  # looks between flushes: what kill -9 loses is younger than a second
 PATIENCE = 3.0  # s at the end for what is still in the queue
+HUNG_NAPS = 6000  # naps, 3 s at least, without a tick taken out: then the disk counts as gone
 NAP = 0.0005  # s that a run in virtual time waits for room
 
 Status = Callable[[], object]
@@ -111,8 +112,12 @@ class Recorder:
         return {"file": self._name, **size, "missing": self.missing, "trouble": self.trouble}
 
     def _wait_for_room(self) -> None:
+        taken, naps = self._taken, 0
         while len(self._queue) >= CAPACITY and not self._failure and not self._over.is_set():
             time.sleep(NAP)
+            taken, naps = (self._taken, 0) if self._taken != taken else (taken, naps + 1)
+            if naps > HUNG_NAPS:
+                self._failure = "the disk does not answer"
 
     def _work(self) -> None:
         try:

@@ -3,6 +3,9 @@
 Everything that may take its time is done here: listing what is plugged in, opening, reading, asking. The control
 thread sees a `Plugged` or None, and asks that for what it holds. Several readers share their `Claims`, so that two do
 not take the same device.
+
+Between two openings there is always a pause. One that opens and then fails at its first read (EIO) was never there:
+it is not handed over, the next device is tried, and the pause grows with each round that found nothing else.
 """
 
 from __future__ import annotations
@@ -18,6 +21,7 @@ from teleop.sources.mapping import Mapped
 from teleop.sources.pads import STICKS, Chosen, choose, fits, pad_for
 
 LOOK_EVERY = 1.0  # s between two looks for a device that is missing
+LOOKS_APART = 8  # times as far apart as that, at most, while the only device there cannot be read
 WAIT = 0.05  # s for a report, after which the thread looks whether it is to end
 ASK_AFTER = 0.1  # s without a report until one is asked for: ten times a second
 _UNASKED = 64  # bytes: the longest report of a full-speed USB device, where a descriptor has none
@@ -90,6 +94,8 @@ class HidReader:
         self.last: DeviceInfo | None = None  # the device that was there, which is taken again before any other
         self._stayed: frozenset[bytes] | None = None  # what was plugged in when it was unplugged, and still is
         self.refused = ""
+        self._refusal = ""  # what `refused` will be after this round
+        self._broken = False  # whether a device of this round opened and could not be read
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"hid {section.device}", daemon=True)
 
@@ -103,27 +109,31 @@ class HidReader:
             self._thread.join(2 * WAIT + LOOK_EVERY)
 
     def _run(self) -> None:
+        apart = 1  # times LOOK_EVERY
         try:
             while not self._stop.is_set():
-                if not self._serve():
-                    self._stop.wait(LOOK_EVERY)
+                self._broken = False
+                self._serve()
+                apart = min(2 * apart, LOOKS_APART) if self._broken else 1
+                self._stop.wait(apart * LOOK_EVERY)
         except Exception as fault:  # noqa: BLE001 - a thread that ends unseen would leave a device that never reports
             self.refused = f"its reader failed: {fault or type(fault).__name__}"
         finally:
             self.plugged = None
 
-    def _serve(self) -> bool:
-        """Find the device and read it until it is gone; whether there was one."""
+    def _serve(self) -> None:
+        """Find the device and read it until it is gone."""
         try:
             found = self._backend.enumerate()
         except OSError as error:
             self.refused = f"devices cannot be listed: {error}"
-            return False
-        self.refused = ""
+            return
+        self._refusal = ""
         if self.last is not None:
             there = frozenset(info.path for info in found)
             self._stayed = there if self._stayed is None else self._stayed & there
-        return any(self._try(info) for info in wanted(self._section.device, found, self.last, self._stayed or ()))
+        any(self._try(info) for info in wanted(self._section.device, found, self.last, self._stayed or ()))
+        self.refused = self._refusal  # only now: while it is tried again, nothing has changed
 
     def _try(self, info: DeviceInfo) -> bool:
         """Read this device until it is gone, unless another reader has it; whether it could be read."""
@@ -138,31 +148,38 @@ class HidReader:
         try:
             device = self._backend.open(info.path)
         except OSError as error:
-            self.refused = f"{described(info)} cannot be opened ({error}): is there a udev rule? teleop doctor"
+            self._refusal = f"{described(info)} cannot be opened ({error}): is there a udev rule? teleop doctor"
             return False
         try:
             state = HidState(parse_descriptor(device.get_report_descriptor()))
             chosen = choose(self._section, info, state.names)
             if chosen.unreadable:
-                self.refused = f"{described(info)} cannot be used: {chosen.unreadable}"
+                self._refusal = f"{described(info)} cannot be used: {chosen.unreadable}"
                 return False
             plugged = Plugged(info, state, chosen, self._mapped(chosen, state))
-            self.plugged, self.last, self._stayed, self.refused = plugged, info, None, ""
-            self._read(device, plugged)
-        except OSError:  # unplugged
+            report = device.read(WAIT)
+            self.plugged, self.last, self._stayed, self.refused, self._broken = plugged, info, None, "", False
+            self._read(device, plugged, report)
+        except OSError as error:  # unplugged, unless it was never there
+            if self.plugged is None:
+                self._broken = True
+                self._refusal = (
+                    f"{described(info)} opens, but cannot be read ({error}): unplug it, and plug it in again"
+                )
             return self.plugged is not None
         finally:
             self.plugged = None
             device.close()
         return True
 
-    def _read(self, device: HidDevice, plugged: Plugged) -> None:
-        """Until it is unplugged, which is an OSError, or until the end."""
+    def _read(self, device: HidDevice, plugged: Plugged, report: bytes) -> None:
+        """From the first report on until it is unplugged, which is an OSError, or until the end."""
         while not self._stop.is_set():
-            if report := device.read(WAIT):
+            if report:
                 plugged.state.take(report, self._now())
             else:
                 plugged.ask(device, self._now)
+            report = device.read(WAIT)
 
 
 def wanted(

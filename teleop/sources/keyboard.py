@@ -22,6 +22,7 @@ from teleop.sources.inputs import Held, Press
 from teleop.sources.keys import Act, KeyReader
 
 ESCAPE_TIME = 0.05  # s within which the rest of an escape sequence comes, over a slow line too
+PATIENCE = 1.0  # s at the end for a read that another program on the terminal has left without its key
 CLOSED = "the terminal was closed"
 
 
@@ -102,9 +103,12 @@ class Keyboard:
 
         os.write(self._wake[1], b".")
         if self._thread:
-            self._thread.join()
-        for descriptor in self._wake:
-            os.close(descriptor)
+            self._thread.join(PATIENCE)
+        if not (
+            self._thread and self._thread.is_alive()
+        ):  # one that hangs in a read would read what comes to be open there
+            for descriptor in self._wake:
+                os.close(descriptor)
         try:
             termios.tcsetattr(self._descriptor, termios.TCSAFLUSH, self._before or [])
         except termios.error:

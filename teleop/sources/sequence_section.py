@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field
+from pydantic import AfterValidator, ConfigDict, Field
 
 from teleop.motion import Axis
 from teleop.planner.repeat import Repeat
 from teleop.section import Finite, PositionsSection, Section
 from teleop.sources.cues import CueSection
+from teleop.sources.frame_rates import exact_rate
 from teleop.sources.panorama import PanoramaSection
 from teleop.sources.timelapse_section import TimelapseSection
 from teleop.sources.written import Ease, Percentage, Time
@@ -84,7 +85,7 @@ class SequenceSection(Section):
     model_config = one_of("keyframes", "panorama", "include")
 
     title: Annotated[str, Field(max_length=LONGEST_TITLE)] = ""
-    fps: Annotated[float, Field(gt=0, le=1000)] | None = None
+    fps: Annotated[float, Field(gt=0, le=1000), AfterValidator(exact_rate)] | None = None
     tension: Annotated[float, Field(ge=0, le=1)] = 0.0
     ease: Ease = None
     fit: Literal["stretch"] | None = None

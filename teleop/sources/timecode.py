@@ -8,9 +8,13 @@ guessed from the rest. MIDI 1.0, "MIDI Time Code": the pieces, the rates and the
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import NamedTuple
 
+from teleop.sources.frame_rates import DROPPED, frame_of
+
 RATES = (24.0, 25.0, 30000 / 1001, 30.0)  # frames per s, by the two bits of the code; the third drops frame numbers
+_WHOLE = (24, 25, 30, 30)  # numbers in a second
 DROP = 2  # of RATES
 STOPPED = 0.2  # s without a quarter frame, of which there are at least 96 in a second
 JUMP = 0.1  # s by which a timecode may be off what was expected before it counts as another
@@ -31,11 +35,10 @@ class Label(NamedTuple):
 
     def time(self, rate: int) -> float:
         """Seconds since 00:00:00:00 at the rate of that code (0..3)."""
-        minutes = self.hours * 60 + self.minutes
+        whole = _WHOLE[rate]
         if rate != DROP:
-            return minutes * 60 + self.seconds + self.frames / RATES[rate]
-        # Every minute but each tenth has no frames 0 and 1.
-        return ((minutes * 60 + self.seconds) * 30 + self.frames - 2 * (minutes - minutes // 10)) / RATES[DROP]
+            return float(Fraction(frame_of(self, whole), whole))
+        return float(Fraction(frame_of(self, whole, DROPPED[whole]) * 1001, whole * 1000))
 
 
 class MidiTimecode:

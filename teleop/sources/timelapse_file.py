@@ -22,6 +22,7 @@ from teleop.planner.move import Move, Track
 from teleop.planner.polynomial import Array
 from teleop.planner.warp import at_most
 from teleop.shipped import find
+from teleop.sources.frame_rates import shown_rate
 from teleop.sources.sequence_file import Performance
 from teleop.sources.sequence_keys import axes_of, keys_of, line_at
 from teleop.sources.sequence_rules import file_rules, rig_rules
@@ -106,7 +107,9 @@ class Timelapse:
     def rehearsal(self) -> Performance:
         """The whole move at the clip's own speed, or as fast as the limits allow; its warnings are about just that."""
         fps = self.fps or SHOWN_AT
-        warnings = [] if self.fps else [f"{self.title}: fps is not given: rehearsed at {fps:g} frames a second"]
+        warnings = (
+            [] if self.fps else [f"{self.title}: fps is not given: rehearsed at {shown_rate(fps)} frames a second"]
+        )
         slots = Slots(1 / fps, 1 / fps, self.frames)
         most = at_most(self.path.on(slots), self.limits)
         if most < 1:

@@ -9,13 +9,13 @@ import re
 from typing import Any
 
 from teleop.phrases import shown
+from teleop.sources.frame_rates import drops, exact, exact_rate, frame_of, is_dropped, shown_rate, whole_rate
 
 _PARTS = re.compile(r"(?:([0-9]+(?:\.[0-9]+)?)h)?(?:([0-9]+(?:\.[0-9]+)?)m)?(?:([0-9]+(?:\.[0-9]+)?)s)?")
 _FRAMES = re.compile(r"([0-9]+)f")
 _TIMECODE = re.compile(r"([0-9]+):([0-5][0-9]):([0-5][0-9])([:;])([0-9]+)")
 LONGEST = 31 * 86400.0  # s
 LONGEST_TEXT = 40  # characters: what is longer is no time, and a number of so many digits no number
-DROPPED = {29.97: 2, 59.94: 4}  # fps, nominally -> frame numbers left out in a minute
 _PERCENT = re.compile(r"([0-9]{1,6}(?:\.[0-9]{1,6})?)\s*%")
 TIME_WRITTEN = rf"^\s*(?=\S)({_PARTS.pattern}|{_FRAMES.pattern}|{_TIMECODE.pattern})\s*$"
 FRAMES_WRITTEN = rf"^\s*({_FRAMES.pattern})\s*$"
@@ -28,8 +28,8 @@ _WRITTEN = "4, 4s, 1m30s, 96f or 00:00:04:00"
 def seconds(value: Any, fps: float | None) -> float:
     """`4`, `4s`, `1m30s`, `2h`, `96f` or `00:00:04:00` in seconds; the last two need `fps`, in frames per second.
 
-    Timecode is non-drop, or with a semicolon (`00:01:00;02`) the drop-frame one of 29.97 and 59.94 fps. Raises
-    ValueError with what would be right.
+    Timecode is non-drop, or with a semicolon (`00:01:00;02`) the drop-frame one of 29.97 and 59.94 fps. A rate of 29.97
+    is 30000/1001, see `frame_rates`. Raises ValueError with what would be right.
     """
     time = _seconds(value, fps)
     if time > LONGEST:
@@ -47,31 +47,27 @@ def _seconds(value: Any, fps: float | None) -> float:
         hours, minutes, rest = (float(part or 0) for part in match.groups())
         return hours * 3600 + minutes * 60 + rest
     if match := _FRAMES.fullmatch(text):
-        return int(match[1]) / _needed(fps, text)
+        return float(int(match[1]) / exact(_needed(fps, text)))
     if match := _TIMECODE.fullmatch(text):
         hours, minutes, whole, mark, number = match.groups()
         return _timecode(text, (int(hours), int(minutes), int(whole), int(number)), _needed(fps, text), mark == ";")
     raise ValueError(f"must be a time ({_WRITTEN}), not {shown(value)}")
 
 
-def _timecode(text: str, parts: tuple[int, int, int, int], fps: float, drop: bool) -> float:
+def _timecode(text: str, label: tuple[int, int, int, int], fps: float, drop: bool) -> float:
     """Drop-frame timecode leaves out the first numbers of every minute but each tenth, to keep up with the clock."""
-    hours, minutes, whole, number = parts
-    rate = math.ceil(fps)
-    if number >= rate:
-        raise ValueError(f"has frame {number}, and there are {fps:g} in a second")
-    count = ((hours * 60 + minutes) * 60 + whole) * rate + number
-    if not drop:
-        return count / fps
-    if round(fps, 2) not in DROPPED:
-        raise ValueError(f"is {text}, in drop-frame timecode, which there is at 29.97 and 59.94 fps, not {fps:g}")
-    dropped = DROPPED[round(fps, 2)]
-    if minutes % 10 and whole == 0 and number < dropped:
+    _, minutes, whole, number = label
+    if number >= whole_rate(fps):
+        raise ValueError(f"has frame {number}, and there are {shown_rate(fps)} in a second")
+    dropped = drops(fps) if drop else 0
+    if drop and not dropped:
         raise ValueError(
-            f"is {text}, a number that drop-frame timecode leaves out; {text[:-2]}{dropped:02} is the next"
+            f"is {text}, in drop-frame timecode, which there is at 29.97 and 59.94 fps, not {shown_rate(fps)}"
         )
-    whole_minutes = hours * 60 + minutes
-    return (count - dropped * (whole_minutes - whole_minutes // 10)) / (rate * 1000 / 1001)
+    if is_dropped(minutes, whole, number, dropped):
+        upto = text[: max(text.rfind(";"), text.rfind(":")) + 1]
+        raise ValueError(f"is {text}, a number that drop-frame timecode leaves out; {upto}{dropped:02} is the next")
+    return float(frame_of(label, whole_rate(fps), dropped) / exact(fps))
 
 
 def frames(value: Any) -> float:
@@ -88,7 +84,7 @@ def frame_rate(given: Any) -> float | None:
     if given is None:
         return None
     usable = isinstance(given, int | float) and not isinstance(given, bool) and 0 < given <= 1000
-    return float(given) if usable else 24.0
+    return exact_rate(float(given)) if usable else 24.0
 
 
 def percentage(value: Any) -> float:

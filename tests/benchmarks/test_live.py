@@ -18,6 +18,7 @@ from pathlib import Path
 from time import monotonic, sleep
 
 import pytest
+from fake_hid import BrokenDevice, FakeDevice
 from live_bench import REST, RIGHT, Bench, Hand, bench, percentile, rss
 from waiting import wait_until
 
@@ -146,6 +147,33 @@ def test_spacing_of_commands(tmp_path: Path, amount: Callable[[float, float], fl
     print(
         f"after the tick, the tick's work before it included: {milliseconds([after for _, after in ours])}, {after:.2f}"
     )
+
+
+def test_a_device_that_cannot_be_read_is_not_felt(tmp_path: Path, amount: Callable[[float, float], float]) -> None:
+    """How late the loop wakes with such a device and with a sound one, in turn; the machine is in both."""
+    seconds, rounds = amount(10, 0.5), int(amount(3, 1))
+    late: dict[type[FakeDevice], list[float]] = {FakeDevice: [], BrokenDevice: []}
+    opened = 0
+    sys.setswitchinterval(0.0005)
+    for _ in range(rounds):
+        for device, noted in late.items():
+            with bench(tmp_path, SystemClock(), device) as run:
+                end = SystemClock().now() + 0.5 + seconds
+
+                def look(tick: Tick, run: Bench = run, end: float = end) -> None:
+                    if tick.time > end:
+                        run.loop.interrupt("enough")
+
+                run.watch.each_tick = look
+                run.loop.run()
+                noted += run.clock.late
+                opened += run.pad.opened * (device is BrokenDevice)
+    assert opened <= rounds * (seconds + 3)
+    for device, noted in late.items():
+        assert len(noted) > seconds * rounds / PERIOD / 4
+        print(f"\nloop late by, p50 p99 max, with a {device.__name__}: {milliseconds(noted)}")
+    ratio = percentile(late[BrokenDevice], 0.99) / percentile(late[FakeDevice], 0.99)
+    print(f"ratio at p99: {ratio:.2f} (about 1); it was opened {opened / rounds / seconds:.2f} times a second")
 
 
 def spacing(sent: list[tuple[float, float]]) -> list[float]:

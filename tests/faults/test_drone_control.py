@@ -1,6 +1,6 @@
 """Control that is obtained and released over lines that lose, delay and deafen: nothing is called confirmed unanswered.
 
-Released means: answered by 1, or another control device in the broadcast (osdk-facts.md, Corrections). Until then the
+Released means: answered by 1, or another control device in the broadcast (docs/protocol-facts.md). Until then the
 order is repeated, and at the end of a run the drone is named as one that has not confirmed it.
 """
 

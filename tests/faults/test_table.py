@@ -84,6 +84,24 @@ def stalled(scene: Scene, seconds: float) -> None:
     scene.clock.stall(seconds)
 
 
+def stalled_with_a_coarse_clock(scene: Scene, now: float) -> None:
+    """All readings from then on have one time, whatever the place: a device may date them so."""
+    stalled(scene, 0.3)
+    reporter = scene.loop._reporters[0]
+    report = reporter.report
+    reporter.report = lambda later: {  # type: ignore[method-assign]  # a defect is put in
+        axis: reading._replace(time=min(reading.time, now + 0.35)) for axis, reading in report(later).items()
+    }
+
+
+def stalled_and_deaf(scene: Scene, _now: float) -> None:
+    """It hears, but its readings stay those of before the stall."""
+    stalled(scene, 0.3)
+    reporter = scene.loop._reporters[0]
+    before = reporter.report(scene.clock.now())
+    reporter.report = lambda _now: before  # type: ignore[method-assign]
+
+
 def cable_out(scene: Scene, _now: float) -> None:
     scene.deaf = scene.mute = True
 
@@ -194,6 +212,13 @@ ROWS = [
     ),
     Row("600 ms stall of the process", lambda s, _: stalled(s, 0.6), "the computer stalled for 0.59 s", within=2.3),
     Row("suspended for an hour", lambda s, _: stalled(s, 3600.0), "the computer stalled for 3599.99 s", within=3602.0),
+    Row(
+        "300 ms stall, and all readings of one moment",
+        stalled_with_a_coarse_clock,
+        "the computer stalled for 0.29 s",
+        regains=10.0,  # what is last read of it may be a tenth of a degree off where it came to rest
+    ),
+    Row("300 ms stall, and no reading after it", stalled_and_deaf, "the computer stalled for 0.29 s"),
     Row("a signal", lambda s, _: s.loop.interrupt("SIGTERM received"), "SIGTERM received", code=130),
     Row("exception in a source", in_source(ZeroDivisionError("a defect")), "ZeroDivisionError: a defect"),
     Row("a source wants to exit", in_source(SystemExit(3)), "SystemExit: 3"),

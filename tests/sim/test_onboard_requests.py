@@ -90,7 +90,7 @@ def test_movement_breaks_a_take_off() -> None:
 
 
 def test_the_loss_of_control_is_pushed_and_its_acknowledgement_is_no_command() -> None:
-    """02 01 with the value 04; acknowledged by 00 00 in the same session with the same sequence (osdk-facts.md)."""
+    """02 01 with the value 04; acknowledged by 00 00, same session and sequence (docs/protocol-facts.md)."""
     client = Client.in_control()
     client.unasked.clear()
     client.drone.turn_switch(client.now, Switch.P)

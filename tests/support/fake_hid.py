@@ -88,6 +88,20 @@ class FakeDevice:
         self.closed += 1
 
 
+class BrokenDevice(FakeDevice):
+    """Opens, and fails at read number `good`, counted from 0, as one behind a loose contact does."""
+
+    good = 0
+    _reads = 0
+
+    def read(self, timeout: float) -> bytes:
+        self._reads += 1
+        if self._reads > self.good:
+            self._reads = 0
+            raise OSError(5, "Input/output error")
+        return b""
+
+
 class FakeBackend:
     def __init__(self, *devices: FakeDevice) -> None:
         self.devices = list(devices)

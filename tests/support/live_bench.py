@@ -105,10 +105,12 @@ class Bench:
 
 
 @contextmanager
-def bench(folder: Path, clock: SystemClock | VirtualClock) -> Iterator[Bench]:
+def bench(
+    folder: Path, clock: SystemClock | VirtualClock, device: Callable[[bytes], FakeDevice] = FakeDevice
+) -> Iterator[Bench]:
     (folder / "rig.yaml").write_text(PROFILE)
     profile = load_profile(str(folder / "rig.yaml"))
-    backend, pad, watch, working = FakeBackend(), FakeDevice(F310), Watch(), WorkingClock(clock)
+    backend, pad, watch, working = FakeBackend(), device(F310), Watch(), WorkingClock(clock)
     backend.plug(pad)
     with ExitStack() as stack:
         inputs = stack.enter_context(open_inputs([], clock.now, backend))

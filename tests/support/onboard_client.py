@@ -20,7 +20,7 @@ KEY = bytes.fromhex("00112233445566778899aabbccddeeff0123456789abcdeffedcba98765
 
 
 def encrypted(data: bytes, session: int, sequence: int, key: bytes = KEY) -> bytes:
-    """A frame whose data are encrypted as osdk-facts.md "Link and frame" says, filled up with arbitrary bytes."""
+    """A frame whose data are encrypted as docs/protocol-facts.md says, filled up with arbitrary bytes."""
     padding = 16 - len(data) % 16
     aes = Cipher(algorithms.AES256(key), modes.ECB()).encryptor()
     return raw_frame(aes.update(data + b"\xee" * padding) + aes.finalize(), session, sequence, 1 << 5 | padding)
