@@ -52,7 +52,9 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
     clock = the_clock(fast, profile)
     swing = Swing(moved, profile.limits[moved], REACH, SWINGS)
     title = f"measuring the delay of {axis}, mode {mode}"
-    display = Display(title, lambda: swing.begin, swing.duration, silent=options.json)
+    display = Display(
+        title, {moved: profile.limits[moved]}, swing.status, silent=options.json, command="teleop calibrate"
+    )
     from teleop.sinks.delay import Traces  # numpy takes 0.1 s to load
 
     traces = Traces(moved)

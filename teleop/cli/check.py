@@ -63,14 +63,13 @@ def _share(peaks: Peaks, limits: Limits) -> Mapping[str, float | None]:
 
 
 def _print(performance: Performance, profile: Profile, asked: Mapping[str, Mapping[str, Any]]) -> None:
-    from rich.console import Console
-    from rich.table import Table
+    from teleop.cli.tables import print_table
 
-    table = Table(title=f"{performance.title}: {performance.duration:.2f} s on {profile.name}")
-    table.add_column("Axis")
-    for heading in ("Velocity", "Acceleration", "Jerk", "Room"):
-        table.add_column(heading, justify="right")
+    rows = []
     for axis, shares in asked.items():
         used = [f"{shares[name]:.0%}" for name in ("velocity", "acceleration", "jerk")]
-        table.add_row(axis, *used, "continuous" if shares["room"] is None else f"{shares['room']:.3g}")
-    Console().print(table)
+        rows.append([axis, *used, "continuous" if shares["room"] is None else f"{shares['room']:.3g}"])
+    title = f"{performance.title}: {performance.duration:.2f} s on {profile.name}"
+    print_table(
+        title, ("Axis", "Velocity", "Acceleration", "Jerk", "Room"), rows, words=("Axis",), drop=("Room", "Jerk")
+    )

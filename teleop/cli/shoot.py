@@ -13,6 +13,7 @@ from teleop.cli.options import Options
 from teleop.cli.perform import EXIT_CODES, print_links, print_take, undisturbed
 from teleop.cli.shoot_options import ShootOptions
 from teleop.cli.shoot_view import ShootView, free
+from teleop.cli.take_words import take_words
 from teleop.cli.timelapse_words import clock, summary
 from teleop.clock import VirtualClock
 from teleop.journal import ENDING, Journal, Shoot, open_journal
@@ -57,7 +58,15 @@ def shoot(
         shooting = Shooting(
             timelapse, profile, time, journal, lambda line: view.say(line), watchers, keys, asked.in_doubt
         )
-        view = ShootView(timelapse.title, path.absolute().parent, shooting.progress, options.json, bool(keys))
+        view = ShootView(
+            timelapse.title,
+            timelapse.limits,
+            path.absolute().parent,
+            shooting.progress,
+            options.json,
+            bool(keys),
+            take_words(recorder),
+        )
         tally = Tally(lambda: shooting.begin)
         watchers += [tally, view]
         if not options.json:

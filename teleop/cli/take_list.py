@@ -63,15 +63,9 @@ def _entry(file: Path, found: Survey | str) -> Mapping[str, Any]:
 
 
 def _table(found: list[tuple[Path, Survey | str]]) -> None:
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
+    from teleop.cli.tables import print_table
 
-    table = Table()
-    for heading in ("Take", "Title", "Rig", "Recorded"):
-        table.add_column(heading)
-    table.add_column("Length", justify="right")
-    table.add_column("Ended")
+    rows = []
     for file, what in found:
         if isinstance(what, str):
             row = [file.name, "", "", "", "", "damaged"]
@@ -79,8 +73,9 @@ def _table(found: list[tuple[Path, Survey | str]]) -> None:
             when = recorded_on(what.about.started)[:16]
             ended = "damaged" if what.remark else str(what.ending)
             row = [file.name, what.about.title, what.about.rig, when, length(what.seconds), ended]
-        table.add_row(*map(Text, row))
-    Console().print(table)
+        rows.append(row)
+    headings = ("Take", "Title", "Rig", "Recorded", "Length", "Ended")
+    print_table("", headings, rows, words=[each for each in headings if each != "Length"], drop=("Rig", "Title"))
     for file, what in found:
         if isinstance(what, str):
             print(f"{file}: {what}")
