@@ -7,7 +7,6 @@ and signals. The profile's own delay and gains are left out meanwhile, because t
 from __future__ import annotations
 
 import json
-import sys
 from statistics import fmean, stdev
 from typing import TYPE_CHECKING
 
@@ -15,6 +14,7 @@ from cyclopts import App
 
 from teleop.cli.calibrate_signs import signs
 from teleop.cli.display import Display
+from teleop.cli.folded import complain, tell
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.perform import EXIT_CODES, signals_to
 from teleop.cli.play import Fast, the_clock
@@ -105,7 +105,7 @@ def _say(axis: str, mode: str, delays: list[Delay], as_json: bool) -> None:
         found = {"delay": written, "measured": round(late, 5), "spread": round(spread, 5), "scale": round(scale, 4)}
         print(json.dumps({"result": "done", "axis": axis, "mode": mode, **found, "swings": len(delays)}))
         return
-    print(
+    tell(
         f"{axis} moves {1000 * written:.1f} ms later than commanded in mode {mode}"
         f" (spread {1000 * spread:.1f} ms over {len(delays)} swings), {scale:.2f} times as far"
     )
@@ -118,5 +118,5 @@ def _stopped(ended: Supervisor, as_json: bool) -> int:
         print(json.dumps({"result": ended.result.name.lower(), "reasons": ended.reasons}))
     else:
         for reason in ended.reasons:
-            print(f"teleop: stopped: {reason}", file=sys.stderr)
+            complain(f"teleop: stopped: {reason}")
     return EXIT_CODES[ended.result]

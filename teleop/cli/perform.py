@@ -12,6 +12,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, Protocol
 
 from teleop.cli.display import Display, error_table
+from teleop.cli.folded import complain, tell
 from teleop.motion import Axis
 from teleop.ports import Sink, Source
 from teleop.rig import Rig
@@ -67,7 +68,7 @@ def perform(
         print(json.dumps(report if take is None else {**report, "take": take.facts}))
     else:
         for reason in ended.reasons:
-            print(f"teleop: stopped: {reason}", file=sys.stderr)
+            complain(f"teleop: stopped: {reason}")
         if tally.scores:
             error_table(tally)
         for extra in extras:
@@ -87,16 +88,16 @@ def print_links(links: Mapping[str, Mapping[str, int]]) -> None:
     """What went wrong on each link without ending the run."""
     for name, counts in links.items():
         if troubles := _troubles(counts):
-            print(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")
+            tell(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")
 
 
 def print_take(take: Recorder | None) -> None:
     """What was recorded, if anything was to be, and what could not be."""
     if take is None:
         return
-    print(take)
+    tell(str(take))
     if take.trouble:
-        print(f"teleop: {take.trouble}", file=sys.stderr)
+        complain(f"teleop: {take.trouble}")
 
 
 def commands(

@@ -101,12 +101,17 @@ class Picture:
             rows = [_in_ascii(row) for row in rows]
         return Text("\n").join(rows)
 
+    def _refresh(self, live: Live) -> None:
+        """Draw, and leave the cursor where what is typed and echoed meanwhile cannot scroll the screen."""
+        live.update(self.text(), refresh=True)
+        self.console.control(Control.home())
+
     def _run(self) -> None:
         try:
             with Live(console=self.console, auto_refresh=False, screen=True, transient=True) as live:
-                live.update(self.text(), refresh=True)
+                self._refresh(live)
                 while not self._over.wait(1 / REDRAWS):
-                    live.update(self.text(), refresh=True)
+                    self._refresh(live)
                 self.console.control(Control.clear(), Control.home())  # for a terminal that has no second screen
         except (OSError, ValueError):
             return  # the terminal is gone, or its stream is closed

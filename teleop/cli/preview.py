@@ -112,7 +112,7 @@ def _progress(performance: Performance, rate: float) -> Iterator[str]:
 
     move, console = performance.move, Console(stderr=True)
     yield header(list(move.tracks))
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
+    with Progress(console=console, transient=True, disable=not console.is_terminal or console.is_dumb_terminal) as bar:
         task = bar.add_task("Writing", total=move.duration or None)
         for times, samples in move.chunks(rate):
             yield from lines([(times, samples)])

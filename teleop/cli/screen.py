@@ -6,6 +6,7 @@ in the view, and is printed for good when it ends.
 
 from __future__ import annotations
 
+import sys
 from abc import ABC, abstractmethod
 from collections import deque
 from contextlib import ExitStack
@@ -14,6 +15,7 @@ from typing import Self
 
 from rich.text import Text
 
+from teleop.cli.folded import folded
 from teleop.cli.lines import MOST, Lines
 from teleop.cli.picture import Picture, Rows
 from teleop.motion import Tick
@@ -45,7 +47,7 @@ class Screen(ABC):
         self._stack.close()
         if self._on_screen:
             for line in self._said:
-                self._lines.say(line)
+                self._lines.say(folded(line, sys.stderr))
         self._lines.finish()
 
     def say(self, text: str) -> None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
 from teleop.cli.display import error_table
+from teleop.cli.folded import complain, tell
 from teleop.cli.options import Options
 from teleop.cli.perform import EXIT_CODES, print_links, print_take, undisturbed
 from teleop.cli.shoot_options import ShootOptions
@@ -70,7 +70,7 @@ def shoot(
         tally = Tally(lambda: shooting.begin)
         watchers += [tally, view]
         if not options.json:
-            print(f"{summary(timelapse)}; journal {path}", file=sys.stderr)
+            complain(f"{summary(timelapse)}; journal {path}")
         with undisturbed(shooting.interrupt), view:
             ended = shooting.run()
         if recorder is not None:
@@ -89,18 +89,18 @@ def shoot(
 def _print(ended: Ended, shooting: Shooting, journal: Journal, tally: Tally) -> None:
     progress = shooting.progress
     for reason in ended.reasons:
-        print(f"teleop: stopped: {reason}", file=sys.stderr)
+        complain(f"teleop: stopped: {reason}")
     if tally.scores:
         error_table(tally)
     clip = f", {progress.clip:.2f} s of clip" if progress.clip is not None else ""
     print(f"{progress.shot} of {progress.slots.frames} frames shot{clip}")
     for line in _troubles(shooting):
-        print(line)
+        tell(line)
     if ended.result is not Result.DONE:
         if journal.in_doubt is not None:
-            print(f"Frame {journal.in_doubt} is in doubt: its shutter was due just when the shoot stopped.")
+            tell(f"Frame {journal.in_doubt} is in doubt: its shutter was due just when the shoot stopped.")
         left = clock(max(0.0, progress.slots.at(progress.slots.frames - 1) - progress.slots.at(journal.next)))
-        print(f"--resume goes on at frame {journal.next}, with {left} of shooting left ({journal.path})")
+        tell(f"--resume goes on at frame {journal.next}, with {left} of shooting left ({journal.path})")
 
 
 def _troubles(shooting: Shooting) -> list[str]:

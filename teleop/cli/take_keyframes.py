@@ -75,8 +75,8 @@ def _busy(what: str) -> Iterator[None]:
     from rich.console import Console
 
     console = Console(stderr=True)
-    if not console.is_terminal:
+    if not console.is_terminal or console.is_dumb_terminal:
         yield
         return
-    with console.status(what):
+    with console.status(what, spinner="dots" if console.encoding.startswith("utf") else "line"):
         yield

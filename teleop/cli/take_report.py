@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import tell
 from teleop.cli.take_options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_said, say
 from teleop.document import UnplayableError
 from teleop.motion import Axis
@@ -98,8 +99,8 @@ def _print(take: Take, found: Mapping[Axis, AxisReport]) -> None:
     print_table(title, headings, rows, words=("Axis",), drop=("at", "Room", "J", "A", "V", "Late"))
     for axis, of in found.items():
         if of.delay is None:
-            print(f"{axis}: how late it moved cannot be told: {of.untold}")
-    print(f"ended: {take.ended}")
+            tell(f"{axis}: how late it moved cannot be told: {of.untold}")
+    tell(f"ended: {take.ended}")
 
 
 def _plain(value: object) -> object:
