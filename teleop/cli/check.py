@@ -11,6 +11,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from teleop.cli.flying import is_flown
+from teleop.cli.folded import tell
 from teleop.cli.options import DEFAULTS, Options, warn
 from teleop.cli.timelapse_words import facts, summary
 from teleop.motion import Limits
@@ -40,14 +41,14 @@ def check(
     else:
         _print(performance, profile, asked)
         if timelapse is not None:
-            print(f"{summary(timelapse)}. The table is of its rehearsal.")
+            tell(f"{summary(timelapse)}. The table is of its rehearsal.")
         if performance.cues:
             counted = Counter(cue.name for cue in performance.cues)
-            print(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
+            tell(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
         if is_flown(performance.move.tracks):
-            print("It is flown at its own speed only.")
+            tell("It is flown at its own speed only.")
         else:
-            print(f"It can be played at most at {math.floor(100 * most)} % of its speed.")
+            tell(f"It can be played at most at {math.floor(100 * most)} % of its speed.")
     return 0
 
 

@@ -7,14 +7,14 @@ once when the run stops or asks something.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from rich.text import Text
 
 from teleop.cli.axis_table import ANGLES, axis_rows
 from teleop.cli.picture import Rows
-from teleop.cli.run_rows import banner, hint_rows, state_rows, stop_row, title_row
+from teleop.cli.run_rows import NO_KEYS, banner, hint_rows, note_rows, state_rows, title_row
 from teleop.cli.screen import Screen
 from teleop.cli.tables import print_table
 from teleop.motion import Action, Axis, Halt, Limits, Tick
@@ -23,13 +23,13 @@ from teleop.sources.run_status import Hint, RunStatus, Stop, stop_state
 
 UNITS = {Axis.PAN: "deg", Axis.TILT: "deg", Axis.ROLL: "deg"}  # the others have none
 UPDATE = 0.08  # s between two looks at the run's status: the view is drawn ten times a second
-NO_KEYS = (Hint("Ctrl-C", "ends the run"),)
 
 
 class Display(Screen):
     """A sink that only shows. `status` is what the run does at a time of the loop's, asked in the control thread.
 
-    `take` is a few words about the take that is written, "" for none, and `command` the name of what runs.
+    `take` is a few words about the take that is written, "" for none, `command` the name of what runs, and
+    `hints` its keys where the status has none.
     """
 
     def __init__(
@@ -40,9 +40,11 @@ class Display(Screen):
         silent: bool = False,
         take: Callable[[], str] = lambda: "",
         command: str = "teleop play",
+        hints: Sequence[Hint] = NO_KEYS,
     ) -> None:
         super().__init__(title, silent)
         self._limits, self._status, self._take, self._command = limits, status, take, command
+        self._hints = hints
         self._latest: tuple[Tick, RunStatus] | None = None
         self._recording: bool | None = None
         self._halted: Stop = ""  # while the whole run comes to rest
@@ -64,13 +66,15 @@ class Display(Screen):
                 self._say_lines(*self._latest)
 
     def _seen(self, status: RunStatus) -> RunStatus:
-        """With what the ticks say: the camera's lamp."""
+        """With what the ticks say: the camera's lamp, and that the whole run comes to rest."""
         recording = self._recording if status.recording is None else status.recording
+        if self._halted and not status.stop:
+            note = status.note if status.note.startswith("STOPPED") else "STOPPED"
+            return replace(status, recording=recording, stop=self._halted, note=note)
         return replace(status, recording=recording)
 
     def _say_lines(self, tick: Tick, status: RunStatus) -> None:
-        stop = status.stop or self._halted
-        said = {"stopping": "stopping", "stopped": "STOPPED"}.get(stop, status.question)
+        said = {"stopping": "stopping", "stopped": "STOPPED"}.get(status.stop, status.question)
         if said and said != self._announced:
             self._lines.say(said)
         self._announced = said
@@ -85,19 +89,15 @@ class Display(Screen):
         if self._latest is None:
             waiting = Text(" waiting for the first report of every axis", "yellow")
             title = title_row(self._command, self._title, None, self._take(), width)
-            return Rows(title, banner=waiting, notes=self._notes, bottom=hint_rows(NO_KEYS, width))
+            return Rows(title, banner=waiting, notes=self._notes, bottom=hint_rows(self._hints, width))
         tick, status = self._latest
-        held = banner(status, width)
-        if self._halted and not status.stop:
-            held = stop_row(self._halted, "STOPPED", width)
-        notes = [*(Text(f" {line}") for line in status.note.splitlines()), *self._notes]
         return Rows(
             title=title_row(self._command, self._title, status.recording, self._take(), width),
-            banner=held,
+            banner=banner(status, width),
             axes=axis_rows(tick, self._limits, width),
             state=[Text(), *self._state(tick, status, width), Text()],
-            notes=notes,
-            bottom=hint_rows(status.hints or NO_KEYS, width),
+            notes=[*note_rows(status), *self._notes],
+            bottom=hint_rows(status.hints or self._hints, width),
         )
 
     def _state(self, tick: Tick, status: RunStatus, width: int) -> list[Text]:  # noqa: ARG002 - for those who need it

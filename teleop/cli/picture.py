@@ -51,7 +51,8 @@ class Rows:
         if not banner and room > len(self.state):
             banner = [Text()]  # its place, so that nothing jumps when there is one
             room -= 1
-        state = list(self.state)[:room]
+        written = [row for row in self.state if row.plain.strip()]
+        state = list(self.state) if room >= len(self.state) else written[:room]
         notes = list(self.notes)[: room - len(state)]
         blank = [Text() for _ in range(room - len(state) - len(notes))]
         rows = [row.copy() for row in (*title, *banner, *axes, *state, *notes, *blank, *bottom)]

@@ -15,6 +15,7 @@ from typing import Annotated, BinaryIO
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import tell
 from teleop.cli.options import DEFAULTS, Options, warn
 from teleop.ports import UsageError
 from teleop.preview.output import replacing
@@ -46,7 +47,7 @@ def preview(
             write(performance, profile, stream)
             written.append({"path": str(path), "bytes": stream.tell()})
         if not options.json:
-            print(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}")
+            tell(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}")
     if options.json:
         found = {"ok": True, "title": performance.title, "duration": performance.duration, "written": written}
         print(json.dumps({**found, "warnings": list(performance.warnings)}))

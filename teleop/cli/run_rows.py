@@ -13,7 +13,10 @@ from teleop.sources.run_status import Hint, RunStatus, Stop
 
 BAR = 30  # cells of the bar of how far it is, at most
 LABEL = 9
-STOPPED = "STOPPED. Press c to clear"
+STOPPED = "STOPPED. Press c to clear."
+PAUSED = "PAUSED. Press p to go on."
+RUN_HINTS = (Hint("space", "STOP"), Hint("p", "pause"), Hint("q", "end"))
+NO_KEYS = (Hint("Ctrl-C", "ends the run"),)
 
 
 def title_row(command: str, title: str, recording: bool | None, take: str, width: int, more: str = "") -> Text:
@@ -38,12 +41,19 @@ def stop_row(stop: Stop, then: str, width: int) -> Text:
 
 
 def banner(status: RunStatus, width: int) -> Text:
-    """What holds the run, or asks for an answer."""
+    """What holds the run, or asks for an answer. The note says how to go on where whoever holds it knows."""
+    first = status.note.partition("\n")[0]
     if status.stop:
-        return stop_row(status.stop, f"{STOPPED}. {status.question}".rstrip(), width)
+        return stop_row(status.stop, first if first.startswith("STOPPED") else STOPPED, width)
     if status.question:
         return Text(f" {status.question}".ljust(width), "bold black on cyan")
-    return Text(" PAUSED. Press p to go on.".ljust(width), "black on yellow") if status.paused else Text()
+    return Text(f" {first or PAUSED}".ljust(width), "black on yellow") if status.paused else Text()
+
+
+def note_rows(status: RunStatus) -> list[Text]:
+    """The note, without what the banner has of it."""
+    lines = status.note.splitlines()
+    return [Text(f" {line}") for line in (lines[1:] if status.stop or status.paused else lines)]
 
 
 def state_rows(status: RunStatus, width: int) -> list[Text]:

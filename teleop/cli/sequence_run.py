@@ -13,6 +13,7 @@ from teleop.cli.flying import Aboard, is_flown
 from teleop.cli.hands import open_devices
 from teleop.cli.passes import PassesReport
 from teleop.cli.perform import Extra, commands, perform
+from teleop.cli.run_rows import NO_KEYS, RUN_HINTS
 from teleop.cli.take_words import take_words
 from teleop.cli.trim_options import TrimReport
 from teleop.motion import Axis
@@ -66,7 +67,8 @@ class SequenceRun:
             rig = stack.enter_context(open_rig(profile, self.clock))
             watchers = self._watchers(stack, rig, axes, conductor, extras)
             status_of = source.status if conductor is None else conductor.status
-            display = Display(title, limits, status_of, self.as_json, take_words(recorder))
+            keys = NO_KEYS if self.keys is None else RUN_HINTS
+            display = Display(title, limits, status_of, self.as_json, take_words(recorder), hints=keys)
             aboard.board(rig, axes, display.say, by_script=True)
             tally, sources = Tally(lambda: source.begin), [conductor or source]
             return perform(rig, axes, sources, tally, display, self.as_json, recorder, watchers, extras)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import shutil
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from rich.text import Text
@@ -28,7 +29,7 @@ RESUMES = (Hint("space", "STOP"), Hint("p", "go on"), Hint("q", "end"), ENDS)
 class ShootView(Display):
     """A sink that only shows. `folder` is where the journal is written, `progress` how far the shoot is.
 
-    `also` is what is known of the run beside its progress: a STOP, a note.
+    `note` is what holds it, and how to go on, "" for nothing.
     """
 
     def __init__(
@@ -40,10 +41,10 @@ class ShootView(Display):
         silent: bool,
         keys: bool,
         take: Callable[[], str] = lambda: "",
-        also: Callable[[RunStatus], RunStatus] = lambda status: status,
+        note: Callable[[], str] = lambda: "",
     ) -> None:
         def status(now: float) -> RunStatus:
-            return also(shoot_status(progress, now, keys))
+            return replace(shoot_status(progress, now, keys), note=note())
 
         super().__init__(title, limits, status, silent, take, "teleop shoot")
         self._folder, self._progress = folder, progress

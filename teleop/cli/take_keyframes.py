@@ -11,6 +11,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import tell
 from teleop.cli.play import percentage
 from teleop.cli.take_options import Json, Overwrite, TakeFile, place, problems_said, say
 from teleop.ports import UsageError
@@ -65,7 +66,7 @@ def take_keyframes(
     else:
         errors = [f"{axis} {e.size:.3g}{UNITS[axis]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
         count = len(fitted.frames)
-        print(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
+        tell(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
     return 0
 
 

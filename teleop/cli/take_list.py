@@ -11,6 +11,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import tell
 from teleop.cli.take_options import Json, TakeFile, ending_facts, length, problems_said, recorded_on, say
 from teleop.sinks.take_format import LIMITS
 from teleop.takes.survey import Survey, survey, takes_in
@@ -28,7 +29,7 @@ def take_list(
     if as_json:
         print(json.dumps({"ok": True, "takes": [_entry(file, what) for file, what in found]}))
     elif not found:
-        print(f"no takes (.mcap) in {folder}")
+        tell(f"no takes (.mcap) in {folder}")
     else:
         _table(found)
     return 0
@@ -49,7 +50,7 @@ def take_info(file: TakeFile, /, *, as_json: Json = False) -> int:
         rest = {"axes": axes, "messages": dict(found.counts), "actions": actions, "links": links}
         print(json.dumps({"ok": True, **_entry(file, found), "version": found.about.version, **rest}))
     else:
-        print("\n".join(_lines(found)))
+        tell("\n".join(_lines(found)))
     return 0
 
 
@@ -78,9 +79,9 @@ def _table(found: list[tuple[Path, Survey | str]]) -> None:
     print_table("", headings, rows, words=[each for each in headings if each != "Length"], drop=("Rig", "Title"))
     for file, what in found:
         if isinstance(what, str):
-            print(f"{file}: {what}")
+            tell(f"{file}: {what}")
         elif what.remark:
-            print(what.remark)
+            tell(what.remark)
 
 
 def _lines(found: Survey) -> Iterator[str]:
