@@ -51,6 +51,7 @@ class Display(Screen):
         self._shown = -math.inf
         self._next_line = -math.inf
         self._announced = ""
+        self._hinted: Sequence[Hint] = ()
 
     def write(self, tick: Tick) -> None:
         for act in tick.actions:
@@ -78,6 +79,9 @@ class Display(Screen):
         if said and said != self._announced:
             self._lines.say(said)
         self._announced = said
+        if status.hints != self._hinted and self._picture.console.is_terminal:  # one on which nothing is drawn
+            self._lines.say("keys: " + "   ".join(f"{key} {does}" for key, does in status.hints))
+        self._hinted = status.hints
         if tick.time >= self._next_line:
             self._next_line = tick.time + 1
             self._lines.say(self._line(tick, status))
