@@ -6,6 +6,7 @@ needs. Exit codes: 0 done, 1 the run or the check failed, 2 bad usage or a bad f
 
 from __future__ import annotations
 
+import io
 import logging
 import sys
 from collections.abc import Mapping, Sequence
@@ -49,12 +50,20 @@ for _name, (_place, _help) in COMMANDS.items():
 def main(arguments: Sequence[str] | None = None) -> None:
     """The `teleop` command; exits with one of the codes above."""
     process.own()
+    _printable()
     try:
         code = run(sys.argv[1:] if arguments is None else arguments)
     finally:
         process.owned = False
     process.finish(code)
     sys.exit(code)
+
+
+def _printable() -> None:
+    """No character that the terminal or a pipe cannot have ends in a traceback."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
+            stream.reconfigure(errors="replace")
 
 
 def run(arguments: Sequence[str]) -> int:

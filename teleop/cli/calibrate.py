@@ -7,7 +7,6 @@ and signals. The profile's own delay and gains are left out meanwhile, because t
 from __future__ import annotations
 
 import json
-import sys
 from statistics import fmean, stdev
 from typing import TYPE_CHECKING
 
@@ -15,6 +14,7 @@ from cyclopts import App
 
 from teleop.cli.calibrate_signs import signs
 from teleop.cli.display import Display
+from teleop.cli.folded import complain, tell
 from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.perform import EXIT_CODES
@@ -53,7 +53,9 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
     clock = the_clock(fast, profile)
     swing = Swing(moved, profile.limits[moved], REACH, SWINGS)
     title = f"measuring the delay of {axis}, mode {mode}"
-    display = Display(title, lambda: swing.begin, swing.duration, silent=options.json)
+    display = Display(
+        title, {moved: profile.limits[moved]}, swing.status, silent=options.json, command="teleop calibrate"
+    )
     from teleop.sinks.delay import Traces  # numpy takes 0.1 s to load
 
     traces = Traces(moved)
@@ -104,7 +106,7 @@ def _say(axis: str, mode: str, delays: list[Delay], as_json: bool) -> None:
         found = {"delay": written, "measured": round(late, 5), "spread": round(spread, 5), "scale": round(scale, 4)}
         print(json.dumps({"result": "done", "axis": axis, "mode": mode, **found, "swings": len(delays)}))
         return
-    print(
+    tell(
         f"{axis} moves {1000 * written:.1f} ms later than commanded in mode {mode}"
         f" (spread {1000 * spread:.1f} ms over {len(delays)} swings), {scale:.2f} times as far"
     )
@@ -117,5 +119,5 @@ def _stopped(ended: Supervisor, as_json: bool) -> int:
         print(json.dumps({"result": ended.result.name.lower(), "reasons": ended.reasons}))
     else:
         for reason in ended.reasons:
-            print(f"teleop: stopped: {reason}", file=sys.stderr)
+            complain(f"teleop: stopped: {reason}")
     return EXIT_CODES[ended.result]

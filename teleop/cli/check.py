@@ -11,6 +11,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from teleop.cli.flying import is_flown
+from teleop.cli.folded import tell
 from teleop.cli.options import DEFAULTS, Options, warn
 from teleop.cli.timelapse_words import facts, summary
 from teleop.motion import Limits
@@ -40,14 +41,14 @@ def check(
     else:
         _print(performance, profile, asked)
         if timelapse is not None:
-            print(f"{summary(timelapse)}. The table is of its rehearsal.")
+            tell(f"{summary(timelapse)}. The table is of its rehearsal.")
         if performance.cues:
             counted = Counter(cue.name for cue in performance.cues)
-            print(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
+            tell(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
         if is_flown(performance.move.tracks):
-            print("It is flown at its own speed only.")
+            tell("It is flown at its own speed only.")
         else:
-            print(f"It can be played at most at {math.floor(100 * most)} % of its speed.")
+            tell(f"It can be played at most at {math.floor(100 * most)} % of its speed.")
     return 0
 
 
@@ -63,14 +64,13 @@ def _share(peaks: Peaks, limits: Limits) -> Mapping[str, float | None]:
 
 
 def _print(performance: Performance, profile: Profile, asked: Mapping[str, Mapping[str, Any]]) -> None:
-    from rich.console import Console
-    from rich.table import Table
+    from teleop.cli.tables import print_table
 
-    table = Table(title=f"{performance.title}: {performance.duration:.2f} s on {profile.name}")
-    table.add_column("Axis")
-    for heading in ("Velocity", "Acceleration", "Jerk", "Room"):
-        table.add_column(heading, justify="right")
+    rows = []
     for axis, shares in asked.items():
         used = [f"{shares[name]:.0%}" for name in ("velocity", "acceleration", "jerk")]
-        table.add_row(axis, *used, "continuous" if shares["room"] is None else f"{shares['room']:.3g}")
-    Console().print(table)
+        rows.append([axis, *used, "continuous" if shares["room"] is None else f"{shares['room']:.3g}"])
+    title = f"{performance.title}: {performance.duration:.2f} s on {profile.name}"
+    print_table(
+        title, ("Axis", "Velocity", "Acceleration", "Jerk", "Room"), rows, words=("Axis",), drop=("Room", "Jerk")
+    )

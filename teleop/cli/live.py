@@ -12,13 +12,14 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.display import Display
+from teleop.cli.display import Display, timed
 from teleop.cli.flying import Aboard, Understood, ask_to_fly, is_flown, refuse_offsets
 from teleop.cli.hands import open_devices
 from teleop.cli.live_view import LiveView
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.perform import commands, perform
+from teleop.cli.perform import camera_answers, commands, perform
 from teleop.cli.play import Fast, Take, the_clock
+from teleop.cli.take_words import take_words
 from teleop.motion import Axis
 from teleop.ports import Sink, UsageError
 from teleop.profile import Profile
@@ -62,7 +63,8 @@ def live(
     if replay and recorded and keyboard is None:
         ask_to_fly(title, axes, i_understand)
         tally = Tally(lambda: replay.begin)
-        display = Display(title, lambda: replay.begin, recorded.times[-1], silent=options.json)
+        status = timed(lambda: replay.begin, recorded.times[-1], "replaying sticks")
+        display = Display(title, limits, status, silent=options.json, command="teleop live")
         status = aboard.status if is_flown(axes) else None
         with (
             recording(take, profile.name, title, limits, status, patient=fast) as recorder,
@@ -83,11 +85,20 @@ def live(
         )
         rig = stack.enter_context(open_rig(profile, clock))
         aboard.board(rig, axes, operator.say, by_script=False)
-        trouble = (lambda: "") if recorder is None else (lambda: recorder.trouble)
         view = LiveView(
-            title, limits, lambda: operator.status, rig.connections, keyboard, trouble, options.json, aboard.state
+            title,
+            limits,
+            lambda: operator.status,
+            rig.connections,
+            keyboard,
+            take_words(recorder),
+            options.json,
+            aboard.state,
         )
-        watchers: list[Sink] = [operator, *commands(rig, axes, operator.say), *([] if keyboard is None else [keyboard])]
+        watchers: list[Sink] = [
+            *(operator, *commands(rig, axes, operator.say, operator.confirmed), camera_answers(rig, operator.say)),
+            *([] if keyboard is None else [keyboard]),
+        ]
         tally = Tally(lambda: operator.begin)
         return perform(rig, axes, [operator], tally, view, options.json, recorder, watchers)
 

@@ -8,26 +8,26 @@ it goes to stderr; stdout is for the result.
 from __future__ import annotations
 
 import math
-import threading
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from types import TracebackType
 from typing import Protocol, Self
 
-from rich.console import Console, RenderableType
-from rich.live import Live
 from rich.text import Text
 
+from teleop.cli.axis_table import axis_rows
 from teleop.cli.drone_rows import drone_rows, summary
 from teleop.cli.lines import Lines
-from teleop.cli.live_rows import Traffic, axis_rows, banner, help_rows, key_rows, said, state_rows, title_row
+from teleop.cli.live_rows import Traffic, banner, help_rows, key_rows, said, state_rows, title_row
+from teleop.cli.picture import Picture, Rows
 from teleop.motion import Axis, Limits, Tick
 from teleop.sinks.drone_state import DroneState
 from teleop.sources.keyboard import Keyboard
+from teleop.sources.run_status import stop_state
 from teleop.sources.status import Said, Status
 
-REDRAWS = 10  # a second
-LEAST_WIDTH = 60
+LOW = 14  # rows of a terminal from which on the keys have two of them
+STOP_WORDS = {"": "", "stopping": "  stopping", "stopped": "  STOPPED"}
 
 
 class Counted(Protocol):
@@ -40,8 +40,8 @@ class Counted(Protocol):
 class LiveView:
     """A sink that only shows, and has the terminal while it is entered: its screen, and its keys if there are any.
 
-    `trouble` is asked for what is wrong with the recording of a take, "" for nothing, and `drone` for what is known of
-    one, None where there is none.
+    `take` is asked for a few words about the take that is written, "" for none, and `drone` for what is known of one,
+    None where there is none.
     """
 
     def __init__(
@@ -51,32 +51,28 @@ class LiveView:
         status: Callable[[], Status],
         connections: Mapping[str, Counted],
         keyboard: Keyboard | None,
-        trouble: Callable[[], str] = lambda: "",
+        take: Callable[[], str] = lambda: "",
         silent: bool = False,
         drone: Callable[[], DroneState | None] = lambda: None,
     ) -> None:
         self._drone = drone
         self._title, self._limits, self._status = title, limits, status
-        self._keyboard, self._trouble, self._silent = keyboard, trouble, silent
+        self._keyboard, self._take, self._silent = keyboard, take, silent
         self._traffic = {name: Traffic(connection) for name, connection in connections.items()}
         self._tick: Tick | None = None
         self._begin = math.nan
-        self._console = Console(stderr=True)
-        self._on_screen = self._console.is_terminal and not silent
+        self._picture = Picture(self._draw)
+        self._on_screen = self._picture.possible and not silent
         self._plain = Plain(title, drone)
         self._stack = ExitStack()
-        self._over = threading.Event()
-        self._word = ""  # what was said last
+        self._word = ""  # what was reported last, outside the operator's messages
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
             if self._keyboard:
                 stack.enter_context(self._keyboard)
             if self._on_screen:
-                drawer = threading.Thread(target=self._redraw, name="view", daemon=True)
-                drawer.start()
-                stack.callback(drawer.join)
-                stack.callback(self._over.set)
+                stack.enter_context(self._picture)
             elif not self._silent:
                 self._plain.lines.say(self._title)
             self._stack = stack.pop_all()
@@ -102,41 +98,32 @@ class LiveView:
     def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
         return None
 
-    def _redraw(self) -> None:
-        try:
-            with Live(console=self._console, auto_refresh=False, screen=True, transient=True) as live:
-                while not self._over.wait(1 / REDRAWS):
-                    live.update(self._screen(), refresh=True)
-        except OSError:
-            return  # the terminal is gone: nobody is left to draw for
-
-    def _screen(self) -> RenderableType:
-        width, height = max(self._console.width, LEAST_WIDTH), self._console.height
+    def _draw(self, width: int, height: int) -> Rows:
         status, tick, keyboard = self._status(), self._tick, self._keyboard
         now = tick.time if tick else 0.0
         elapsed = now - self._begin if tick else 0.0
-        top = [title_row(self._title, elapsed, status, self._trouble(), width), banner(status, now, width)]
-        if tick is None:
-            top.append(Text(" waiting for the first report of every axis", "yellow"))
-        else:
-            top += axis_rows(tick, self._limits, status, width)
-        links = [traffic.row(name, now) for name, traffic in self._traffic.items()]
-        drone = self._drone()
-        flying = [] if drone is None else drone_rows(drone)
-        middle = [Text(), *flying, *state_rows(status, links), Text()]
         question = keyboard.question if keyboard else ""
         helping = keyboard is not None and keyboard.helping
+        if tick is None:
+            axes = [Text(" waiting for the first report of every axis", "yellow")]
+        else:
+            axes = axis_rows(tick, self._limits, width, status.deflections)
         word = [Text(f" {self._word}", "yellow")] if self._word else []
-        messages = help_rows() if helping else word + [said(message, now) for message in status.messages]
-        bottom = [] if helping and not question else key_rows(question, keyboard is not None)
-        if helping and height < len(top) + len(middle) + len(messages) + len(bottom):
-            middle = [Text()]  # a help that lacks a key is none, and it is open for a moment only
-        room = max(1, height - len(top) - len(middle) - len(bottom))
-        messages = (messages + [Text()] * room)[:room]
-        rows = [*top, *middle, *messages, *bottom]
-        for row in rows:
-            row.truncate(width)
-        return Text("\n").join(rows)
+        messages = word + [said(message, now) for message in status.messages]
+        return Rows(
+            title=title_row(self._title, elapsed, status, self._take(), width),
+            banner=banner(status, tick.motion if tick else {}, now, width),
+            axes=axes,
+            state=[Text(), *help_rows()] if helping else [Text(), *self._state(status, now), Text()],
+            notes=[] if helping else messages,
+            bottom=key_rows(question, keyboard is not None, width, 2 if height >= LOW else 1),
+        )
+
+    def _state(self, status: Status, now: float) -> list[Text]:
+        """Speed, inputs, links; first what a drone does."""
+        drone = self._drone()
+        flying = [] if drone is None else drone_rows(drone)
+        return [*flying, *state_rows(status, [traffic.row(name, now) for name, traffic in self._traffic.items()])]
 
 
 class Plain:
@@ -156,7 +143,8 @@ class Plain:
             angles = (f"{axis} {round(state.position, 3) + 0.0:+.3f}" for axis, state in tick.motion.items())
             drone = self._drone()
             flying = "" if drone is None else f"  {summary(drone)}"
-            self.lines.say(f"{elapsed:6.1f} s  {'  '.join(angles)}{flying}{'  E-STOP' * status.stopped}")
+            stop = STOP_WORDS[stop_state(status.stopped, tick.motion)]
+            self.lines.say(f"{elapsed:6.1f} s  {'  '.join(angles)}{flying}{stop}")
 
     def _new(self, messages: Sequence[Said]) -> Sequence[Said]:
         until = messages.index(self._last) if self._last in messages else len(messages)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from teleop.cli.display import UNITS
+from teleop.cli.tables import print_table
 from teleop.sinks.repeatability import Repeatability
 from teleop.sinks.tally import Score
 
@@ -29,19 +30,16 @@ class PassesReport:
         )
 
     def print(self) -> None:
-        from rich.console import Console
-        from rich.table import Table
-
         if not self._passes:
             return
-        table = Table(title="Each pass against the first")
-        for heading in ("Pass", "Axis", "Commanded RMS", "Peak", "Measured RMS", "Peak", "Unit"):
-            table.add_column(heading, justify="left" if heading in ("Axis", "Unit") else "right")
+        headings = ("Pass", "Axis", "Commanded RMS", "Commanded peak", "Measured RMS", "Measured peak", "Unit")
+        rows = []
         for number, axes in self._passes.items():
             for axis, each in axes.items():
                 shown = [f"{value:.4f}" for of in (each.commanded, each.measured) for value in (of.rms, of.peak)]
-                table.add_row(str(number), axis.value, *shown, UNITS.get(axis, "0..1"))
-        Console().print(table)
+                rows.append([str(number), axis.value, *shown, UNITS.get(axis, "0..1")])
+        drop = ("Unit", "Commanded RMS", "Measured RMS", "Commanded peak")
+        print_table("Each pass against the first", headings, rows, words=("Axis", "Unit"), drop=drop)
 
 
 def _facts(score: Score) -> dict[str, object]:

@@ -10,10 +10,12 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Protocol
 
 from teleop.cli.display import Display, error_table
+from teleop.cli.folded import complain, tell
 from teleop.cli.leaving import signals_to
 from teleop.motion import Axis
 from teleop.ports import Sink, Source
 from teleop.rig import Rig
+from teleop.sinks.camera_answers import CameraAnswers
 from teleop.sinks.commands import CommandSink, Unheard
 from teleop.sinks.recorder import Recorder
 from teleop.sinks.take_format import plain
@@ -63,7 +65,7 @@ def perform(
         print(json.dumps(report if take is None else {**report, "take": take.facts}))
     else:
         for reason in ended.reasons:
-            print(f"teleop: stopped: {reason}", file=sys.stderr)
+            complain(f"teleop: stopped: {reason}")
         if tally.scores:
             error_table(tally)
         for extra in extras:
@@ -73,26 +75,35 @@ def perform(
     return EXIT_CODES[ended.result]
 
 
+def camera_answers(rig: Rig, say: Callable[[str], object]) -> CameraAnswers:
+    """What says a line for all that the rig's camera confirms, or that there is none."""
+    links = [section.link for section in rig.profile.sinks if section.type == "camera"]
+    return CameraAnswers(rig.connections[links[0]] if links else None, say)
+
+
 def print_links(links: Mapping[str, Mapping[str, int]]) -> None:
     """What went wrong on each link without ending the run."""
     for name, counts in links.items():
         if troubles := _troubles(counts):
-            print(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")
+            tell(f"{name}: {', '.join(f'{count} {word}' for word, count in troubles.items())}")
 
 
 def print_take(take: Recorder | None) -> None:
     """What was recorded, if anything was to be, and what could not be."""
     if take is None:
         return
-    print(take)
+    tell(str(take))
     if take.trouble:
-        print(f"teleop: {take.trouble}", file=sys.stderr)
+        complain(f"teleop: {take.trouble}")
 
 
-def commands(rig: Rig, axes: Sequence[Axis], say: Callable[[str], object]) -> list[Sink]:
-    """What gives a gimbal its own commands, where the rig has one; `say` is for what comes of them."""
+def commands(
+    rig: Rig, axes: Sequence[Axis], say: Callable[[str], object], done: Callable[[str], object] = lambda _words: None
+) -> list[Sink]:
+    """What gives a gimbal its own commands, where the rig has one; `say` is for what comes of them, `done` for those
+    that the gimbal has confirmed."""
     links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
-    heard = [CommandSink(rig.connections[link], say) for link in links[:1]]
+    heard = [CommandSink(rig.connections[link], say, done) for link in links[:1]]
     return [*heard, Unheard(gimbal=bool(heard), drone=rig.drone(axes) is not None, say=say)]
 
 

@@ -15,6 +15,7 @@ from typing import Annotated, BinaryIO
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import tell
 from teleop.cli.options import DEFAULTS, Options, warn
 from teleop.ports import UsageError
 from teleop.preview.output import replacing
@@ -47,7 +48,7 @@ def preview(
             write(performance, profile, stream)
             written.append({"path": str(path), "bytes": stream.tell()})
         if not options.json:
-            print(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}")
+            tell(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}")
     if options.json:
         found = {"ok": True, "title": performance.title, "duration": performance.duration, "written": written}
         print(json.dumps({**found, "warnings": list(performance.warnings)}))
@@ -113,7 +114,7 @@ def _progress(performance: Performance, rate: float) -> Iterator[str]:
 
     move, console = performance.move, Console(stderr=True)
     yield header(list(move.tracks))
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
+    with Progress(console=console, transient=True, disable=not console.is_terminal or console.is_dumb_terminal) as bar:
         task = bar.add_task("Writing", total=move.duration or None)
         for times, samples in move.chunks(rate):
             yield from lines([(times, samples)])

@@ -1,43 +1,42 @@
-"""What a run shows of itself on stderr: on a terminal a part that is drawn again and again, elsewhere lines.
+"""What a run that moves by itself shows of itself on stderr: a view on a terminal, elsewhere lines.
 
-On a terminal a thread of rich's redraws, from what the control thread has left for it; a terminal that is slow or
-stopped holds up that thread and no other. What is said in between stands below the picture, and stays when it ends.
+On a terminal a thread draws (`picture`), from what the control thread has left for it. What is said in between stands
+in the view, and is printed for good when it ends.
 """
 
 from __future__ import annotations
 
+import sys
 from abc import ABC, abstractmethod
 from collections import deque
+from contextlib import ExitStack
 from types import TracebackType
 from typing import Self
 
-from rich.console import Console, Group, RenderableType
-from rich.live import Live
 from rich.text import Text
 
-from teleop.cli.lines import Lines
+from teleop.cli.folded import folded
+from teleop.cli.lines import MOST, Lines
+from teleop.cli.picture import Picture, Rows
 from teleop.motion import Tick
 
-NOTES = 5  # of what was said, that stand below the picture
+NOTES = 5  # of what was said, that stand in the view
 
 
 class Screen(ABC):
     """A sink that only shows. `silent` is for programs: nothing then but what has to be said."""
 
-    def __init__(self, title: str, silent: bool, redraws: int) -> None:
+    def __init__(self, title: str, silent: bool) -> None:
         self._title, self._silent = title, silent
         self._lines = Lines()
-        self._notes: deque[str] = deque(maxlen=NOTES)
-        console = Console(stderr=True)
-        self._live = (
-            Live(console=console, get_renderable=self._picture, refresh_per_second=redraws)
-            if console.is_terminal and not silent
-            else None
-        )
+        self._said: deque[str] = deque(maxlen=MOST)
+        self._picture = Picture(self._draw)
+        self._on_screen = self._picture.possible and not silent
+        self._stack = ExitStack()
 
     def __enter__(self) -> Self:
-        if self._live:
-            self._live.start()
+        if self._on_screen:
+            self._stack.enter_context(self._picture)
         elif not self._silent:
             self._lines.say(self._title)
         return self
@@ -45,14 +44,16 @@ class Screen(ABC):
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._live:
-            self._live.stop()
+        self._stack.close()
+        if self._on_screen:
+            for line in self._said:
+                self._lines.say(folded(line, sys.stderr))
         self._lines.finish()
 
     def say(self, text: str) -> None:
         """A line that stays."""
-        if self._live:
-            self._notes.append(f"teleop: {text}")
+        if self._on_screen:
+            self._said.append(f"teleop: {text}")
         else:
             self._lines.say(f"teleop: {text}")
 
@@ -65,10 +66,11 @@ class Screen(ABC):
     @property
     def _in_lines(self) -> bool:
         """Whether what is to be seen is written as lines."""
-        return self._live is None and not self._silent
+        return not self._on_screen and not self._silent
+
+    @property
+    def _notes(self) -> list[Text]:
+        return [Text(f" {line}") for line in list(self._said)[-NOTES:]]
 
     @abstractmethod
-    def _draw(self) -> RenderableType: ...
-
-    def _picture(self) -> RenderableType:
-        return Group(self._draw(), *map(Text, list(self._notes)))
+    def _draw(self, width: int, height: int) -> Rows: ...

@@ -13,6 +13,8 @@ from teleop.cli.flying import Aboard, is_flown
 from teleop.cli.hands import open_devices
 from teleop.cli.passes import PassesReport
 from teleop.cli.perform import Extra, commands, perform
+from teleop.cli.run_rows import NO_KEYS, RUN_HINTS
+from teleop.cli.take_words import take_words
 from teleop.cli.trim_options import TrimReport
 from teleop.motion import Axis
 from teleop.planner.trim import trim_limits
@@ -64,15 +66,9 @@ class SequenceRun:
                 source.staging.trigger.open(stack)
             rig = stack.enter_context(open_rig(profile, self.clock))
             watchers = self._watchers(stack, rig, axes, conductor, extras)
-            display = Display(
-                title,
-                lambda: source.begin,
-                source.duration,
-                self.as_json,
-                source.playback.time,
-                conductor and (lambda: conductor.note),
-                source.said,
-            )
+            status_of = source.status if conductor is None else conductor.status
+            keys = NO_KEYS if self.keys is None else RUN_HINTS
+            display = Display(title, limits, status_of, self.as_json, take_words(recorder), hints=keys)
             aboard.board(rig, axes, display.say, by_script=True)
             tally, sources = Tally(lambda: source.begin), [conductor or source]
             return perform(rig, axes, sources, tally, display, self.as_json, recorder, watchers, extras)

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
 from teleop.cli.display import error_table
+from teleop.cli.folded import complain, tell
 from teleop.cli.options import Options
 from teleop.cli.perform import EXIT_CODES, print_links, print_take, undisturbed
 from teleop.cli.shoot_options import ShootOptions
 from teleop.cli.shoot_view import ShootView, free
+from teleop.cli.take_words import take_words
 from teleop.cli.timelapse_words import clock, summary
 from teleop.clock import VirtualClock
 from teleop.journal import ENDING, Journal, Shoot, open_journal
@@ -57,11 +58,19 @@ def shoot(
         shooting = Shooting(
             timelapse, profile, time, journal, lambda line: view.say(line), watchers, keys, asked.in_doubt
         )
-        view = ShootView(timelapse.title, path.absolute().parent, shooting.progress, options.json, bool(keys))
+        view = ShootView(
+            timelapse.title,
+            timelapse.limits,
+            path.absolute().parent,
+            shooting.progress,
+            options.json,
+            bool(keys),
+            take_words(recorder),
+        )
         tally = Tally(lambda: shooting.begin)
         watchers += [tally, view]
         if not options.json:
-            print(f"{summary(timelapse)}; journal {path}", file=sys.stderr)
+            complain(f"{summary(timelapse)}; journal {path}")
         with undisturbed(shooting.interrupt, shooting.release_at_once, view.say), view:
             ended = shooting.run()
         if recorder is not None:
@@ -80,18 +89,18 @@ def shoot(
 def _print(ended: Ended, shooting: Shooting, journal: Journal, tally: Tally) -> None:
     progress = shooting.progress
     for reason in ended.reasons:
-        print(f"teleop: stopped: {reason}", file=sys.stderr)
+        complain(f"teleop: stopped: {reason}")
     if tally.scores:
         error_table(tally)
     clip = f", {progress.clip:.2f} s of clip" if progress.clip is not None else ""
     print(f"{progress.shot} of {progress.slots.frames} frames shot{clip}")
     for line in _troubles(shooting):
-        print(line)
+        tell(line)
     if ended.result is not Result.DONE:
         if journal.in_doubt is not None:
-            print(f"Frame {journal.in_doubt} is in doubt: its shutter was due just when the shoot stopped.")
+            tell(f"Frame {journal.in_doubt} is in doubt: its shutter was due just when the shoot stopped.")
         left = clock(max(0.0, progress.slots.at(progress.slots.frames - 1) - progress.slots.at(journal.next)))
-        print(f"--resume goes on at frame {journal.next}, with {left} of shooting left ({journal.path})")
+        tell(f"--resume goes on at frame {journal.next}, with {left} of shooting left ({journal.path})")
 
 
 def _troubles(shooting: Shooting) -> list[str]:

@@ -1,4 +1,4 @@
-"""What an operator sees of a shoot: a bar and the next frame on a terminal, a line now and then elsewhere.
+"""What an operator sees of a shoot: the axes, the frames, what went wrong; where there is no terminal a line at times.
 
 It goes to stderr: stdout is for the result.
 """
@@ -7,62 +7,92 @@ from __future__ import annotations
 
 import math
 import shutil
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
-from rich.console import Group, RenderableType
-from rich.progress_bar import ProgressBar
-from rich.table import Table
 from rich.text import Text
 
-from teleop.cli.screen import Screen
+from teleop.cli.display import Display
+from teleop.cli.run_rows import labelled
 from teleop.cli.timelapse_words import clock
-from teleop.motion import Tick
+from teleop.motion import Axis, Limits, Tick
 from teleop.sources.progress import Progress
+from teleop.sources.run_status import Hint, RunStatus
 
-REDRAWS = 4  # a second
 EVERY = 60.0  # s between two lines, at most, while frames are shot
-STOP = "Ctrl-C stop, --resume goes on"
+ENDS = Hint("Ctrl-C", "end, --resume goes on")
+HINTS = (Hint("space", "STOP"), Hint("p", "pause between frames"), Hint("q", "end"), ENDS)
+RESUMES = (Hint("space", "STOP"), Hint("p", "go on"), Hint("q", "end"), ENDS)
 
 
-class ShootView(Screen):
-    """A sink that only shows. `folder` is where the journal is written, `progress` how far the shoot is."""
+class ShootView(Display):
+    """A sink that only shows. `folder` is where the journal is written, `progress` how far the shoot is.
 
-    def __init__(self, title: str, folder: Path, progress: Progress, silent: bool, keys: bool) -> None:
-        super().__init__(title, silent, REDRAWS)
-        self._folder, self._progress, self._keys = folder, progress, keys
-        self._now = -math.inf
-        self._said = -math.inf, -1  # when the last line was written, and at how many hundredths
+    `note` is what holds it, and how to go on, "" for nothing.
+    """
 
-    def write(self, tick: Tick) -> None:
-        self._now = tick.time
-        if self._in_lines:
-            self._line(tick.time, self._progress)
+    def __init__(
+        self,
+        title: str,
+        limits: Mapping[Axis, Limits],
+        folder: Path,
+        progress: Progress,
+        silent: bool,
+        keys: bool,
+        take: Callable[[], str] = lambda: "",
+        note: Callable[[], str] = lambda: "",
+    ) -> None:
+        def status(now: float) -> RunStatus:
+            return replace(shoot_status(progress, now, keys), note=note())
 
-    def _line(self, now: float, progress: Progress) -> None:
-        last, hundredth = self._said
-        reached = 100 * progress.shot // progress.slots.frames
-        if now - last >= EVERY or reached != hundredth:
-            self._said = now, reached
-            self._lines.say("  ".join(_parts(progress, now, self._folder)))
+        super().__init__(title, limits, status, silent, take, "teleop shoot")
+        self._folder, self._progress = folder, progress
+        self._reached = -math.inf, -1  # when the last line was written, and at how many hundredths
 
-    def _draw(self) -> RenderableType:
-        progress = self._progress
-        grid = Table.grid(padding=(0, 2))
-        bar = ProgressBar(total=progress.slots.frames, completed=progress.shot, width=30)
-        grid.add_row(self._title, bar, *_parts(progress, self._now, self._folder))
-        space = f"space {'go on' if progress.pausing else 'pause between frames'}  " if self._keys else ""
-        return Group(grid, Text(f"{_doing(progress, self._now)}  {space}{STOP}", style="dim"))
+    def _say_lines(self, tick: Tick, status: RunStatus) -> None:
+        said, hundredth = self._reached
+        reached = 100 * self._progress.shot // self._progress.slots.frames
+        if tick.time - said >= EVERY or reached != hundredth:
+            self._reached = tick.time, reached
+            self._lines.say("  ".join([*_parts(self._progress, tick.time), f"{free(self._folder) / 1e9:.1f} GB free"]))
+        self._next_line = math.inf  # its own lines are enough
+        super()._say_lines(tick, status)
+
+    def _state(self, tick: Tick, status: RunStatus, width: int) -> list[Text]:
+        rows = super()._state(tick, status, width)[:2]
+        rows.append(labelled("clip", Text("  ".join(_counted(self._progress)))))
+        return [*rows, labelled("disk", Text(f"{free(self._folder) / 1e9:.1f} GB free"))]
 
 
-def _parts(progress: Progress, now: float, folder: Path) -> list[str]:
-    """Frames shot, time left, clip so far, what went wrong, room on the disk."""
+def shoot_status(progress: Progress, now: float, keys: bool) -> RunStatus:
+    """A shoot as its view shows it at a time of the loop's."""
+    known = math.isfinite(progress.due) and math.isfinite(now)
+    return RunStatus(
+        phase=_doing(progress, now),
+        elapsed=0.0,
+        left=progress.left(now) if known else None,
+        paused=progress.phase == "paused",
+        total=f"{progress.shot} of {progress.slots.frames} frames",
+        done=progress.shot / progress.slots.frames,
+        hints=((RESUMES if progress.pausing else HINTS) if keys else (ENDS,)),
+    )
+
+
+def _parts(progress: Progress, now: float) -> list[str]:
+    """Frames shot, time left, clip so far, what went wrong."""
     parts = [f"{progress.shot} of {progress.slots.frames} frames"]
     if math.isfinite(progress.due) and math.isfinite(now):
         parts.append(f"{clock(progress.left(now))} left")
+    return [*parts, *_counted(progress)]
+
+
+def _counted(progress: Progress) -> list[str]:
+    """The clip so far, and what went wrong."""
+    clip = []
     if progress.clip is not None and progress.fps:
-        parts.append(f"clip {progress.clip:.2f} of {progress.slots.frames / progress.fps:.2f} s")
-    parts += [f"{count} {name}" for name, count in progress.troubles.items() if count or name == "missed slots"]
-    return [*parts, f"{free(folder) / 1e9:.1f} GB free"]
+        clip.append(f"clip {progress.clip:.2f} of {progress.slots.frames / progress.fps:.2f} s")
+    return [*clip, *(f"{n} {name}" for name, n in progress.troubles.items() if n or name == "missed slots")]
 
 
 def _doing(progress: Progress, now: float) -> str:
@@ -73,5 +103,8 @@ def _doing(progress: Progress, now: float) -> str:
 
 
 def free(folder: Path) -> int:
-    """Bytes that are free where the journal is written."""
-    return shutil.disk_usage(folder).free
+    """Bytes that are free where the journal is written; 0 where that cannot be known any more."""
+    try:
+        return shutil.disk_usage(folder).free
+    except OSError:  # the folder is gone: the journal says so, a view does not end a shoot
+        return 0

@@ -9,6 +9,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import tell
 from teleop.cli.take_options import Json, Overwrite, TakeFile, length, place, problems_said, say
 from teleop.ports import UsageError
 from teleop.preview.output import replacing
@@ -41,7 +42,7 @@ def take_export(
     if as_json:
         print(json.dumps({"ok": True, "written": str(csv), "rows": rows, "problem": messages.remark}))
     else:
-        print(f"{csv}: {rows} rows")
+        tell(f"{csv}: {rows} rows")
     return 0
 
 
@@ -70,7 +71,7 @@ def take_recover(
             if as_json:
                 print(json.dumps({"ok": True, "written": None, "messages": 0}))
             else:
-                print(f"{file}: is whole; there is nothing to recover")
+                tell(f"{file}: is whole; there is nothing to recover")
             return 0
         with replacing(target) as stream:
             saved = recover(file, stream)
@@ -78,9 +79,9 @@ def take_recover(
         counts = {"messages": saved.messages, "ticks": saved.ticks, "seconds": round(saved.seconds, 3)}
         print(json.dumps({"ok": True, "written": str(target), **counts, "bytes_lost": saved.lost}))
         return 0
-    print(f"{target}: saved {saved.messages} messages, {length(saved.seconds)}")
+    tell(f"{target}: saved {saved.messages} messages, {length(saved.seconds)}")
     if saved.lost:
-        print(f"lost: the last {saved.lost} of {saved.size} bytes, which are not whole, and what was never written")
+        tell(f"lost: the last {saved.lost} of {saved.size} bytes, which are not whole, and what was never written")
     else:
-        print("lost: only what was never written")
+        tell("lost: only what was never written")
     return 0

@@ -11,6 +11,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import tell
 from teleop.cli.play import percentage
 from teleop.cli.take_options import Json, Overwrite, TakeFile, place, problems_said, say
 from teleop.ports import UsageError
@@ -65,7 +66,7 @@ def take_keyframes(
     else:
         errors = [f"{axis} {e.size:.3g}{UNITS[axis]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
         count = len(fitted.frames)
-        print(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
+        tell(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
     return 0
 
 
@@ -75,8 +76,8 @@ def _busy(what: str) -> Iterator[None]:
     from rich.console import Console
 
     console = Console(stderr=True)
-    if not console.is_terminal:
+    if not console.is_terminal or console.is_dumb_terminal:
         yield
         return
-    with console.status(what):
+    with console.status(what, spinner="dots" if console.encoding.startswith("utf") else "line"):
         yield

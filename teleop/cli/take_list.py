@@ -11,6 +11,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import tell
 from teleop.cli.take_options import Json, TakeFile, ending_facts, length, problems_said, recorded_on, say
 from teleop.sinks.take_format import LIMITS
 from teleop.takes.survey import Survey, survey, takes_in
@@ -28,7 +29,7 @@ def take_list(
     if as_json:
         print(json.dumps({"ok": True, "takes": [_entry(file, what) for file, what in found]}))
     elif not found:
-        print(f"no takes (.mcap) in {folder}")
+        tell(f"no takes (.mcap) in {folder}")
     else:
         _table(found)
     return 0
@@ -49,7 +50,7 @@ def take_info(file: TakeFile, /, *, as_json: Json = False) -> int:
         rest = {"axes": axes, "messages": dict(found.counts), "actions": actions, "links": links}
         print(json.dumps({"ok": True, **_entry(file, found), "version": found.about.version, **rest}))
     else:
-        print("\n".join(_lines(found)))
+        tell("\n".join(_lines(found)))
     return 0
 
 
@@ -63,15 +64,9 @@ def _entry(file: Path, found: Survey | str) -> Mapping[str, Any]:
 
 
 def _table(found: list[tuple[Path, Survey | str]]) -> None:
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
+    from teleop.cli.tables import print_table
 
-    table = Table()
-    for heading in ("Take", "Title", "Rig", "Recorded"):
-        table.add_column(heading)
-    table.add_column("Length", justify="right")
-    table.add_column("Ended")
+    rows = []
     for file, what in found:
         if isinstance(what, str):
             row = [file.name, "", "", "", "", "damaged"]
@@ -79,13 +74,14 @@ def _table(found: list[tuple[Path, Survey | str]]) -> None:
             when = recorded_on(what.about.started)[:16]
             ended = "damaged" if what.remark else str(what.ending)
             row = [file.name, what.about.title, what.about.rig, when, length(what.seconds), ended]
-        table.add_row(*map(Text, row))
-    Console().print(table)
+        rows.append(row)
+    headings = ("Take", "Title", "Rig", "Recorded", "Length", "Ended")
+    print_table("", headings, rows, words=[each for each in headings if each != "Length"], drop=("Rig", "Title"))
     for file, what in found:
         if isinstance(what, str):
-            print(f"{file}: {what}")
+            tell(f"{file}: {what}")
         elif what.remark:
-            print(what.remark)
+            tell(what.remark)
 
 
 def _lines(found: Survey) -> Iterator[str]:

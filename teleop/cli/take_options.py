@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from datetime import datetime
@@ -12,6 +11,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import complain
 from teleop.document import DocumentError
 from teleop.ports import UsageError
 from teleop.takes.messages import Ending
@@ -46,7 +46,7 @@ def place(option: str, path: Path, overwrite: bool, original: Path) -> None:
 def say(remark: str) -> None:
     """A remark about the file, where errors are read."""
     if remark:
-        print(remark, file=sys.stderr)
+        complain(remark)
 
 
 def recorded_on(started: float) -> str:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.folded import tell
 from teleop.cli.take_options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_said, say
 from teleop.document import UnplayableError
 from teleop.motion import Axis
@@ -83,26 +84,23 @@ def _draw(take: Take, found: Mapping[Axis, AxisReport], output: Path) -> None:
 
 
 def _print(take: Take, found: Mapping[Axis, AxisReport]) -> None:
-    from rich.console import Console
-    from rich.table import Table
-
+    from teleop.cli.tables import print_table
     from teleop.preview.look import UNITS
 
-    table = Table(title=f"{take.about.title}: {length(take.duration)} on {take.about.rig}")
-    table.add_column("Axis")
-    for heading in ("RMS", "Peak", "at", "Late", "V", "A", "J", "Room"):
-        table.add_column(heading, justify="right")
+    rows = []
     for axis, of in found.items():
         unit = UNITS[axis]
         off = [f"{of.rms:.3f}{unit}", f"{of.peak:.3f}{unit}", f"{of.peak_at:.2f} s"] if of.readings else ["-"] * 3
         later = "?" if of.delay is None else f"{round(1000 * of.delay)} ms"
         used = [f"{share:.0%}" for share in (of.velocity, of.acceleration, of.jerk)]
-        table.add_row(axis.value, *off, later, *used, "endless" if of.room is None else f"{of.room:.2f}{unit}")
-    Console().print(table)
+        rows.append([axis.value, *off, later, *used, "endless" if of.room is None else f"{of.room:.2f}{unit}"])
+    title = f"{take.about.title}: {length(take.duration)} on {take.about.rig}"
+    headings = ("Axis", "RMS", "Peak", "at", "Late", "V", "A", "J", "Room")
+    print_table(title, headings, rows, words=("Axis",), drop=("at", "Room", "J", "A", "V", "Late"))
     for axis, of in found.items():
         if of.delay is None:
-            print(f"{axis}: how late it moved cannot be told: {of.untold}")
-    print(f"ended: {take.ended}")
+            tell(f"{axis}: how late it moved cannot be told: {of.untold}")
+    tell(f"ended: {take.ended}")
 
 
 def _plain(value: object) -> object:

@@ -59,8 +59,8 @@ class Acceleration(Message):
 class Velocity(Message):
     """Linear velocity in the ground frame: north, east and UP are positive.
 
-    The ground frame's z is down everywhere else; the maker's take-off sample waits for z > 0.25 (takeoffConverged of 3.1.9,
-    OSDK-ROS issue 25: docs/protocol-facts.md).
+    The ground frame's z is down everywhere else; the maker's take-off sample (takeoffConverged, 3.1.9) waits for z > 0.25,
+    and so says OSDK-ROS issue 25 (docs/protocol-facts.md).
     """
 
     x: metres_per_second

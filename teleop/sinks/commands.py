@@ -39,10 +39,18 @@ class Unheard:
 
 
 class CommandSink:
-    """Gives `Told` and `Dialled` to the gimbal on a connection; `say` is for what comes of it."""
+    """Gives `Told` and `Dialled` to the gimbal on a connection; `say` is for what comes of it.
 
-    def __init__(self, connection: Connection, say: Callable[[str], object]) -> None:
-        self._connection, self._say = connection, say
+    `done` is called with the words of each command that the gimbal has confirmed.
+    """
+
+    def __init__(
+        self,
+        connection: Connection,
+        say: Callable[[str], object],
+        done: Callable[[str], object] = lambda _words: None,
+    ) -> None:
+        self._connection, self._say, self._done = connection, say, done
         self._asked: dict[int, str] = {}  # sequence -> the words
         self._kinds: set[type[Message]] = set()
         self._dial = self._sent_dial = 0
@@ -97,3 +105,5 @@ class CommandSink:
             self._say(f"{words}: no answer")
         else:
             self._say(f"{words}: refused (return code {code:#04x})" if code else f"{words}: done")
+            if not code:
+                self._done(words)

@@ -92,6 +92,11 @@ class Recorder:
         return bool(self._taken or self._queue or self._dropped)
 
     @property
+    def seconds(self) -> float:
+        """How long the take is by now, of what has been taken out of the queue."""
+        return self._seconds
+
+    @property
     def trouble(self) -> str:
         """What is wrong with the recording, "" while nothing is; may be asked at any time, from any thread."""
         missing = self.missing

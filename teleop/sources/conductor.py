@@ -9,15 +9,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 from teleop.motion import Act, Demand, Follow, Halt, Motion, State, Tick
 from teleop.ports import Interrupted
 from teleop.sources.inputs import Command, Input, Press
+from teleop.sources.run_status import Hint, RunStatus
 from teleop.sources.sequence import Phase, SequenceSource
 from teleop.sources.trimming import Trimming
 
 PACE = 0.1  # of the written speed, by which a key changes it
 LOOK = 0.05  # s between two looks at the keys while nothing moves
+HINTS = (Hint("space", "STOP"), Hint("p", "pause"), Hint("q", "end"), Hint("- +", "speed"), Hint("< >", "key"))
+WAITING_HINTS = (Hint("enter", "goes on"), Hint("space", "STOP"), Hint("q", "end"))
 HELP = "space pause  - + speed  < > key  q stop"
 WAITING_HELP = "enter goes on  q stop"
 ARMED_HELP = "enter starts it now  q stop"
@@ -60,6 +64,17 @@ class Conductor:
         line = WAITING_HELP if self._sequence.waiting else line
         line = playback.refusal or self._note or (line if self._keys else "no terminal: Ctrl-C stops")
         return line if self._trimming is None else f"{line}\n{self._trim_note(self._trimming)}"
+
+    def status(self, now: float) -> RunStatus:
+        """What a view shows of the run at `now`; for the control thread."""
+        status, playback = self._sequence.status(now), self._sequence.playback
+        note = playback.refusal or self._note
+        if self._trimming:
+            note = f"{note}\n{self._trim_note(self._trimming)}".strip()
+        hints = HINTS if self._keys else ()
+        if self._keys and (self._sequence.waiting or self._sequence.phase is Phase.ARMED):
+            hints = WAITING_HINTS
+        return replace(status, note=note, hints=hints)
 
     def start(self, now: float, motion: Motion) -> None:
         self._sequence.start(now, motion)

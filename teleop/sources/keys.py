@@ -28,7 +28,8 @@ class Step(NamedTuple):
 Act = Press | Step
 
 ARROWS = {"A": (Axis.TILT, 1), "B": (Axis.TILT, -1), "C": (Axis.PAN, 1), "D": (Axis.PAN, -1)}
-MODIFIED = {2: 10.0, 5: 0.1}  # xterm's shift and control: deg
+JOG, COARSE, FINE = 1.0, 10.0, 0.1  # deg of a step by an arrow, and how many of them with shift and with control
+MODIFIED = {2: COARSE, 5: FINE}  # xterm's shift and control
 _LETTERS = {"k": "A", "j": "B", "l": "C", "h": "D"}  # fine, or with shift coarse, where a terminal keeps such arrows
 FOLLOW_MODES: Mapping[str, str] = {"l": "lock", "y": "yaw", "s": "sport"}
 
@@ -81,8 +82,8 @@ DRONE_WORDS: Mapping[str, Act] = {
 """What can be spelled after the key that begins a word."""
 
 HELP: Sequence[tuple[str, str]] = (
-    ("space", "E-STOP"),
-    ("c", "clear the e-stop"),
+    ("space", "STOP"),
+    ("c", "clear the STOP"),
     ("arrows", "pan, tilt by 1 deg; shift 10, ctrl 0.1"),
     ("h j k l", "pan, tilt by 0.1 deg; H J K L by 10"),
     ("< >", "roll by 1 deg"),
@@ -92,15 +93,16 @@ HELP: Sequence[tuple[str, str]] = (
     ("0-9", "recall a preset"),
     ("s 0-9", "store it"),
     ("x 0-9", "delete it"),
-    ("z", "recentre"),
+    ("z", "recenter"),
     ("r", "record, and stop"),
     (".", "shutter"),
-    ("e", "hands off, and on"),
+    ("e", "manual off, and on"),
     ("d word", "drone: engage, arm"),
     ("b", "give the drone back"),
     ("q", "quit"),
 )
 
+NO_EMERGENCY_STOP = "STOP is no emergency stop: the motors stay powered."
 LONGEST_WORD = 20
 
 _SEQUENCE = re.compile(r"\x1b(?:O|\[(?P<parameters>[0-9;]*))(?P<final>[@-~])")

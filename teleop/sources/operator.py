@@ -24,6 +24,7 @@ from teleop.sources.recall import Recall, reachable
 from teleop.sources.status import Hand, Log, Status
 
 CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)  # what a recentre takes to 0
+FOLLOW = "gimbal follow "
 CENTRED_STICK = Goto(0.0)  # of a drone: nothing moves, but somebody is there
 
 
@@ -53,6 +54,7 @@ class Operator:
         self._stopped = self._done = self._recording = False
         self._hands_on = self._beneath_trusted = True
         self._dial = 0.0
+        self._follow = ""
         self._actions: list[Act] = []
         self._log = Log()
         self._commands: Mapping[Command, Callable[[Arming, Press], None]] = {
@@ -85,6 +87,11 @@ class Operator:
     def say(self, text: str) -> None:
         """Tell the operator something, now."""
         self._log.say(self._now, text)
+
+    def confirmed(self, words: str) -> None:
+        """The gimbal has done what it was told in these words."""
+        if words.startswith(FOLLOW):
+            self._follow = words.removeprefix(FOLLOW)
 
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         seconds, self._now, self._actions = now - self._now, now, []
@@ -248,6 +255,7 @@ class Operator:
             recall.title if recall else "",
             recall.end if recall else 0.0,
             self._recording,
+            self._follow,
             self._driving.deflections,
             self._presets.names,
             self._log.messages,

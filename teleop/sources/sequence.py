@@ -8,6 +8,7 @@ second, which is a tick, so that keyframes are met and not just passed between t
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from enum import Enum, auto
@@ -18,6 +19,7 @@ from teleop.planner.ease import ease
 from teleop.planner.move import Move
 from teleop.sources.cues import Cue, Wait
 from teleop.sources.playback import Playback
+from teleop.sources.run_status import NextCue, NextKey, RunStatus
 from teleop.sources.sequence_file import Performance
 from teleop.sources.staging import Staging
 
@@ -57,8 +59,8 @@ class SequenceSource:
         self.flies = any(axis.value.startswith("stick_") for axis in performance.move.tracks)
         self._move = performance.move
         self._limits = {axis: limits[axis] for axis in self._move.tracks}
-        keys = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
-        self.playback = Playback(self._move, limits, speed, keys, executor, self.staging.start_at)
+        self._key_times = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
+        self.playback = Playback(self._move, limits, speed, self._key_times, executor, self.staging.start_at)
         self._settings, self._score = cues_from(performance.cues, self.staging.start_at)
         self._cues: list[Cue] = []  # still to come in this pass
         self._way = Move({})  # what is eased along
@@ -137,6 +139,43 @@ class SequenceSource:
         if not self.staging.repeats:
             return time
         return f"{time}  pass {self.number}{'' if self.staging.endless else f' of {self.staging.passes:.0f}'}"
+
+    def status(self, now: float) -> RunStatus:
+        """What a view shows of it at `now`; for the control thread."""
+        playing, over = self.phase is Phase.PLAYING, self.phase in (Phase.RETURNING, Phase.OVER)
+        elapsed = min(max(0.0, self.playback.time(now)), self.duration) if playing else self.duration if over else None
+        speed = self.playback.chosen
+        from_here = elapsed if elapsed is not None else self.staging.start_at
+        return RunStatus(
+            phase=self._doing(now),
+            elapsed=elapsed,
+            duration=self.duration,
+            left=(self.duration - from_here) / speed if speed > 0 else None,
+            key=None if over else self._next_key(from_here),
+            cue=None if over else self._next_cue(),
+            speed=speed,
+            paused=playing and self.playback.paused and not self.waiting,
+            number=self.number,
+            passes=self.staging.passes,
+        )
+
+    def _doing(self, now: float) -> str:
+        """The phase in a few words, and how long it lasts where that is known."""
+        if self.phase is Phase.PLAYING and self.waiting:
+            return "waiting for you"
+        if self.phase is not Phase.PLAYING:
+            return "done" if self.phase is Phase.OVER else self.said(now)
+        runs_up = self.playback.time(now) < self.staging.start_at and self.playback.opening < self.staging.start_at
+        return self.said(now) if runs_up else "paused" if self.playback.paused else "playing"
+
+    def _next_key(self, elapsed: float) -> NextKey | None:
+        index = bisect_right(self._key_times, elapsed + _INSTANT)
+        return NextKey(index + 1, self._key_times[index]) if index < len(self._key_times) else None
+
+    def _next_cue(self) -> NextCue | None:
+        coming = self._cues if self.phase is Phase.PLAYING else self._score
+        cue = next((cue for cue in coming if math.isfinite(cue.at)), None)
+        return None if cue is None else NextCue(cue.at, cue.name)
 
     def _turn(self, now: float) -> list[Act]:
         """Go on to the phases that are due by `now`; what is to be done on the way."""

@@ -35,7 +35,8 @@ class Status:
 
     `range` is the index of the speed range in force among `ranges`, `deflections` (-1..1) is what came of all sticks,
     `recall` what the axes are being taken to, "" for nothing, and `recall_end` when they are to be there. `recording`
-    is what the camera was last told. `presets` are the names of those stored, "" for one that has none.
+    is what the camera was last told, `follow` the gimbal's follow mode that it last confirmed, "" for none. `presets`
+    are the names of those stored, "" for one that has none.
     """
 
     hands: Sequence[Hand]
@@ -46,6 +47,7 @@ class Status:
     recall: str
     recall_end: float
     recording: bool
+    follow: str
     deflections: Mapping[Axis, float]
     presets: Mapping[int, str]
     messages: Sequence[Said]

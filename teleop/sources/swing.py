@@ -12,6 +12,7 @@ from itertools import pairwise
 
 from teleop.motion import Act, Axis, Demand, Follow, Limits, Motion, Wish
 from teleop.ports import DeviceError, UsageError
+from teleop.sources.run_status import RunStatus
 
 PERIOD = 4.0  # s for one swing, or longer where the axis's limits ask for it
 LONGEST = 30.0  # s for one swing
@@ -52,6 +53,12 @@ class Swing:
         wish: Wish = Follow(self._rest + self._side * place, self._side * velocity, self._side * acceleration)
         demand: Mapping[Axis, Wish] = {self._axis: wish}
         return demand, ()
+
+    def status(self, now: float) -> RunStatus:
+        """What a view shows of it at `now`."""
+        elapsed = min(max(0.0, now - self.begin), self.duration)
+        phase = "at rest" if now < self.begin or elapsed >= self.duration else "swinging"
+        return RunStatus(phase, elapsed, self.duration, self.duration - elapsed)
 
     def next_change(self, now: float) -> float:
         return now if now < self.begin + self.duration + REST else math.inf

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import io
 import math
 from dataclasses import replace
 from typing import Any
 
 import pytest
-from rich.console import Console
 
-from teleop.cli.live_rows import Traffic, axis_rows, banner, help_rows, key_rows, state_rows, title_row
+from teleop.cli.axis_table import axis_rows
+from teleop.cli.live_rows import Traffic, banner, help_rows, key_rows, state_rows, title_row
 from teleop.cli.live_view import LiveView
 from teleop.motion import Axis, Limits, Reading, State, Tick
 from teleop.sources.keyboard import Keyboard
@@ -37,6 +36,7 @@ STATUS = Status(
     recall="",
     recall_end=0.0,
     recording=False,
+    follow="lock",
     deflections={Axis.PAN: -0.5},
     presets={1: "wide", 3: ""},
     messages=[Said(5.0, "old stick: unplugged: tilt stopped")],
@@ -61,9 +61,7 @@ def screen(
     monkeypatch.setenv("LINES", str(size[1]))
     view = LiveView("Simulated rig", LIMITS, lambda: status, {"gimbal": Counts()}, keyboard, silent=True)
     view.write(TICK)
-    out = io.StringIO()
-    Console(file=out, width=size[0], height=size[1]).print(view._screen(), end="")
-    return out.getvalue().split("\n")
+    return view._picture.text().plain.split("\n")
 
 
 @pytest.mark.parametrize("size", [(80, 24), (120, 40), (60, 20)])
@@ -96,24 +94,28 @@ def test_it_shows_each_thing_that_an_operator_asks_for(monkeypatch: pytest.Monke
     text = "\n".join(screen(STATUS, monkeypatch))
     for each in (
         "Simulated rig", "-45.00", "-44.50", "-0.50", "██│", "+146.00", "+0.250", "[35%]", "Xbox pad  moves pan",
-        "dial  press its enable button", "old stick: unplugged", "not told to record", "gimbal", "1 wide   3",
+        "dial  press its enable button", "old stick: unplugged", "not told to record", "follow lock", "gimbal",
+        "jog 1 deg (shift 10, ctrl 0.1)", "1 wide   3",
         "7 s ago  old stick: unplugged: tilt stopped", "Ctrl-C",
     ):  # fmt: skip
         assert each in text, each
 
 
-def test_the_e_stop_comes_before_all_else_in_the_banner() -> None:
+def test_a_stop_comes_before_all_else_in_the_banner() -> None:
     everything: dict[str, Any] = {"stopped": True, "hands_on": False, "recall": "preset 1", "recall_end": 14.0}
-    assert "E-STOP" in banner(replace(STATUS, **everything), 12.0, 80).plain
+    still = {Axis.PAN: State(-45.0)}
+    assert banner(replace(STATUS, **everything), MOTION, 12.0, 80).plain.startswith(" stopping")
+    stopped = " STOPPED. Press c to clear, then center all sticks."
+    assert banner(replace(STATUS, **everything), still, 12.0, 80).plain.rstrip() == stopped
     everything["stopped"] = False
-    assert "HANDS OFF" in banner(replace(STATUS, **everything), 12.0, 80).plain
+    assert "MANUAL CONTROL OFF" in banner(replace(STATUS, **everything), still, 12.0, 80).plain
     everything["hands_on"] = True
-    assert "preset 1 in 2.0 s" in banner(replace(STATUS, **everything), 12.0, 80).plain
-    assert banner(STATUS, 12.0, 80).plain == ""
+    assert "preset 1 in 2.0 s" in banner(replace(STATUS, **everything), still, 12.0, 80).plain
+    assert banner(STATUS, still, 12.0, 80).plain == ""
 
 
 def test_a_bar_shows_where_the_axis_is_and_marks_a_soft_limit() -> None:
-    _, pan, tilt, roll, _ = axis_rows(TICK, LIMITS, STATUS, 80)
+    _, pan, tilt, roll, _ = axis_rows(TICK, LIMITS, 80, STATUS.deflections)
     bar = pan.plain[pan.plain.index("─") : pan.plain.rindex("─") + 1]
     assert bar.index("●") == pytest.approx(0.375 * (len(bar) - 1), abs=0.51)
     assert tilt.plain.index("●") > tilt.plain.rindex("─")
@@ -136,7 +138,7 @@ def test_a_link_that_has_gone_silent_and_lost_replies_are_seen() -> None:
 
 
 def test_recording_a_failing_take_and_a_question_are_shown() -> None:
-    title = title_row("rig", 75.0, replace(STATUS, recording=True), "disk full", 80).plain
+    title = title_row("rig", 75.0, replace(STATUS, recording=True), "TAKE FAILS", 80).plain
     assert "● REC" in title
     assert "TAKE FAILS" in title
     assert title.rstrip().endswith("01:15")
@@ -151,11 +153,11 @@ def test_without_a_screen_each_message_comes_once_and_the_axes_each_second(
     with LiveView("Simulated rig", LIMITS, lambda: status[0], {}, None) as view:
         for number in range(250):
             if number == 120:
-                status[0] = replace(STATUS, stopped=True, messages=[Said(6.0, "E-STOP by keys"), *STATUS.messages])
+                status[0] = replace(STATUS, stopped=True, messages=[Said(6.0, "STOP by keys"), *STATUS.messages])
             view.write(replace(TICK, time=10 + number / 100))
     lines = capsys.readouterr().err.splitlines()
     assert lines[0] == "Simulated rig"
     assert len([line for line in lines if "pan -45.000" in line]) == 3
     assert [line.strip() for line in lines if "unplugged" in line] == ["0.0 s  old stick: unplugged: tilt stopped"]
-    assert [line.strip() for line in lines if "by keys" in line] == ["1.2 s  E-STOP by keys"]
-    assert lines[-1].endswith("E-STOP")
+    assert [line.strip() for line in lines if "by keys" in line] == ["1.2 s  STOP by keys"]
+    assert lines[-1].endswith("stopping")  # the axes still move

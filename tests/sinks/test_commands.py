@@ -21,8 +21,9 @@ class Bench:
     def __init__(self) -> None:
         self.far = FarEnd()
         self.said: list[str] = []
+        self.done: list[str] = []  # what the gimbal has confirmed
         self.dials: list[tuple[float, int]] = []
-        self.sink = CommandSink(self.far.connection, self.said.append)
+        self.sink = CommandSink(self.far.connection, self.said.append, self.done.append)
         self.now = 1.0
 
     def tick(self, *acts: Act) -> None:
@@ -48,6 +49,7 @@ def test_words_arrive_as_the_gimbals_command_and_its_answer_is_said() -> None:
     modes = [message.mode for message in bench.far.heard if isinstance(message, gimbal.Mode)]
     assert modes == [FollowMode.LOCK, FollowMode.SPORT]
     assert bench.said == ["gimbal follow lock: done", "follow sport: done"]
+    assert bench.done == ["gimbal follow lock", "follow sport"]
 
 
 def test_a_refusal_and_silence_are_said_and_are_no_fault() -> None:
@@ -58,6 +60,7 @@ def test_a_refusal_and_silence_are_said_and_are_no_fault() -> None:
     for _ in range(20):
         bench.tick()
     assert bench.said == ["gimbal follow lock: refused (return code 0x03)", "camera center focus: no answer"]
+    assert bench.done == []
     assert [type(m) for m in bench.far.heard] == [gimbal.Mode, camera.Command]
 
 

@@ -1,0 +1,37 @@
+"""Lines for people that fit their terminal: folded between words there, and left as they are for a pipe or a file."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import textwrap
+from typing import TextIO
+
+INDENT = "  "  # of what is left of a line in the next one
+NARROWEST = 20  # cells
+
+
+def folded(text: str, stream: TextIO) -> str:
+    """`text` in as many lines as it takes on the terminal that `stream` is."""
+    try:
+        if not stream.isatty():
+            return text
+    except ValueError:  # closed
+        return text
+    width = max(NARROWEST, shutil.get_terminal_size().columns)
+    return "\n".join(
+        textwrap.fill(line, width, subsequent_indent=INDENT, break_long_words=False, break_on_hyphens=False)
+        if len(line) > width
+        else line
+        for line in text.split("\n")
+    )
+
+
+def tell(text: str) -> None:
+    """A line of the result, on stdout."""
+    print(folded(text, sys.stdout))
+
+
+def complain(text: str) -> None:
+    """A line on stderr."""
+    print(folded(text, sys.stderr), file=sys.stderr)
