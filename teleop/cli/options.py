@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter, Token
 
 from teleop.document import DocumentError, UnplayableError
+from teleop.files import is_stdout
 from teleop.profile import Profile, load_profile
 from teleop.sinks.recorder import ENDING
 
@@ -88,6 +89,11 @@ def warn(compiled: Performance | Timelapse) -> None:
     """Say what is merely to be known about it."""
     for warning in compiled.warnings:
         print(warning, file=sys.stderr)
+
+
+def announce(line: str, *written: Path) -> None:
+    """Print `line` about the files that were written; to stderr where one of them is standard output."""
+    print(line, file=sys.stderr if any(map(is_stdout, written)) else sys.stdout)
 
 
 def is_take(file: str) -> bool:

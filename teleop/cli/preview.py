@@ -15,9 +15,9 @@ from typing import Annotated, BinaryIO
 
 from cyclopts import Parameter
 
-from teleop.cli.options import DEFAULTS, Options, warn
+from teleop.cli.options import DEFAULTS, Options, announce, warn
+from teleop.files import replacing
 from teleop.ports import UsageError
-from teleop.preview.output import replacing
 from teleop.profile import Profile
 from teleop.sources.sequence_file import Performance
 
@@ -46,10 +46,10 @@ def preview(
             write(performance, profile, stream)
             written.append({"path": str(path), "bytes": stream.tell()})
         if not options.json:
-            print(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}")
+            announce(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}", *writes)
     if options.json:
         found = {"ok": True, "title": performance.title, "duration": performance.duration, "written": written}
-        print(json.dumps({**found, "warnings": list(performance.warnings)}))
+        announce(json.dumps({**found, "warnings": list(performance.warnings)}), *writes)
     return 0
 
 
