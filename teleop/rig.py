@@ -16,6 +16,7 @@ from teleop.credentials import APP_KEY, load_credentials
 from teleop.dji.drone import Activate
 from teleop.dji.encryption import Cipher
 from teleop.dji.onboard_session import OnboardSession
+from teleop.dji.session import Session
 from teleop.document import DocumentError
 from teleop.links import open_link, parse
 from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, Loop
@@ -133,7 +134,9 @@ def open_rig(profile: Profile, clock: Clock) -> Iterator[Rig]:
         drones: dict[str, SimulatedDrone] = {}
         connections: dict[str, Connection] = {}
         for name, url in profile.links.items():
-            session = OnboardSession(first_sequence=_unlike_the_last()) if name in profile.drones else None
+            session: Session | OnboardSession = Session(first_sequence=_unlike_others(clock))
+            if name in profile.drones:
+                session = OnboardSession(first_sequence=_unlike_the_last())
             if parse(url).kind == "sim":
                 if name in profile.drones:
                     far = drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
@@ -152,6 +155,11 @@ def open_rig(profile: Profile, clock: Clock) -> Iterator[Rig]:
 def _unlike_the_last() -> int:
     """Where a session with a drone begins to number: the same numbers as a run before would look like its retries."""
     return secrets.randbelow(0x10000)
+
+
+def _unlike_others(clock: Clock) -> int:
+    """Where a session with a gimbal begins to number: elsewhere than another program on its bus, by the time in us."""
+    return round(clock.now() * 1e6) & 0xFFFF
 
 
 def _turns_for_ever(profile: Profile) -> bool:
