@@ -153,8 +153,6 @@ class Connection:
         if self._unanswered >= UNANSWERED and now - self._heard > SILENCE:
             raise LinkError(f"{self} does not answer: is it on, is the cable in?")
 
-    def _answer(self, request: Message, sequence: int, reply: Message | None, bare: bool = False) -> None:
-        answer = Answer(sequence, self._sent.pop(sequence), reply, bare)
     def _leave(self, message: Message, frame: bytes) -> bool:
         """Send a frame; whether it took the place of an older one of its kind, which then never leaves."""
         if self._queue is None:
@@ -168,8 +166,8 @@ class Connection:
         self._foreign.extend([now] * count)
         self._shared |= len(self._foreign) == FOREIGN and now - self._foreign[0] <= FOREIGN_WITHIN
 
-    def _answer(self, request: Message, sequence: int, reply: Message | None) -> None:
-        answer = Answer(sequence, self._sent.pop(sequence), reply)
+    def _answer(self, request: Message, sequence: int, reply: Message | None, bare: bool = False) -> None:
+        answer = Answer(sequence, self._sent.pop(sequence), reply, bare)
         for handler in self._handlers.get(type(request), ()):
             handler(answer)
 

@@ -118,6 +118,8 @@ def test_what_has_no_reply_is_never_waited_for() -> None:
         far.connection.request(gimbal.Joystick(0, 0, 0), number / 10)
     far.connection.poll(10 * SILENCE)
     assert far.connection.counts["lost_replies"] == 0
+
+
 WARNING = "another program is driving this gimbal (link the gimbal, memory:)"
 
 
