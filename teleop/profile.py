@@ -9,15 +9,24 @@ second, per second squared and per second cubed.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Annotated, Any
 
 from pydantic import Field
 
 from teleop.document import Document, DocumentError, Wrong, mapping, number
 from teleop.links.url import LinkUrlError, parse
-from teleop.motion import Axis, Limits
-from teleop.profile_sinks import DRONES, FlightSection, Magnitude, SinkSection, VirtualRcSection, sink_rules
+from teleop.motion import Action, Axis, Exposure, Limits, Told
+from teleop.profile_sinks import (
+    DRONES,
+    MOVES,
+    FlightSection,
+    GimbalSection,
+    Magnitude,
+    SinkSection,
+    VirtualRcSection,
+    sink_rules,
+)
 from teleop.section import Finite, Section
 from teleop.shipped import find
 from teleop.sources.handling import PresetsSection, SticksSection
@@ -66,6 +75,23 @@ class Profile(Section):
         return frozenset(section.link for section in self.sinks if section.type in DRONES)
 
     @property
+    def optional(self) -> frozenset[str]:
+        """The names of the links without a gimbal: a live run goes on without what is at their ends."""
+        return frozenset(self.links) - {section.link for section in self.sinks if section.type == "gimbal"}
+
+    def in_use(self, axes: Collection[Axis], acts: Iterable[object] = ()) -> Profile:
+        """The rig with only the links that a run over `axes` needs, one that also performs the `acts`."""
+        acts = list(acts)
+        needed = {section.link for section in self.sinks if _is_used(section, axes, acts)}
+        return self.with_links(needed)
+
+    def with_links(self, names: Collection[str]) -> Profile:
+        """The rig with only these links, and what is at their ends."""
+        links = {name: url for name, url in self.links.items() if name in names}
+        sinks = [section for section in self.sinks if section.link in links]
+        return self.model_copy(update={"links": links, "sinks": sinks})
+
+    @property
     def encrypted(self) -> frozenset[str]:
         """Those of them over which the app's key encrypts."""
         drones = (section for section in self.sinks if isinstance(section, VirtualRcSection | FlightSection))
@@ -74,6 +100,21 @@ class Profile(Section):
     @property
     def limits(self) -> Mapping[Axis, Limits]:
         return {axis: section.limits() for axis, section in self.axes.items()}
+
+
+def _is_used(section: SinkSection, axes: Collection[Axis], acts: Iterable[object]) -> bool:
+    moves = section.axes if isinstance(section, GimbalSection) else MOVES[section.type]
+    if any(axis in axes for axis in moves if axis is not None):
+        return True
+    told = [act.words for act in acts if isinstance(act, Told)]
+    match section.type:
+        case "camera":
+            return any(isinstance(act, Action | Exposure) for act in acts)
+        case "gimbal":
+            return any(not words.startswith("drone ") for words in told)
+        case "virtual-rc" | "flight":
+            return any(words.startswith("drone ") for words in told)
+    return False
 
 
 def load_profile(name: str, links: Mapping[str, str] | None = None) -> Profile:

@@ -16,12 +16,13 @@ from teleop.credentials import APP_KEY, load_credentials
 from teleop.dji.drone import Activate
 from teleop.dji.encryption import Cipher
 from teleop.dji.onboard_session import OnboardSession
+from teleop.dji.session import Session
 from teleop.document import DocumentError
 from teleop.links import open_link, parse
 from teleop.loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, Loop
 from teleop.motion import Axis, Limits
 from teleop.planner.live import Live
-from teleop.ports import Clock, Reporter, Sink, Source
+from teleop.ports import Clock, LinkError, Reporter, Sink, Source, TeleopError
 from teleop.profile import Profile
 from teleop.profile_sinks import (
     MOVES,
@@ -94,6 +95,15 @@ class Rig:
         sinks = [device.sink for device in self._used(axes) if isinstance(device.sink, DroneSink)]
         return sinks[0] if sinks else None
 
+    @property
+    def axes(self) -> Sequence[Axis]:
+        """Those that some device here moves."""
+        return [axis for axis in self.profile.axes if any(axis in device.moves for device in self._devices)]
+
+    @property
+    def devices(self) -> Sequence[Device]:
+        return self._devices
+
     def _used(self, axes: Sequence[Axis]) -> Sequence[Device]:
         return [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
 
@@ -123,35 +133,77 @@ class Rig:
 
 
 @contextmanager
-def open_rig(profile: Profile, clock: Clock) -> Iterator[Rig]:
+def open_rig(
+    profile: Profile, clock: Clock, absent: Callable[[str, TeleopError], object] | None = None
+) -> Iterator[Rig]:
     """The rig with its links open; raises LinkError when one cannot be opened, and closes those that were.
 
-    Raises DocumentError when a drone on a real link has no credentials.
+    Raises DocumentError when a drone on a real link has no credentials. With `absent` the rig does without the devices
+    on an optional link that cannot be opened, and `absent` is called with the link's name and the reason.
     """
     with ExitStack() as stack:
-        simulated: dict[str, SimulatedGimbal] = {}
-        drones: dict[str, SimulatedDrone] = {}
-        connections: dict[str, Connection] = {}
-        for name, url in profile.links.items():
-            session = OnboardSession(first_sequence=_unlike_the_last()) if name in profile.drones else None
-            if parse(url).kind == "sim":
-                if name in profile.drones:
-                    far = drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
-                else:
-                    far = simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile))
-                connections[name] = Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
-            else:
-                link = open_link(url, now=clock.now)
-                stack.callback(link.close)
-                connections[name] = Connection(name, url, link, clock.now(), link.counts, session)
-        limits = profile.limits
-        devices = [BUILDERS[section.type](section, connections[section.link], limits) for section in profile.sinks]
-        yield Rig(profile, clock, devices, connections, simulated, drones)
+        opening = _Opening(profile, clock, stack)
+        for name in profile.links:
+            try:
+                opening.open(name)
+            except (LinkError, DocumentError) as error:
+                if absent is None or name not in profile.optional:
+                    raise
+                absent(name, error)
+        yield opening.rig()
+
+
+class _Opening:
+    """A rig while its links are opened, one after the other, until `stack` is left."""
+
+    def __init__(self, profile: Profile, clock: Clock, stack: ExitStack) -> None:
+        self._profile, self._clock, self._stack = profile, clock, stack
+        self._devices: dict[int, Device] = {}  # by their places among the profile's sinks
+        self._connections: dict[str, Connection] = {}
+        self._simulated: dict[str, SimulatedGimbal] = {}
+        self._drones: dict[str, SimulatedDrone] = {}
+
+    def open(self, name: str) -> None:
+        """Open a link and what is at its end. Raises LinkError and DocumentError."""
+        with ExitStack() as stack:
+            connection = self._connected(name, stack)
+            limits = self._profile.limits
+            for place, section in enumerate(self._profile.sinks):
+                if section.link == name:
+                    self._devices[place] = BUILDERS[section.type](section, connection, limits)
+            self._connections[name] = connection
+            self._stack.push(stack.pop_all())
+
+    def rig(self) -> Rig:
+        profile = self._profile.with_links(self._connections)
+        devices = [device for _, device in sorted(self._devices.items(), key=lambda item: item[0])]
+        return Rig(profile, self._clock, devices, self._connections, self._simulated, self._drones)
+
+    def _connected(self, name: str, stack: ExitStack) -> Connection:
+        profile, clock, url = self._profile, self._clock, self._profile.links[name]
+        session: Session | OnboardSession = Session(first_sequence=_unlike_others(clock))
+        if name in profile.drones:
+            session = OnboardSession(first_sequence=_unlike_the_last())
+        if parse(url).kind != "sim":
+            link = open_link(url, now=clock.now)
+            stack.callback(link.close)
+            return Connection(name, url, link, clock.now(), link.counts, session)
+        far: SimulatedGimbal | SimulatedDrone
+        if name in profile.drones:
+            far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
+        else:
+            far = self._simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile))
+        return Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
 
 
 def _unlike_the_last() -> int:
     """Where a session with a drone begins to number: the same numbers as a run before would look like its retries."""
     return secrets.randbelow(0x10000)
+
+
+def _unlike_others(clock: Clock) -> int:
+    """Where a session with a gimbal begins to number: elsewhere than another program on its bus, by the time in us."""
+    return round(clock.now() * 1e6) & 0xFFFF
 
 
 def _turns_for_ever(profile: Profile) -> bool:

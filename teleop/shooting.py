@@ -20,6 +20,7 @@ from teleop.ports import Clock, LinkError, Sink
 from teleop.profile import Profile
 from teleop.profile_sinks import CameraSection
 from teleop.rig import open_rig
+from teleop.sinks.link_notes import LinkNotes
 from teleop.sinks.shutter import ShutterSink
 from teleop.sources.carriage import Glide, Steps
 from teleop.sources.inputs import Input
@@ -128,7 +129,8 @@ class Shooting:
         try:
             with open_rig(self._profile, self._clock) as rig:
                 shutter = ShutterSink(rig.connections[self._camera], source.heard)
-                self._loop = rig.loop(list(timelapse.limits), [source], [shutter, source, *self._watchers])
+                notes = LinkNotes(rig.connections.values(), self._say)
+                self._loop = rig.loop(list(timelapse.limits), [source], [shutter, source, notes, *self._watchers])
                 if self._interrupted:
                     self._loop.interrupt(self._interrupted)
                 supervisor = self._loop.run()

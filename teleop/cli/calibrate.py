@@ -24,6 +24,7 @@ from teleop.ports import DeviceError, UsageError
 from teleop.profile import Profile
 from teleop.profile_sinks import Angle, GainsSection, GimbalSection
 from teleop.rig import open_rig
+from teleop.sinks.link_notes import LinkNotes
 from teleop.sources.swing import Swing
 from teleop.supervisor import Result, Supervisor
 
@@ -49,7 +50,7 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
         The axis that is moved: six degrees to one side and back, six times.
     """
     moved = Axis(axis)
-    profile, mode = _undelayed(options.profile(), moved)
+    profile, mode = _undelayed(options.profile().in_use([moved]), moved)
     clock = the_clock(fast, profile)
     swing = Swing(moved, profile.limits[moved], REACH, SWINGS)
     title = f"measuring the delay of {axis}, mode {mode}"
@@ -60,9 +61,13 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
 
     traces = Traces(moved)
     with open_rig(profile, clock) as rig:
-        loop = rig.loop([moved], [swing], [traces, display])
+        warnings: list[str] = []
+        notes = LinkNotes(rig.connections.values(), warnings.append)
+        loop = rig.loop([moved], [swing], [traces, notes, display])
         with signals_to(loop.interrupt, loop.release_at_once, display.say), display:
             ended = loop.run()
+    for warning in warnings:
+        complain(warning)
     if ended.result is not Result.DONE:
         return _stopped(ended, options.json)
     delays = _delays(swing, traces)

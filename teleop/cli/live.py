@@ -6,6 +6,7 @@ goes through the `Operator`; what is recorded then drives the axes that no hand 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
@@ -19,11 +20,12 @@ from teleop.cli.live_view import LiveView
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.perform import camera_answers, commands, perform
 from teleop.cli.play import Fast, Take, the_clock
+from teleop.cli.presence import open_present
 from teleop.cli.take_words import take_words
-from teleop.motion import Axis
-from teleop.ports import Sink, UsageError
+from teleop.motion import Action, Axis
+from teleop.ports import Clock, Sink, UsageError
 from teleop.profile import Profile
-from teleop.rig import open_rig
+from teleop.rig import Rig, open_rig
 from teleop.sinks.recorder import recording
 from teleop.sinks.tally import Tally
 from teleop.sources.keyboard import Keyboard, terminal
@@ -55,14 +57,16 @@ def live(
     recorded = None if sticks is None else read_sticks(sticks, list(profile.axes))
     replay = None if recorded is None else _replay(profile, recorded)
     title = profile.name if sticks is None else sticks.name
-    axes = list(profile.axes) if recorded is None else recorded.axes
-    limits = {axis: profile.limits[axis] for axis in axes}
-    clock = the_clock(fast, profile)
+    axes: Sequence[Axis] = list(profile.axes) if recorded is None else recorded.axes
     keyboard = None if fast else _keyboard()
     aboard = Aboard()
+    if recorded is not None:
+        profile = profile.in_use(axes, () if keyboard is None else [Action.RECORD])
+    clock = the_clock(fast, profile)
     if replay and recorded and keyboard is None:
         ask_to_fly(title, axes, i_understand)
         tally = Tally(lambda: replay.begin)
+        limits = {axis: profile.limits[axis] for axis in axes}
         status = timed(lambda: replay.begin, recorded.times[-1], "replaying sticks")
         display = Display(title, limits, status, silent=options.json, command="teleop live")
         status = aboard.status if is_flown(axes) else None
@@ -74,16 +78,17 @@ def live(
             return perform(rig, axes, [replay], tally, display, options.json, recorder)
     with ExitStack() as stack:
         inputs, note = open_devices(stack, profile, clock, keyboard is not None, NOBODY)
+        rig, axes, left_out = _opened(stack, profile, clock, None if recorded is None else axes)
+        limits = {axis: profile.limits[axis] for axis in axes}
         shelf = read_presets(presets or default_file(profile.name), limits, profile.name)
         stack.callback(shelf.close)
         hands = [*inputs, *([] if keyboard is None else [keyboard])]
         operator = Operator(limits, hands, shelf, profile.sticks, profile.presets.recall, replay)
-        if note:
-            operator.say(note)
+        for line in (*left_out, *([note] if note else [])):
+            operator.say(line)
         recorder = stack.enter_context(
             recording(take, profile.name, title, limits, lambda: aboard.status(operator.status))
         )
-        rig = stack.enter_context(open_rig(profile, clock))
         aboard.board(rig, axes, operator.say, by_script=False)
         view = LiveView(
             title,
@@ -101,6 +106,15 @@ def live(
         ]
         tally = Tally(lambda: operator.begin)
         return perform(rig, axes, [operator], tally, view, options.json, recorder, watchers)
+
+
+def _opened(
+    stack: ExitStack, profile: Profile, clock: Clock, axes: Sequence[Axis] | None
+) -> tuple[Rig, Sequence[Axis], Sequence[str]]:
+    """The rig, its axes, and what is to be said of those that are absent; recorded sticks need all of their `axes`."""
+    if axes is None:
+        return open_present(stack, profile, clock)
+    return stack.enter_context(open_rig(profile, clock)), axes, ()
 
 
 def _replay(profile: Profile, recorded: Sticks) -> SticksSource:

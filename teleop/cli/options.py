@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter, Token
 
+from teleop.cli.folded import complain, tell
 from teleop.document import DocumentError, UnplayableError
+from teleop.files import is_stdout
 from teleop.profile import Profile, load_profile
 from teleop.sinks.recorder import ENDING
 
@@ -88,6 +90,16 @@ def warn(compiled: Performance | Timelapse) -> None:
     """Say what is merely to be known about it."""
     for warning in compiled.warnings:
         print(warning, file=sys.stderr)
+
+
+def announce(line: str, *written: Path) -> None:
+    """Print `line`, for people, about the files that were written; to stderr where one of them is standard output."""
+    (complain if any(map(is_stdout, written)) else tell)(line)
+
+
+def announce_json(content: object, *written: Path) -> None:
+    """As `announce`, for programs: one line whatever the width of the terminal."""
+    print(json.dumps(content), file=sys.stderr if any(map(is_stdout, written)) else sys.stdout)
 
 
 def is_take(file: str) -> bool:

@@ -17,6 +17,7 @@ from teleop.ports import Sink, Source
 from teleop.rig import Rig
 from teleop.sinks.camera_answers import CameraAnswers
 from teleop.sinks.commands import CommandSink, Unheard
+from teleop.sinks.link_notes import LinkNotes
 from teleop.sinks.recorder import Recorder
 from teleop.sinks.take_format import plain
 from teleop.sinks.tally import Tally
@@ -100,11 +101,14 @@ def print_take(take: Recorder | None) -> None:
 def commands(
     rig: Rig, axes: Sequence[Axis], say: Callable[[str], object], done: Callable[[str], object] = lambda _words: None
 ) -> list[Sink]:
-    """What gives a gimbal its own commands, where the rig has one; `say` is for what comes of them, `done` for those
-    that the gimbal has confirmed."""
+    """What gives a gimbal its own commands, where the rig has one, and what watches the links; `say` is for both.
+
+    `done` is called with each command that the gimbal has confirmed.
+    """
     links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
     heard = [CommandSink(rig.connections[link], say, done) for link in links[:1]]
-    return [*heard, Unheard(gimbal=bool(heard), drone=rig.drone(axes) is not None, say=say)]
+    unheard = Unheard(gimbal=bool(heard), drone=rig.drone(axes) is not None, say=say)
+    return [*heard, unheard, LinkNotes(rig.connections.values(), say)]
 
 
 @contextmanager

@@ -19,7 +19,7 @@ from teleop.cli.trim_options import NO_TRIM, TrimOptions
 from teleop.clock import SystemClock, VirtualClock
 from teleop.document import DocumentError
 from teleop.links import parse
-from teleop.motion import Axis
+from teleop.motion import Action, Axis
 from teleop.planner.findings import PlanError
 from teleop.planner.trim import sequence_limits
 from teleop.planner.warp import NoRunUp
@@ -60,6 +60,8 @@ def play(
     profile, performance, timelapse = options.compiled(file, left)
     shooting.check(file, timelapse is not None)
     axes = list(performance.move.tracks)
+    shot = timelapse is not None and not shooting.rehearse
+    profile = profile.in_use(axes, [*(cue.action for cue in performance.cues), *([Action.SHUTTER] if shot else [])])
     flown = is_flown(axes)
     if timelapse is not None and flown:
         raise DocumentError([f"{file}: a timelapse has no drone: it would fly on from frame to frame"])

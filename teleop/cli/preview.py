@@ -6,7 +6,6 @@ anything is written.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterator, Mapping
 from importlib.util import find_spec
@@ -15,10 +14,9 @@ from typing import Annotated, BinaryIO
 
 from cyclopts import Parameter
 
-from teleop.cli.folded import tell
-from teleop.cli.options import DEFAULTS, Options, warn
+from teleop.cli.options import DEFAULTS, Options, announce, announce_json, warn
+from teleop.files import replacing
 from teleop.ports import UsageError
-from teleop.preview.output import replacing
 from teleop.profile import Profile
 from teleop.sources.frame_rates import exact_rate
 from teleop.sources.sequence_file import Performance
@@ -48,10 +46,10 @@ def preview(
             write(performance, profile, stream)
             written.append({"path": str(path), "bytes": stream.tell()})
         if not options.json:
-            tell(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}")
+            announce(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}", *writes)
     if options.json:
         found = {"ok": True, "title": performance.title, "duration": performance.duration, "written": written}
-        print(json.dumps({**found, "warnings": list(performance.warnings)}))
+        announce_json({**found, "warnings": list(performance.warnings)}, *writes)
     return 0
 
 

@@ -12,7 +12,7 @@ from teleop.cli.display import Display
 from teleop.cli.flying import Aboard, is_flown
 from teleop.cli.hands import open_devices
 from teleop.cli.passes import PassesReport
-from teleop.cli.perform import Extra, commands, perform
+from teleop.cli.perform import EXIT_CODES, Extra, commands, perform
 from teleop.cli.run_rows import NO_KEYS, RUN_HINTS
 from teleop.cli.take_words import take_words
 from teleop.cli.trim_options import TrimReport
@@ -31,6 +31,7 @@ from teleop.sources.sequence import SequenceSource
 from teleop.sources.sequence_file import Performance
 from teleop.sources.trimmed_file import TrimmedFile
 from teleop.sources.trimming import Trimming
+from teleop.supervisor import Result
 
 NOBODY = "play --trim: there is no joystick, and no terminal for its keys: plug one in, or run it on a terminal"
 
@@ -71,7 +72,9 @@ class SequenceRun:
             display = Display(title, limits, status_of, self.as_json, take_words(recorder), hints=keys)
             aboard.board(rig, axes, display.say, by_script=True)
             tally, sources = Tally(lambda: source.begin), [conductor or source]
-            return perform(rig, axes, sources, tally, display, self.as_json, recorder, watchers, extras)
+            code = perform(rig, axes, sources, tally, display, self.as_json, recorder, watchers, extras)
+            lost = any(isinstance(extra, TrimReport) and extra.failure for extra in extras)
+            return code or (EXIT_CODES[Result.FAILED] if lost else code)
 
     def _conductor(self, stack: ExitStack, axes: Sequence[Axis], extras: list[Extra]) -> Conductor | None:
         """Whoever has a hand on it, if anybody has; with a trim also what is reported of that."""
@@ -97,6 +100,7 @@ class SequenceRun:
             watchers.append(stack.enter_context(self.keys))
         if conductor is not None:
             watchers.append(conductor)
+        watchers += [extra for extra in extras if isinstance(extra, TrimReport)]
         if self.source.staging.compared:
             repeatability = Repeatability(self.source.place)
             watchers.append(repeatability)

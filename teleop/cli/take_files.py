@@ -10,9 +10,10 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from teleop.cli.folded import tell
+from teleop.cli.options import announce, announce_json
 from teleop.cli.take_options import Json, Overwrite, TakeFile, length, place, problems_said, say
+from teleop.files import replacing
 from teleop.ports import UsageError
-from teleop.preview.output import replacing
 from teleop.sinks.recorder import ENDING
 
 COLUMNS = (
@@ -40,9 +41,9 @@ def take_export(
         text.detach()
     say(messages.remark)
     if as_json:
-        print(json.dumps({"ok": True, "written": str(csv), "rows": rows, "problem": messages.remark}))
+        announce_json({"ok": True, "written": str(csv), "rows": rows, "problem": messages.remark}, csv)
     else:
-        tell(f"{csv}: {rows} rows")
+        announce(f"{csv}: {rows} rows", csv)
     return 0
 
 

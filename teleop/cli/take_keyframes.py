@@ -14,9 +14,9 @@ from cyclopts import Parameter
 from teleop.cli.folded import tell
 from teleop.cli.play import percentage
 from teleop.cli.take_options import Json, Overwrite, TakeFile, place, problems_said, say
+from teleop.files import replacing
 from teleop.ports import UsageError
 from teleop.preview.look import UNITS
-from teleop.preview.output import replacing
 
 ENDINGS = (".yaml", ".yml")
 

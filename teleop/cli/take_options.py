@@ -13,6 +13,7 @@ from cyclopts import Parameter
 
 from teleop.cli.folded import complain
 from teleop.document import DocumentError
+from teleop.files import check_place, is_stream
 from teleop.ports import UsageError
 from teleop.takes.messages import Ending
 
@@ -36,11 +37,15 @@ def problems_said(as_json: bool) -> Iterator[None]:
 
 
 def place(option: str, path: Path, overwrite: bool, original: Path) -> None:
-    """Raises UsageError where nothing may be written: over another file without a word, over the take at all."""
+    """Raises UsageError where nothing may be written: over another file without --overwrite, over the take at all.
+
+    Raises OutputError where nothing can be.
+    """
     if path.resolve() == original.resolve():
         raise UsageError(f"{option} {path}: is the take itself, which is never written over")
-    if path.exists() and not overwrite:
+    if path.exists() and not (overwrite or is_stream(path)):
         raise UsageError(f"{option} {path}: is there already; --overwrite writes over it")
+    check_place(path)
 
 
 def say(remark: str) -> None:

@@ -15,9 +15,9 @@ from cyclopts import Parameter
 from teleop.cli.folded import tell
 from teleop.cli.take_options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_said, say
 from teleop.document import UnplayableError
+from teleop.files import replacing
 from teleop.motion import Axis
 from teleop.ports import UsageError
-from teleop.preview.output import replacing
 
 if TYPE_CHECKING:
     from teleop.takes.report import AxisReport

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from teleop.cli.display import UNITS
 from teleop.ports import TeleopError, UsageError
 
 if TYPE_CHECKING:
+    from teleop.motion import Tick
     from teleop.sources.trimmed_file import TrimmedFile
     from teleop.sources.trimming import Trimming
 
@@ -51,12 +53,18 @@ class TrimOptions:
 
 
 class TrimReport:
-    """What the trim came to, and its file: written when the operator says so, else at the end."""
+    """What the trim came to, and its file: written when the operator asks for it, else at the end.
+
+    As a watcher of the run it tells the operator when the file is written. `failure` is why it was not, in a line, and
+    "" as long as that has not happened.
+    """
 
     def __init__(self, trimming: Trimming, file: TrimmedFile | None) -> None:
         self._trimming, self._file = trimming, file
         self._writer = ThreadPoolExecutor(1, thread_name_prefix="trim")
         self._written: Future[None] | None = None
+        self._untold: Future[None] | None = None  # to the operator
+        self.failure = ""
 
     @property
     def keep(self) -> Callable[[], str] | None:
@@ -65,31 +73,48 @@ class TrimReport:
 
     def facts(self) -> Iterator[tuple[str, object]]:
         offsets = {axis.value: round(state.position, 6) for axis, state in self._trimming.offsets.items()}
-        yield "trim", {"offsets": offsets, "file": self._finished()}
+        file = self._finished()
+        yield "trim", {"offsets": offsets, "file": file, "trouble": self.failure}
 
     def print(self) -> None:
         offsets = self._trimming.offsets.items()
         words = [f"{axis} {o.position + 0.0:+.3f} {UNITS.get(axis, '')}".rstrip() for axis, o in offsets]
         file = self._finished()
         print(f"trim: {', '.join(words)}{f'; written to {file}' if file else ''}")
+        if self.failure:
+            print(f"teleop: {self.failure}", file=sys.stderr)
 
     def _write(self) -> str:
         """Begin to write the trim as it is now; the control thread does not wait for a disk."""
         assert self._file is not None
         self._written = self._writer.submit(self._file.write, dict(self._trimming.offsets))
-        return f"the trim is written to {self._file.target}"
+        self._untold = self._written
+        return f"writing the trim to {self._file.target}"
+
+    def write(self, tick: Tick) -> None:  # noqa: ARG002 - as a watcher: whether the file is there by now
+        if self._file is None or self._untold is None or not self._untold.done():
+            return
+        done, self._untold = self._untold, None
+        self._trimming.say(self._failure(done) or f"the trim is written to {self._file.target}")
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
+        return None
+
+    def _failure(self, written: Future[None]) -> str:
+        error = written.exception()
+        if error is None or self._file is None:
+            return ""
+        return str(error) if isinstance(error, TeleopError) else f"{self._file.target}: cannot be written: {error}"
 
     def _finished(self) -> str | None:
-        """The file, once it is written; raises TeleopError when it could not be."""
+        """The file, once it is written; None where there is none, or it could not be."""
         if self._file is None:
             return None
         if self._written is None:
             self._write()
         assert self._written is not None
-        error = self._written.exception()
-        if isinstance(error, TeleopError):
-            raise error
-        return str(self._file.target)
+        self.failure = self._failure(self._written)
+        return None if self.failure else str(self._file.target)
 
 
 NO_TRIM = TrimOptions()

@@ -19,6 +19,7 @@ from teleop.dji.message import REPLY, Message, Opaque
 from teleop.dji.r_sdk import R_SDK
 from teleop.dji.registry import Registry
 
+RECENT: Final = 2048  # frames sent here, ten seconds of them at least: a late reply to an older one is not expected
 REPLY_TIMEOUT: Final = 0.1  # s; replies normally arrive within 5 ms (docs/protocol-facts.md)
 
 
@@ -31,6 +32,7 @@ class Counts:
     replies: int = 0  # that answer an open request
     unmatched_replies: int = 0  # late, twice, or to a command sent without asking
     lost_replies: int = 0
+    foreign_replies: int = 0  # of the unmatched, those to numbers that were not sent here
     damage: int = 0  # runs of bytes that were no frame
     unknown: int = 0  # frames that no message class describes
 
@@ -69,6 +71,7 @@ class Session:
         self._registry = registry
         self._sequence = first_sequence
         self.last_damage: Damage | None = None  # the bytes that were no frame, most recently
+        self._sent = 0  # frames, up to RECENT
         self._reader = FrameReader(in_pieces=True)
         self._open: dict[int, _Open] = {}
 
@@ -119,11 +122,16 @@ class Session:
         self.counts.lost_replies += len(lost)
         return lost
 
+    def forget(self, sequence: int) -> None:
+        """No reply is waited for any more: the request has not left."""
+        self._open.pop(sequence, None)
+
     def _send(self, message: Message) -> tuple[bytes, int]:
         message.check()
         sequence = self._sequence
         frame = encode(message.data(), message.cmd_type, sequence)
         self._sequence = sequence + 1 & 0xFFFF
+        self._sent = min(self._sent + 1, RECENT)
         self.counts.frames_out += 1
         return frame, sequence
 
@@ -139,4 +147,5 @@ class Session:
             return Received(decoded.message, frame, waiting.request, decoded.bare)
         if frame.is_reply and not self._registry.is_push(decoded.set_and_id):  # some firmware marks pushes as replies
             self.counts.unmatched_replies += 1
+            self.counts.foreign_replies += not 0 < (self._sequence - frame.sequence & 0xFFFF) <= self._sent
         return Received(decoded.message, frame)

@@ -59,7 +59,7 @@ class Acceleration(Message):
 class Velocity(Message):
     """Linear velocity in the ground frame: north, east and UP are positive.
 
-    The ground frame's z is down everywhere else; the maker's take-off sample (takeoffConverged, 3.1.9) waits for z > 0.25,
+    The ground frame's z is down elsewhere; the maker's take-off sample (takeoffConverged, 3.1.9) waits for z > 0.25,
     and so says OSDK-ROS issue 25 (docs/protocol-facts.md).
     """
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 import contextlib
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 
 from teleop.links.faults import link_failed
-from teleop.links.outbox import Outbox, StalledError
+from teleop.links.outbox import Outbox, StalledError, Traffic
 from teleop.links.url import LinkAddress
 from teleop.ports import LinkError
 
@@ -37,6 +37,16 @@ class BufferedLink(ABC):
         """
         with self._latching():
             self._outbox.send(data)
+
+    def send_as(self, data: bytes, traffic: Traffic, kind: Hashable) -> bool:
+        """Sends one whole frame as `send` does; whether it replaced one of its `kind` that had not left: see Outbox."""
+        with self._latching():
+            return self._outbox.send(data, traffic, kind)
+
+    @property
+    def behind(self) -> bool:
+        """Whether it has been taking less than it was given, for seconds."""
+        return self._outbox.behind
 
     def receive(self) -> bytes:
         """What has arrived, b"" for nothing. Raises LinkError when the link is lost or closed, or the bus is off.

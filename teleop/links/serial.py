@@ -7,6 +7,7 @@ would mix its bytes into our frames.
 
 from __future__ import annotations
 
+import errno
 import select
 from collections import Counter
 from collections.abc import Callable
@@ -20,6 +21,7 @@ from teleop.links.faults import opening_failed
 from teleop.links.url import LinkAddress
 
 _PIECE = 4096  # bytes in one write, more than the longest frame
+_WAITING = 256  # bytes the kernel may hold: at 115200 bit/s 22 ms of commands, of which none can be made newer
 _READ = 65536  # bytes in one call, more than a kernel buffers
 
 
@@ -44,9 +46,18 @@ class SerialPort:
         self._port = serial.Serial(path, baud, timeout=0, write_timeout=0, exclusive=True)
 
     def write(self, data: bytes) -> int:
-        if not select.select([], [self._port], [], 0)[1]:
+        if not select.select([], [self._port], [], 0)[1] or self._waiting() > _WAITING:
             return 0
         return self._port.write(data) or 0
+
+    def _waiting(self) -> int:
+        """Bytes that the kernel has taken and the line has not; 0 where it does not say."""
+        try:
+            return self._port.out_waiting
+        except OSError as error:
+            if error.errno in (errno.ENOTTY, errno.EINVAL):
+                return 0
+            raise
 
     def read(self) -> bytes:
         return self._port.read(_READ)

@@ -7,16 +7,24 @@ every byte: not by time alone, since a resting loop asks seldom, but by time and
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 
+from teleop.dji import focus, gimbal, movement, virtual_rc
 from teleop.dji.message import Message
 from teleop.dji.onboard_session import OnboardSession
 from teleop.dji.session import Session
+from teleop.links.buffered import BufferedLink
+from teleop.links.outbox import Traffic
 from teleop.ports import Link, LinkError
 
 SILENCE = 0.5  # s without a good frame; a gimbal answers within 5 ms
 UNANSWERED = 3  # requests in a row, at least: one lost reply is ordinary on a shared bus
+FOREIGN, FOREIGN_WITHIN = 3, 5.0  # so many replies to others within so many s: another program is there
+OWN_BEFORE = 0.3  # s after opening, in which replies to an earlier run of this program may still come
+STREAMS = (gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Dial, focus.Set, virtual_rc.Sticks, movement.Move)
+QUESTIONS = (gimbal.Angles, gimbal.PushSettings, gimbal.VersionPush, focus.Get)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +63,10 @@ class Connection:
         self._handlers: dict[type[Message], list[Callable[[Answer], None]]] = {}
         self._push_handlers: dict[type[Message], list[Callable[[Message, float], None]]] = {}
         self._sent: dict[int, float] = {}
+        self._queue = link if isinstance(link, BufferedLink) else None
+        self._latest: dict[type[Message], int] = {}  # the sequence of the last request of each stream
+        self._foreign: deque[float] = deque(maxlen=FOREIGN)  # when the last replies to others came
+        self._shared = False
         self._heard = self._polled = now
         self._unanswered = 0
 
@@ -69,7 +81,26 @@ class Connection:
     @property
     def counts(self) -> Mapping[str, int]:
         """How much has passed, and everything that went wrong without being a fault, by name."""
-        return {**asdict(self.session.counts), **self._link_counts}
+        counts = {**asdict(self.session.counts), **self._link_counts}
+        return {**counts, "cannot_keep_up": 1} if self._behind else counts
+
+    @property
+    def warnings(self) -> Iterator[str]:
+        """What is wrong with it and ends nothing, in a line each that stays the same."""
+        if self._behind:
+            yield (
+                f"link {self._name} cannot keep up: {self._url} takes less than is sent, and older commands are"
+                " skipped; set a lower rate: in the profile's sinks, or use a faster adapter"
+            )
+        if self._shared:
+            yield (
+                f"another program is driving this gimbal (link {self._name}, {self._url}): the replies to its commands"
+                " arrive here; end one of the two"
+            )
+
+    @property
+    def _behind(self) -> bool:
+        return self._queue is not None and self._queue.behind
 
     def on_answer(self, request: type[Message], handler: Callable[[Answer], None]) -> None:
         """Have `handler` called with the answer to each request of a kind, and when one has none."""
@@ -81,14 +112,18 @@ class Connection:
 
     def stream(self, message: Message) -> None:
         """Send a message that has no reply. Raises LinkError, or FieldError when a field is out of its range."""
-        self._link.send(self.session.command(message))
+        self._leave(message, self.session.command(message))
 
     def request(self, message: Message, now: float) -> int:
         """Send a message that has a reply; its sequence number. Raises as `stream` does."""
         frame, sequence = self.session.request(message, now)
         if message.has_reply:
             self._sent[sequence] = now
-        self._link.send(frame)
+        if self._leave(message, frame) and isinstance(self.session, Session):
+            replaced = self._latest.pop(type(message), -1)
+            self.session.forget(replaced)
+            self._sent.pop(replaced, None)
+        self._latest[type(message)] = sequence
         return sequence
 
     def withdraw(self, *kinds: type[Message]) -> None:
@@ -101,12 +136,14 @@ class Connection:
         if now == self._polled:
             return
         self._polled = now
+        strangers = self.session.counts.foreign_replies
         for received in self.session.receive(self._link.receive(), now):
             self._heard, self._unanswered = now, 0
             if received.request is not None:
                 self._answer(received.request, received.frame.sequence, received.message, received.bare)
             for handler in self._push_handlers.get(type(received.message), ()):
                 handler(received.message, now)
+        self._note_foreign(self.session.counts.foreign_replies - strangers, now)
         for lost in self.session.overdue(now):
             self._unanswered += 1
             self._answer(lost.request, lost.sequence, None)
@@ -116,7 +153,28 @@ class Connection:
         if self._unanswered >= UNANSWERED and now - self._heard > SILENCE:
             raise LinkError(f"{self} does not answer: is it on, is the cable in?")
 
+    def _leave(self, message: Message, frame: bytes) -> bool:
+        """Send a frame; whether it took the place of an older one of its kind, which then never leaves."""
+        if self._queue is None:
+            self._link.send(frame)
+            return False
+        return self._queue.send_as(frame, _traffic(message), type(message))
+
+    def _note_foreign(self, count: int, now: float) -> None:
+        if not count or now - self.opened < OWN_BEFORE:
+            return
+        self._foreign.extend([now] * count)
+        self._shared |= len(self._foreign) == FOREIGN and now - self._foreign[0] <= FOREIGN_WITHIN
+
     def _answer(self, request: Message, sequence: int, reply: Message | None, bare: bool = False) -> None:
         answer = Answer(sequence, self._sent.pop(sequence), reply, bare)
         for handler in self._handlers.get(type(request), ()):
             handler(answer)
+
+
+def _traffic(message: Message) -> Traffic:
+    if isinstance(message, gimbal.Speed) and not message.take_over:  # giving back is never skipped
+        return Traffic.ORDER
+    if isinstance(message, STREAMS):
+        return Traffic.STREAM
+    return Traffic.QUESTION if isinstance(message, QUESTIONS) else Traffic.ORDER

@@ -59,6 +59,7 @@ class _MidiTrigger:
         self._port, self._now, self._opener = port, now, opener
         self._heard: deque[tuple[float, Any]] = deque()
         self.timecode = MidiTimecode()
+        self._armed_at = 0  # the number of the first quarter frame that counts
 
     def open(self, stack: ExitStack) -> None:
         stack.callback(self._opener(self._port, lambda message: self._heard.append((self._now(), message))).close)
@@ -72,17 +73,23 @@ class _MidiTrigger:
             elif message.type == "sysex":
                 self.timecode.full(tuple(message.data), time)
 
+    def _arm(self) -> None:
+        """What came before does not count, a beginning of which only the end comes now included."""
+        self._listen()
+        self._armed_at = self.timecode.quarters
+
 
 class StartTrigger(_MidiTrigger):
     """Fires when timecode begins to run; one that runs already has to stop first."""
 
     def arm(self, now: float) -> None:  # noqa: ARG002
-        self._listen()
+        self._arm()
         self._starts = self.timecode.starts
 
     def fired(self, now: float) -> bool:
         self._listen()
-        return self.timecode.starts > self._starts and self.timecode.runs(now)
+        began = self.timecode.starts > self._starts and self.timecode.run_from >= self._armed_at
+        return began and self.timecode.runs(now)
 
     def said(self, now: float) -> str:
         return "MIDI timecode to stop and start again" if self.timecode.runs(now) else "MIDI timecode to start"
@@ -96,10 +103,10 @@ class TimecodeTrigger(_MidiTrigger):
         self._label = label
         self._before = False  # it has been seen before the label, or there
 
-    def arm(self, now: float) -> None:  # noqa: ARG002
-        self._listen()
+    def arm(self, now: float) -> None:
+        self._arm()
         self._jumps = self.timecode.jumps
-        self._before = False
+        self._before = self._label.time(self.timecode.rate) >= self.timecode.position(now)
 
     def fired(self, now: float) -> bool:
         self._listen()
@@ -107,7 +114,8 @@ class TimecodeTrigger(_MidiTrigger):
         left = target - timecode.position(now)
         if timecode.jumps != self._jumps:  # it began, or jumped
             self._jumps = timecode.jumps
-            self._before = abs(timecode.began - target) < 1 / RATES[timecode.rate]
+            here = abs(timecode.began - target) < 1 / RATES[timecode.rate]
+            self._before = here and timecode.jumped_from >= self._armed_at
         if left > PERIOD / 2 or (left == 0 and not timecode.runs(now)):
             self._before = True
             return False

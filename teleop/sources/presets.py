@@ -12,7 +12,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import tempfile
 import threading
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,6 +22,7 @@ from typing import Any
 from pydantic import Field
 
 from teleop.document import Wrong, mapping, number
+from teleop.files import OutputError, write_text
 from teleop.motion import Axis, Limits
 from teleop.ports import UsageError
 from teleop.section import PositionsSection, Section
@@ -126,8 +126,8 @@ class Presets:
                 return
             try:
                 write_presets(self._file, presets)
-            except OSError as error:
-                self._said.append(f"presets are not saved: {self._file}: {error.strerror or error}")
+            except OutputError as error:
+                self._said.append(f"presets are not saved: {self._file}: {error.reason}")
 
 
 def read_presets(file: Path, limits: Mapping[Axis, Limits], rig: str) -> Presets:
@@ -171,21 +171,15 @@ def _beyond(axis: Axis, position: float, limits: Mapping[Axis, Limits], rig: str
 
 
 def write_presets(file: Path, presets: Mapping[int, Preset]) -> None:
-    """Write all of them in place of what was there; raises OSError, and then the old file still stands."""
+    """Write all of them in place of what was there; raises OutputError, and then the old file is as it was."""
     lines = ["# Positions of a rig, kept by teleop live.\n", "presets:\n" if presets else "presets: {}\n"]
     for key, preset in sorted(presets.items()):
         parts = [f"{axis}: {position}" for axis, position in preset.positions.items()]
         if preset.name:
             parts.append(f"name: {json.dumps(preset.name, ensure_ascii=False)}")
         lines.append(f"  {key}: {{{', '.join(parts)}}}\n")
-    file.parent.mkdir(parents=True, exist_ok=True)
-    handle, new = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}.")
     try:
-        with open(handle, "w", encoding="utf-8") as stream:
-            stream.writelines(lines)
-            stream.flush()
-            os.fsync(stream.fileno())
-        os.replace(new, file)
-    except OSError:
-        os.unlink(new)
-        raise
+        file.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(file, error.strerror or str(error)) from None
+    write_text(file, "".join(lines))

@@ -45,13 +45,15 @@ class MidiTimecode:
     """Where the sender's timecode is.
 
     `starts` counts how often it has begun to run, `jumps` that and how often it has jumped since, and `began` is where
-    it did so last (s).
+    it did so last (s). `quarters` counts the quarter frames; `run_from` is the number of the first one of this run, and
+    `jumped_from` that of the first one that spelled where it began.
     """
 
     def __init__(self) -> None:
         self.rate = 0  # the code
         self.starts = self.jumps = 0
         self.began = math.nan
+        self.quarters = self.run_from = self.jumped_from = 0
         self._pieces: list[int] = []
         self._at = math.nan  # the timecode in s, at `_known`
         self._known = self._heard = -math.inf
@@ -61,7 +63,9 @@ class MidiTimecode:
         """A quarter frame: which of the eight, and its four bits."""
         if now - self._heard > STOPPED:
             self._ran, self._pieces = False, []
+            self.run_from = self.quarters
         self._heard = now
+        self.quarters += 1
         self._pieces = [*self._pieces, value] if piece == len(self._pieces) else [value] if piece == 0 else []
         if len(self._pieces) == PIECES:
             frames, seconds, minutes, hours = (self._pieces[i] | self._pieces[i + 1] << 4 for i in (0, 2, 4, 6))
@@ -93,4 +97,5 @@ class MidiTimecode:
         if not self._ran or abs(at - self.position(now)) > JUMP:
             self.jumps += 1
             self.began = spelled
+            self.jumped_from = self.quarters - PIECES
         self._at, self._known, self._ran = at, now, True

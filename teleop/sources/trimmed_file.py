@@ -7,16 +7,15 @@ run: a trim that could not be kept is not to be found out at its end.
 
 from __future__ import annotations
 
-import os
 import re
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from teleop.document import Document, DocumentError, Location, mapping, number, sequence
+from teleop.files import check_place, is_stream, write_text
 from teleop.motion import Axis, Limits, State
-from teleop.ports import DeviceError, UsageError
+from teleop.ports import UsageError
 from teleop.shipped import find
 from teleop.yaml_text import read_document
 
@@ -37,12 +36,14 @@ class Number(NamedTuple):
 class TrimmedFile:
     """The sequence called `name`, to be written to `target` with its keys moved by offsets within `limits`.
 
-    Raises DocumentError where the keys cannot be rewritten, UsageError where `target` is there already.
+    Raises DocumentError where the keys cannot be rewritten, UsageError where `target` is there already, OutputError
+    where it cannot be written.
     """
 
     def __init__(self, name: str, target: Path, axes: Sequence[Axis], limits: Mapping[Axis, Limits]) -> None:
-        if target.exists():
+        if target.exists() and not is_stream(target):
             raise UsageError(f"--trim-out {target}: is there already; nothing is ever written over")
+        check_place(target)
         file, called = find(name, "sequences", "sequence")
         document = read_document(file, called)
         self.target, self._limits = target, limits
@@ -58,20 +59,8 @@ class TrimmedFile:
         return "".join([*parts, self._text[end:]])
 
     def write(self, offsets: Mapping[Axis, State]) -> None:
-        """Write it whole or not at all; raises DeviceError when it cannot be."""
-        try:
-            handle, new = tempfile.mkstemp(dir=self.target.parent, prefix=f".{self.target.name}.")
-            try:
-                with open(handle, "w", encoding="utf-8", newline="") as stream:
-                    stream.write(self.text(offsets))
-                    stream.flush()
-                    os.fsync(stream.fileno())
-                os.replace(new, self.target)
-            except OSError:
-                os.unlink(new)
-                raise
-        except OSError as error:
-            raise DeviceError(f"{self.target}: cannot be written: {error.strerror or error}") from None
+        """Write it whole or not at all. Raises OutputError."""
+        write_text(self.target, self.text(offsets))
 
     def _moved(self, each: Number, offsets: Mapping[Axis, State]) -> str:
         offset = offsets[each.axis].position if each.axis in offsets else 0.0

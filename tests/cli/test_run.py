@@ -289,6 +289,20 @@ def test_two_processes_talk_over_a_real_bus(bus: str) -> None:
         assert far.returncode == 130
 
 
+def test_two_programs_on_one_bus_are_recognised(bus: str) -> None:
+    with running("sim", "--link", bus) as far:
+        assert far.stdout is not None
+        far.stdout.readline()
+        with (
+            running("play", "reveal", "--link", bus, "--json") as one,
+            running("calibrate", "delay", "--axis", "roll", "--link", bus) as other,
+        ):
+            out, said = one.communicate(timeout=60)
+            other.communicate(timeout=60)
+    assert "another program is driving this gimbal (link gimbal, udp_multicast:239.74.163.2)" in said
+    assert json.loads(out)["links"]["gimbal"]["foreign_replies"] > 10
+
+
 @pytest.mark.parametrize("mode", ["position", "speed"])
 def test_a_gimbal_that_vanishes_ends_the_run_soon(bus: str, tmp_path: Path, mode: str) -> None:
     profile = (Path(__file__).parents[2] / "profiles" / "sim.yaml").read_text()

@@ -9,6 +9,7 @@ from far_end import FarEnd
 from teleop.dji import gimbal
 from teleop.dji.frame import Frame, pieces
 from teleop.dji.message import Result
+from teleop.dji.session import Session
 from teleop.links import open_link
 from teleop.ports import LinkError
 from teleop.sinks.connection import SILENCE, UNANSWERED, Answer, Connection
@@ -117,3 +118,80 @@ def test_what_has_no_reply_is_never_waited_for() -> None:
         far.connection.request(gimbal.Joystick(0, 0, 0), number / 10)
     far.connection.poll(10 * SILENCE)
     assert far.connection.counts["lost_replies"] == 0
+
+
+WARNING = "another program is driving this gimbal (link the gimbal, memory:)"
+
+
+class Shared:
+    """A connection on whose bus another program drives the same gimbal: its replies come here too."""
+
+    def __init__(self, own: int = 0, others: int = 30000) -> None:
+        self.far = FarEnd()
+        self.far.connection.session = Session(first_sequence=own)
+        self.far.replies[gimbal.Angles] = angles_at(0.0)
+        self.other = Session(first_sequence=others)
+
+    def turn(self, now: float, own: bool = True, other: bool = True, delay: float = 0.0) -> None:
+        if own:
+            self.far.connection.request(gimbal.Angles(), now)
+        if other:
+            self.far.here.send(self.other.request(gimbal.Position(0.0, 0.0, 0.0), now)[0])
+            self.far.replies[gimbal.Position] = lambda _request: Result(0)
+        self.far.serve(now)
+        self.far.connection.poll(now + delay + 0.001)
+
+    @property
+    def warnings(self) -> list[str]:
+        return [warning.partition(":")[0] for warning in self.far.connection.warnings]
+
+
+@pytest.mark.parametrize(("own", "others"), [(0, 30000), (5, 4), (100, 65000), (65500, 40)])
+def test_another_program_on_the_bus_is_recognised_by_replies_to_numbers_that_were_not_sent_here(
+    own: int, others: int
+) -> None:
+    """Whichever of two programs numbers ahead, one of them sees numbers that it has not reached."""
+    here, there = Shared(own, others), Shared(others, own)
+    for tick in range(50):
+        here.turn(1 + tick / 20)
+        there.turn(1 + tick / 20)
+    said = [*here.far.connection.warnings, *there.far.connection.warnings]
+    assert said
+    assert all(text.startswith(WARNING) for text in said)
+    assert here.far.connection.counts["foreign_replies"] + there.far.connection.counts["foreign_replies"] > 20
+
+
+def test_late_and_repeated_replies_of_our_own_are_nobody_elses() -> None:
+    shared = Shared(own=65530)
+    connection, frames = shared.far.connection, []
+    for tick in range(40):
+        connection.request(gimbal.Angles(), 1 + tick / 10)
+        frames.append(shared.far.link.receive())
+        shared.far.push(gimbal.Joystick(pitch=0, roll=0, yaw=0))  # it is there, and leaves questions unanswered
+        connection.poll(1 + tick / 10 + 0.05)
+    answers = Session()
+    for _twice in range(2):
+        for frame in frames:
+            [asked] = answers.receive(frame, 6.0)
+            shared.far.link.send(answers.reply(asked.frame, angles_at(0.0)(None)))
+    connection.poll(6.0)
+    assert connection.counts["unmatched_replies"] == 79  # all but the one that was still waited for
+    assert connection.counts["foreign_replies"] == 0
+    assert not list(connection.warnings)
+
+
+def test_replies_to_the_run_before_this_one_are_no_other_program() -> None:
+    shared = Shared()
+    for tick in range(6):
+        shared.turn(tick / 50)
+    assert shared.far.connection.counts["foreign_replies"] == 6
+    for tick in range(100):
+        shared.turn(1 + tick / 20, other=False)
+    assert shared.warnings == []
+
+
+def test_a_single_command_of_another_program_now_and_then_is_not_driving() -> None:
+    shared = Shared()
+    for tick in range(300):
+        shared.turn(1 + tick / 10, other=tick % 60 == 0)
+    assert shared.warnings == []

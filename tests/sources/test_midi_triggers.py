@@ -67,6 +67,33 @@ def test_what_came_before_it_was_armed_does_not_count():
     assert port.play([], trigger, 4.0) is None
 
 
+@pytest.mark.parametrize("kind", [at_start, at_the_hour])
+@pytest.mark.parametrize("before", range(1, 9))
+def test_a_start_that_began_before_it_was_armed_does_not_count(kind, before):
+    """`before` of the eight quarter frames that spell the first timecode have come by then."""
+    port = Port()
+    trigger = kind(port)
+    coming = list(running(HOUR[1], 100, 1, 1.0))
+    for port.now, each in coming[:before]:
+        port._listener(each)
+    trigger.arm(port.now)
+    assert port.play(coming[before:200], trigger, port.now + 2) is None
+    port.play([], trigger, port.now + 1)
+    assert port.play(running(HOUR[1], 50, 1, port.now + 1), trigger, port.now + 3) is not None
+
+
+def test_a_label_that_comes_in_the_very_tick_of_arming_counts():
+    port = Port()
+    trigger = at_the_hour(port)
+    coming = list(running(HOUR[1] - 10, 100, 1, 0.0))
+    due = 10 / RATES[1] - 0.004
+    played = [each for each in coming if each[0] <= due]
+    for port.now, each in played:
+        port._listener(each)
+    trigger.arm(due)
+    assert port.play(coming[len(played) :], trigger, 2.0) == pytest.approx(due, abs=0.011)
+
+
 def test_a_start_is_a_start_and_timecode_that_runs_already_has_to_stop_first():
     port = Port()
     trigger = at_start(port)

@@ -1,7 +1,8 @@
 """A start by OSC, over a real UDP port on this computer: the right message, and nothing else, however it looks."""
 
 import socket
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext
+from threading import Event
 
 import pytest
 from hypothesis import given
@@ -98,3 +99,53 @@ def test_a_missing_extra_is_a_line_that_says_what_to_install(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pythonosc.osc_packet", None)
     with pytest.raises(UsageError, match=r"pip install 'rs-teleop\[osc\]'"):
         OscTrigger("127.0.0.1", 9000, "/go")
+
+
+def test_a_packet_that_waits_in_the_socket_when_it_is_armed_does_not_count(monkeypatch):
+    """The thread is kept from taking it, as a busy computer does."""
+    port = free_port()
+    trigger = OscTrigger("127.0.0.1", port, "/go")
+    with ExitStack() as stack:
+        trigger.open(stack)
+        with trigger._lock:
+            for _ in range(5):
+                send(port, message("/go"))
+            monkeypatch.setattr(trigger, "_lock", nullcontext())  # `arm` takes it from here on
+            trigger.arm(0.0)
+        send(port, message("/gone"))
+        send(port, b"")  # no OSC: when it is ignored all before it has been read
+        wait_until(lambda: trigger.ignored, "the last packet")
+        assert not trigger.fired(0.0)
+        send(port, message("/go"))
+        wait_until(lambda: trigger.fired(0.0), "the trigger")
+
+
+def test_a_packet_that_is_still_being_read_when_it_is_armed_does_not_count(monkeypatch):
+    port = free_port()
+    trigger = OscTrigger("127.0.0.1", port, "/go")
+    reading, go_on, parse = Event(), Event(), trigger._parse
+
+    def slow(data):
+        reading.set()
+        assert go_on.wait(5)
+        return parse(data)
+
+    monkeypatch.setattr(trigger, "_parse", slow)
+    with ExitStack() as stack:
+        trigger.open(stack)
+        trigger.arm(0.0)
+        send(port, message("/go"))
+        assert reading.wait(5)
+        trigger.arm(1.0)  # for another pass, between taking the packet and understanding it
+        go_on.set()
+        send(port, b"")
+        wait_until(lambda: trigger.ignored, "the last packet")
+        assert not trigger.fired(1.0)
+
+
+def test_nothing_counts_before_it_is_armed_at_all():
+    trigger = OscTrigger("127.0.0.1", 1, "/go")
+    trigger._hear(message("/go"))
+    assert not trigger.fired(0.0)
+    trigger.arm(0.0)
+    assert not trigger.fired(0.0)

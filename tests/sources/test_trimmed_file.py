@@ -5,8 +5,9 @@ from pathlib import Path
 import pytest
 
 from teleop.document import DocumentError
+from teleop.files import OutputError
 from teleop.motion import Axis, Limits, State
-from teleop.ports import DeviceError, UsageError
+from teleop.ports import UsageError
 from teleop.sources.sequence_file import load_performance
 from teleop.sources.trimmed_file import TrimmedFile
 
@@ -75,6 +76,10 @@ def test_nothing_is_written_over_and_what_cannot_be_written_is_said(tmp_path: Pa
     with pytest.raises(UsageError, match="is there already"):
         trimmed(tmp_path, TEXT)
     (tmp_path / "out.yaml").unlink()
+    with pytest.raises(OutputError, match=r"out\.yaml: cannot be written: No such file or directory"):
+        TrimmedFile(str(tmp_path / "shoot.yaml"), tmp_path / "no" / "out.yaml", [PAN], LIMITS)  # before the run
+    (tmp_path / "no").mkdir()
     file = TrimmedFile(str(tmp_path / "shoot.yaml"), tmp_path / "no" / "out.yaml", [PAN], LIMITS)
-    with pytest.raises(DeviceError, match=r"out\.yaml: cannot be written: No such file or directory"):
+    (tmp_path / "no").rmdir()
+    with pytest.raises(OutputError, match=r"out\.yaml: cannot be written: No such file or directory"):
         file.write({PAN: State(1.0)})

@@ -1,0 +1,74 @@
+"""What is reported of a trim and its file: that it was written is only reported of a file that was."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from teleop.cli.trim_options import TrimReport
+from teleop.files import OutputError
+from teleop.motion import Axis, State, Tick
+
+TICK = Tick(0.0, {}, {}, (), {})
+
+
+class Hands:
+    """What a TrimReport needs of `Trimming`."""
+
+    def __init__(self) -> None:
+        self.offsets = {Axis.PAN: State(1.5)}
+        self.lines: list[str] = []
+
+    def say(self, text: str) -> None:
+        self.lines.append(text)
+
+
+class File:
+    """What it needs of a `TrimmedFile`, failing with `error`."""
+
+    target = Path("out.yaml")
+
+    def __init__(self, error: Exception | None = None) -> None:
+        self._error = error
+
+    def write(self, offsets: object) -> None:
+        if self._error:
+            raise self._error
+
+
+@pytest.mark.parametrize(
+    "error", [OutputError(Path("out.yaml"), "No space left on device"), MemoryError("no room"), ValueError("a defect")]
+)
+@pytest.mark.parametrize("key", [False, True])
+def test_a_write_that_failed_is_never_followed_by_written_to_file(
+    error: Exception, key: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    hands = Hands()
+    report = TrimReport(hands, File(error))  # type: ignore[arg-type]  # stand-ins
+    if key:
+        assert report.keep
+        assert report.keep() == "writing the trim to out.yaml"
+    report.print()
+    report.write(TICK)
+    printed = capsys.readouterr()
+    reason = "out.yaml: cannot be written: "
+    assert printed.out == "trim: pan +1.500 deg\n"
+    assert printed.err.startswith(f"teleop: {reason}")
+    assert dict(report.facts())["trim"] == {
+        "offsets": {"pan": 1.5},
+        "file": None,
+        "trouble": printed.err.removeprefix("teleop: ").strip(),
+    }
+    assert report.failure.startswith(reason)
+    assert all(line.startswith(reason) for line in hands.lines)
+
+
+def test_a_file_that_was_written_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+    hands = Hands()
+    report = TrimReport(hands, File())  # type: ignore[arg-type]  # stand-ins
+    report.print()
+    report.write(TICK)
+    assert capsys.readouterr().out == "trim: pan +1.500 deg; written to out.yaml\n"
+    assert hands.lines == ["the trim is written to out.yaml"]
+    assert (report.failure, dict(report.facts())["trim"]["file"]) == ("", "out.yaml")  # type: ignore[index]  # a dict
