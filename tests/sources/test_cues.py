@@ -22,11 +22,15 @@ def test_each_kind_becomes_what_its_device_is_told(tmp_path: Path) -> None:
     performance = load(
         tmp_path,
         cued(
-            "at: 0, camera: focus", "at: 0, follow: pan", "at: 4.2, send: gimbal  set_stiffness pitch=40 roll=40 yaw=40"
+            "at: 0, camera: focus",
+            "at: 0, follow: pan",
+            "at: 0, follow: yaw",
+            "at: 4.2, send: gimbal  set_stiffness pitch=40 roll=40 yaw=40",
         ),
     )
     assert performance.cues == [
         Cue(0, Action.FOCUS),
+        Cue(0, Told("gimbal follow yaw")),
         Cue(0, Told("gimbal follow yaw")),
         Cue(4.2, Told("gimbal set_stiffness pitch=40 roll=40 yaw=40")),
     ]
@@ -41,7 +45,10 @@ def test_each_kind_becomes_what_its_device_is_told(tmp_path: Path) -> None:
             "at: 0, camera: record, follow: lock",
             "6:5: cues[0] must have one of camera, follow, recenter, send, wait, not camera and follow",
         ),
-        ("at: 0, follow: lok", "6:21: cues[0].follow must be one of lock, pan, sport, not 'lok'; did you mean lock?"),
+        (
+            "at: 0, follow: lok",
+            "6:21: cues[0].follow must be one of lock, pan, yaw, sport, not 'lok'; did you mean lock?",
+        ),
         (
             "at: 0, camera: autofocus",
             "6:21: cues[0].camera must be one of record, stop, shutter, focus, end_focus, not",
