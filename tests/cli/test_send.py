@@ -13,7 +13,7 @@ from contextlib import contextmanager
 import pytest
 from command import running, teleop
 from network import own_network
-from waiting import wait_until
+from waiting import DEADLINE, wait_until
 
 from teleop.cli import run
 from teleop.cli.send import ask, asked_for, default_retries
@@ -347,6 +347,6 @@ def test_a_command_to_another_process_over_a_real_bus() -> None:
             where = teleop("send", "angles", "--link", bus, "--json")
             assert json.loads(where.stdout)["fields"]["yaw"] > 0
             far.send_signal(signal.SIGINT)
-            far.communicate(timeout=10)
+            far.communicate(timeout=DEADLINE)
         gone = teleop("send", "angles", "--link", bus)
         assert (gone.returncode, gone.stdout, gone.stderr.count("\n")) == (1, "", 1)

@@ -141,9 +141,9 @@ def test_what_would_include_a_million_files_is_refused_soon(tmp_path: Path) -> N
         entries = "".join(f"  - {{move: {level + 1}.yaml, at: {at * 10**level}}}\n" for at in range(10))
         (tmp_path / f"{level}.yaml").write_text("include:\n" + entries)
     (tmp_path / "8.yaml").write_text("keyframes: [{at: 0, pan: 0}]\n")
-    began = time.monotonic()
+    began = time.thread_time()
     found = problems_of(tmp_path, "include: [{move: 0.yaml, at: 0}]\n")
-    assert time.monotonic() - began < 3
+    assert time.thread_time() - began < 3
     assert any("is too much: at most 200 files are included" in line for line in found)
     (tmp_path / "deep.yaml").write_text("include: [{move: deeper.yaml, at: 0}]\n")
     (tmp_path / "8.yaml").write_text("include: [{move: 9.yaml, at: 0}]\n")
