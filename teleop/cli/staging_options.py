@@ -69,8 +69,7 @@ class StagingOptions:
         text = self.start_at
         if text is None:
             return 0.0
-        keys = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
-        time = _key(text, keys) if text.startswith(KEY) else _time("start-at", text, performance.fps)
+        time = _key(text, performance.key_times) if text.startswith(KEY) else _time("start-at", text, performance.fps)
         if time >= performance.duration:
             raise UsageError(f"--start-at {text}: the move is over at {performance.duration:g} s")
         return time

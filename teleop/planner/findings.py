@@ -36,11 +36,9 @@ class Finding:
     def __str__(self) -> str:
         if self.seconds is None:
             return f"{self.axis}, {self.first}: {self.factor:.6g} beyond the soft limit ({self.limit})"
-        start, _, index = self.last.rpartition("[")
-        last = f"[{index}" if start and self.first.startswith(f"{start}[") else self.last
         remedy = "no time would do" if self.shortest is None else f"{self.shortest:.3f} s would do"
         return (
-            f"{self.axis}, {self.first}..{last}: {self.limit} {self.factor:.2f} x its limit"
+            f"{self.axis}, {self.first} to {self.last}: {self.limit} {self.factor:.2f} x its limit"
             f" in {self.seconds:.3f} s; {remedy}"
         )
 
@@ -58,7 +56,7 @@ class RampsTooLong:
 
     def __str__(self) -> str:
         return (
-            f"{self.axis}, {self.first}..{self.last}: ramps of {self.leave:.3g} s and {self.arrive:.3g} s"
+            f"{self.axis}, {self.first} to {self.last}: ramps of {self.leave:.3g} s and {self.arrive:.3g} s"
             f" do not fit into {self.seconds:.3f} s"
         )
 
@@ -81,7 +79,7 @@ class Overshoot:
     size: float
 
     def __str__(self) -> str:
-        return f"{self.axis}, {self.first}..{self.last}: overshoots by {self.size:.3g} to keep its limits"
+        return f"{self.axis}, {self.first} to {self.last}: overshoots by {self.size:.3g} to keep its limits"
 
 
 @dataclass(frozen=True, slots=True)

@@ -151,7 +151,7 @@ def test_a_bad_file_says_everything_at_once_and_a_hard_move_is_another_failure(t
     for command in ("check", "play"):
         hard = teleop(command, "hard.yaml", cwd=tmp_path)
         assert hard.returncode == 1
-        assert hard.stderr.startswith("hard.yaml:3:5: pan, keyframes[0]..[1]: ")
+        assert hard.stderr.startswith("hard.yaml:3:5: pan, key 1 to key 2: ")
     assert json.loads(teleop("check", "hard.yaml", "--json", cwd=tmp_path).stdout)["ok"] is False
 
 

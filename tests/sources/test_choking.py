@@ -78,7 +78,7 @@ def test_of_many_errors_the_first_are_told_and_the_others_counted(tmp_path: Path
     done = teleop("check", "wrong.yaml", cwd=tmp_path)
     assert done.returncode == 2
     lines = done.stderr.splitlines()
-    assert lines[0].startswith("wrong.yaml:2:5: keyframes[0] names no axis")
+    assert lines[0].startswith("wrong.yaml:2:5: key 1 names no axis")
     assert (len(lines), lines[-1]) == (51, "teleop: and 9950 more")
 
 
