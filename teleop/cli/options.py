@@ -33,10 +33,10 @@ def whole(_type: Any, tokens: Sequence[Token]) -> int:
 class Options:
     """Which rig, where, and how to talk about it."""
 
-    rig: Annotated[str, Parameter(help="The rig: a shipped profile's name, or a file.")] = "sim"
+    rig: Annotated[str, Parameter(metavar="NAME|FILE", help="The rig: a shipped profile's name, or a file.")] = "sim"
     link: Annotated[
         tuple[str, ...],
-        Parameter(help="NAME=URL: another place for one of the rig's links.", negative=(), show_default=False),
+        Parameter(metavar="NAME=URL", help="Where one of the rig's links is today.", negative=(), show_default=False),
     ] = ()
     json: Annotated[bool, Parameter(help="Print JSON, for programs.", negative=(), show_default=False)] = False
     debug: Annotated[bool, Parameter(help="Print tracebacks.", negative=(), show_default=False)] = False

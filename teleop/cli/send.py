@@ -61,11 +61,15 @@ TAKEN_OVER = (
 def send(
     *words: Annotated[
         str,
-        Parameter(help="gimbal, camera, focus or drone, a command and field=value ...; or plain words, as recenter."),
+        Parameter(
+            metavar="COMMAND",
+            help="gimbal, camera, focus or drone, a command and field=value ...; or plain words, as recenter.",
+        ),
     ],
     retries: Annotated[
         int | None,
         Parameter(
+            metavar="N",
             help="How often to ask again without a reply: 2, and 0 for what must not be done twice.",
             validator=Number(gte=0),
             converter=whole,
