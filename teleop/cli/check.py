@@ -12,7 +12,7 @@ from cyclopts import Parameter
 
 from teleop.cli.flying import is_flown
 from teleop.cli.folded import tell
-from teleop.cli.options import DEFAULTS, Options, warn
+from teleop.cli.options import DEFAULTS, MOVES, Options, warn
 from teleop.cli.shipped_files import named
 from teleop.cli.timelapse_words import facts, summary
 from teleop.motion import Limits
@@ -23,7 +23,7 @@ from teleop.sources.sequence_file import Performance
 
 
 def check(
-    file: Annotated[str | None, Parameter(help="A shipped move's name, or a file.")] = None,
+    file: Annotated[str | None, Parameter(help="A shipped move's name, or a file.", completer=MOVES)] = None,
     /,
     *,
     options: Options = DEFAULTS,

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter, Token
 
+from teleop.cli.completing import offered
 from teleop.document import DocumentError, UnplayableError
 from teleop.profile import Profile, load_profile
 from teleop.sinks.recorder import ENDING
@@ -18,6 +19,8 @@ from teleop.sinks.recorder import ENDING
 if TYPE_CHECKING:
     from teleop.sources.sequence_file import Performance
     from teleop.sources.timelapse_file import Timelapse
+
+MOVES, RIGS = offered("sequences", ".yaml", ".yml", ENDING), offered("profiles", ".yaml", ".yml")
 
 
 def whole(_type: Any, tokens: Sequence[Token]) -> int:
@@ -33,7 +36,9 @@ def whole(_type: Any, tokens: Sequence[Token]) -> int:
 class Options:
     """Which rig, where, and how to talk about it."""
 
-    rig: Annotated[str, Parameter(metavar="NAME|FILE", help="The rig: a shipped profile's name, or a file.")] = "sim"
+    rig: Annotated[
+        str, Parameter(metavar="NAME|FILE", help="The rig: a shipped profile's name, or a file.", completer=RIGS)
+    ] = "sim"
     link: Annotated[
         tuple[str, ...],
         Parameter(metavar="NAME=URL", help="Where one of the rig's links is today.", negative=(), show_default=False),

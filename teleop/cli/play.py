@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from teleop.cli.attended import attended
 from teleop.cli.flying import Understood, ask_to_fly, is_flown
-from teleop.cli.options import DEFAULTS, Options, is_take, warn
+from teleop.cli.options import DEFAULTS, MOVES, Options, is_take, warn
 from teleop.cli.sequence_run import SequenceRun
 from teleop.cli.shipped_files import named
 from teleop.cli.shoot_options import NOTHING_ASKED, ShootOptions
@@ -41,7 +41,9 @@ Take = Annotated[
 
 
 def play(
-    file: Annotated[str | None, Parameter(help="A shipped move's name, a sequence file, or a take (.mcap).")] = None,
+    file: Annotated[
+        str | None, Parameter(help="A shipped move's name, a sequence file, or a take (.mcap).", completer=MOVES)
+    ] = None,
     /,
     *,
     speed: Annotated[

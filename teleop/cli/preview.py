@@ -16,7 +16,7 @@ from typing import Annotated, BinaryIO
 from cyclopts import Parameter
 
 from teleop.cli.folded import tell
-from teleop.cli.options import DEFAULTS, Options, warn
+from teleop.cli.options import DEFAULTS, MOVES, Options, warn
 from teleop.cli.shipped_files import named
 from teleop.ports import UsageError
 from teleop.preview.output import replacing
@@ -28,7 +28,7 @@ Write = Callable[[Performance, Profile, BinaryIO], None]
 
 
 def preview(
-    file: Annotated[str | None, Parameter(help="A shipped move's name, or a file.")] = None,
+    file: Annotated[str | None, Parameter(help="A shipped move's name, or a file.", completer=MOVES)] = None,
     /,
     *,
     output: Annotated[

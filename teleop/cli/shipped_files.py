@@ -28,8 +28,13 @@ USES: Mapping[Kind, str] = {
 Json = Annotated[bool, Parameter(name="--json", help="Print JSON, for programs.", negative=(), show_default=False)]
 
 
+def _offered(_context: object) -> list[tuple[str, str]]:
+    """For the tab key: every shipped file's name, and what it is."""
+    return [each for place in FOLDERS.values() for each in described(place).items()]
+
+
 def list_shipped(
-    kind: Annotated[Kind | None, Parameter(metavar="KIND", help="Only these: moves, rigs or pads.")] = None,
+    kind: Annotated[Kind | None, Parameter(help="Only these.")] = None,
     /,
     *,
     as_json: Json = False,
@@ -38,7 +43,7 @@ def list_shipped(
 
     Pads are joysticks and dials that have a mapping; a live run finds the mapping of a device by itself.
     """
-    kinds = FOLDERS if kind is None else [kind]
+    kinds: list[Kind] = list(FOLDERS) if kind is None else [kind]
     if as_json:
         print(json.dumps({each: entries(each) for each in kinds}))
         return
@@ -47,8 +52,8 @@ def list_shipped(
 
 
 def copy(
-    name: Annotated[str, Parameter(metavar="NAME", help="A shipped move, rig or pad: teleop list names them.")],
-    file: Annotated[Path, Parameter(metavar="FILE.yaml", help="The new file.")],
+    name: Annotated[str, Parameter(help="A shipped move, rig or pad: teleop list names them.", completer=_offered)],
+    file: Annotated[Path, Parameter(help="The new file, as in mine.yaml.")],
     /,
     *,
     as_json: Json = False,

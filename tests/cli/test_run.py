@@ -101,7 +101,6 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
     ("arguments", "code", "said"),
     [
         (["plai"], 2, 'Did you mean "play"?'),
-        (["play"], 2, "requires an argument"),
         (["play", "reveal", "--rgi", "sim"], 2, "--rgi"),
         (["play", "reveal", "--speed", "500%"], 2, "--speed 500%: the move allows at most 200 % of its speed"),
         (["play", "reveal", "--speed", "fast"], 2, "--speed fast: must be a percentage above 0"),

@@ -1,4 +1,4 @@
-"""`teleop list`, `teleop copy` and a bare `teleop play`: what comes with the program is found, and can be made one's own."""
+"""`teleop list`, `teleop copy`, a bare `teleop play`: what comes with the program is found, and can be made yours."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import json
 from pathlib import Path
 
 import pytest
-from sequences import RIGS
 
+from sequences import RIGS
 from teleop.cli import run
 from teleop.cli.shipped_files import FOLDERS
 from teleop.document import DocumentError
