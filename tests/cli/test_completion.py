@@ -1,4 +1,4 @@
-"""Tab completion, installed by `teleop --install-completion` into a throw-away home, as the shell itself asks for it."""
+"""Tab completion, installed by `teleop --install-completion` into a throw-away home, as the shell itself asks."""
 
 from __future__ import annotations
 
