@@ -61,10 +61,22 @@ class RampsTooLong:
         )
 
 
+@dataclass(frozen=True, slots=True)
+class Unsolved:
+    """The solver found no way from one rest to the next, although none of the limits forbids it."""
+
+    axis: Axis
+    first: str
+    last: str
+
+    def __str__(self) -> str:
+        return f"{self.axis}, {self.first} to {self.last}: no plan was found; give it a longer ease, or more time"
+
+
 class Infeasible(PlanError):  # noqa: N818  the field's word for it
     """The keys ask for more than the limits allow; `findings` holds everything that does, of all axes."""
 
-    def __init__(self, findings: Sequence[Finding | RampsTooLong]) -> None:
+    def __init__(self, findings: Sequence[Finding | RampsTooLong | Unsolved]) -> None:
         super().__init__("; ".join(map(str, findings)))
         self.findings = tuple(findings)
 

@@ -123,3 +123,13 @@ def test_limits_hold_and_keys_are_met_whatever_the_ramps(drawn):
     assert peaks.jerk <= 600
     for key in keys:
         assert move.at(key.at)[PAN].position == pytest.approx(key.position, abs=1e-3)
+
+
+def test_an_axis_that_the_solver_finds_no_way_for_is_refused_and_never_left_out() -> None:
+    """Found at random: it was a move of 0 s, in which pan stayed where it was."""
+    at_once = {"arrive": Ramp(0.0), "leave": Ramp(0.0)}
+    keys = [Key(0, 70, where="key 1", **at_once), Key(1, 0, where="key 2"), Key(9, 0.002, where="key 3", **at_once)]
+    tilt = [Key(0, 0), Key(4, 10)]
+    wide = Limits(-180, 180, 120, 240, 1200)
+    with pytest.raises(Infeasible, match=r"pan, key 1 to key 3: no plan was found; give it a longer ease"):
+        plan({PAN: keys, Axis.TILT: tilt}, {PAN: wide, Axis.TILT: wide})
