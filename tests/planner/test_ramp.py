@@ -127,8 +127,12 @@ def test_limits_hold_and_keys_are_met_whatever_the_ramps(drawn):
 
 def test_an_axis_that_the_solver_finds_no_way_for_is_refused_and_never_left_out() -> None:
     """Found at random: it was a move of 0 s, in which pan stayed where it was."""
-    at_once = {"arrive": Ramp(0.0), "leave": Ramp(0.0)}
-    keys = [Key(0, 70, where="key 1", **at_once), Key(1, 0, where="key 2"), Key(9, 0.002, where="key 3", **at_once)]
+    none = Ramp(0.0)
+    keys = [
+        Key(0, 70, where="key 1", leave=none),
+        Key(1, 0, where="key 2"),
+        Key(9, 0.002, where="key 3", arrive=none),
+    ]
     tilt = [Key(0, 0), Key(4, 10)]
     wide = Limits(-180, 180, 120, 240, 1200)
     with pytest.raises(Infeasible, match=r"pan, key 1 to key 3: no plan was found; give it a longer ease"):
