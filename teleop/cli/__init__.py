@@ -44,6 +44,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
 }
 """Where each command is, imported when it is used, and its line of help; in the order in which people need them."""
 
+# These have examples of their own, and so has send, whose help is made in send_help.
 _GROUPS = ("teleop.cli.take:app", "teleop.cli.calibrate:app", "teleop.cli.decode:app", "teleop.cli.encode:app")
 _ABOUT = (teleop.__doc__ or "").partition("\n")[0]  # its first line: the rest is for programs
 app = App(
@@ -55,7 +56,7 @@ app = App(
     suppress_keyboard_interrupt=False,
 )
 for _order, (_name, (_place, _help)) in enumerate(COMMANDS.items()):
-    _own = {} if _place in _GROUPS else {"help_epilogue": examples(_name)}  # a group has its own
+    _own = {} if _place in _GROUPS else {"help_epilogue": "" if _name == "send" else examples(_name)}
     app.command(_place, name=_name, help=_help, sort_key=_order, **_own)
 _OPTIONS = Group("Options", sort_key=1)
 app.register_install_completion_command(
