@@ -35,8 +35,20 @@ class DocumentError(UsageError):
         self.problems, self.more = list(problems), more
 
 
+ENTRIES = {"keyframes": "key", "cues": "cue", "include": "include", "panorama": "shot"}
+"""Lists whose entries people count, from 1, and what one of them is called."""
+
+
+def numbered(name: str, index: int) -> str:
+    """What people call an entry of a list, in errors, options and previews alike: `key 4` is `keyframes[3]`."""
+    return f"{ENTRIES[name]} {index + 1}"
+
+
 def path_text(path: Location) -> str:
-    """A place in a document as its user writes it: `keyframes[3].at`."""
+    """A place in a document as people say it: `key 4: at`, `sinks[0].rate`."""
+    match path:
+        case (str(name), int(index), *rest) if name in ENTRIES:
+            return ": ".join(filter(None, [numbered(name, index), path_text(tuple(rest))]))
     text = ""
     for part in path:
         text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else part

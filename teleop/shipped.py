@@ -20,6 +20,15 @@ def folder(kind: str) -> Path:
     return installed if installed.is_dir() else _PACKAGE.parent / kind
 
 
+def described(kind: str) -> dict[str, str]:
+    """The name of each shipped file of a kind, and what it is: the comment in its first line."""
+    lines = {}
+    for file in sorted(folder(kind).glob("*.yaml")):
+        with file.open(encoding="utf-8") as stream:
+            lines[file.stem] = stream.readline().removeprefix("#").strip().removesuffix(".")
+    return lines
+
+
 def is_bare(name: str) -> bool:
     """Whether it is a shipped file's name, and no path."""
     return Path(name).name == name and not Path(name).suffix

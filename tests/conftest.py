@@ -1,18 +1,33 @@
 """What holds for every test, however the tests were started.
 
-Hypothesis never judges by the time an example took: this machine is shared, and timings are benchmarks. And a test that
-sends a signal starts its program as a terminal would. A child inherits which signals are ignored, and `teleop` keeps to
-it; SIGHUP and SIGQUIT may be ignored here because the tests run in the background (nohup, a CI runner), or because a
-test before has called what ends with ignoring them.
+Examples are chosen by Hypothesis from the test itself, the same in every run: a newcomer's run never fails by luck.
+`tests/random.sh` looks for new ones (--hypothesis-profile random); what it finds becomes an @example. No example is
+judged by the time it took: the machine may be shared, and timings are benchmarks.
+
+A test that sends a signal starts its program as a terminal would. A child inherits which signals are ignored, and
+`teleop` keeps to it; SIGHUP and SIGQUIT may be ignored here because the tests run in the background (nohup, a CI
+runner), or because a test before has called what ends with ignoring them.
 """
 
 import signal
+from collections.abc import Sequence
 
 import pytest
 from hypothesis import HealthCheck, settings
+from slow import NAMES, name_of
 
-settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("untimed")
+settings.register_profile(
+    "same", deadline=None, derandomize=True, database=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.register_profile("random", deadline=None, print_blob=True, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("same")
+
+
+def pytest_collection_modifyitems(items: Sequence[pytest.Item]) -> None:
+    """Mark what takes long, as measured: tests/slow.txt."""
+    for item in items:
+        if name_of(item.nodeid) in NAMES:
+            item.add_marker(pytest.mark.slow)
 
 
 @pytest.fixture(autouse=True)

@@ -12,9 +12,10 @@ import sys
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 
-from cyclopts import App, CycloptsError
+from cyclopts import App, CycloptsError, Group
 
 import teleop
+from teleop.cli.examples import examples
 from teleop.cli.leaving import process
 from teleop.cli.staging_options import joined
 from teleop.document import DocumentError, UnplayableError
@@ -24,27 +25,45 @@ MOST_SAID = 50  # problems of a file: nobody mends more at a time
 DONE, FAILED, BAD_USAGE, INTERRUPTED = 0, 1, 2, 130
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
-    "play": ("teleop.cli.play:play", "Play a sequence on a rig."),
+    "play": ("teleop.cli.play:play", "Play a move on a rig."),
     "live": ("teleop.cli.live:live", "Move a rig by joystick, dial and keys."),
     "check": ("teleop.cli.check:check", "Check a sequence against a rig."),
     "preview": ("teleop.cli.preview:preview", "Draw a sequence as a page, a picture or a table."),
-    "sim": ("teleop.cli.sim:sim", "Simulate a rig's devices on a real bus."),
-    "send": ("teleop.cli.send:send", "Send one command to a rig's gimbal, camera, focus motor or drone."),
-    "monitor": ("teleop.cli.monitor:monitor", "Show what host and device say to each other on a link."),
-    "calibrate": ("teleop.cli.calibrate:app", "Measure what a profile has to know about a gimbal."),
+    "list": ("teleop.cli.shipped_files:list_shipped", "List the moves, rigs and pads that come with it."),
+    "copy": ("teleop.cli.shipped_files:copy", "Copy a shipped move, rig or pad to a file of yours."),
     "take": ("teleop.cli.take:app", "List, judge, export and repair recorded runs."),
-    "schema": ("teleop.cli.schema:schema", "Print the JSON Schema of a kind of file, for editors."),
-    "doctor": ("teleop.cli.doctor:doctor", "Say what this machine can do, and what is in the way."),
+    "calibrate": ("teleop.cli.calibrate:app", "Measure what a profile has to know about a gimbal."),
     "devices": ("teleop.cli.devices:devices", "List CAN interfaces, serial ports and HID devices."),
+    "doctor": ("teleop.cli.doctor:doctor", "Say what this machine can do, and what is in the way."),
+    "send": ("teleop.cli.send:send", "Send one command to a gimbal, camera, focus motor or drone."),
+    "monitor": ("teleop.cli.monitor:monitor", "Show what host and device say to each other on a link."),
+    "sim": ("teleop.cli.sim:sim", "Simulate a rig's devices on a real bus."),
+    "schema": ("teleop.cli.schema:schema", "Print the JSON Schema of a kind of file, for editors."),
     "decode": ("teleop.cli.decode:app", "Bytes of a protocol as JSON lines."),
     "encode": ("teleop.cli.encode:app", "JSON lines as bytes of a protocol."),
 }
-"""Where each command is, imported when it is used, and its line of help."""
+"""Where each command is, imported when it is used, and its line of help; in the order in which people need them."""
 
+# These have examples of their own, and so has send, whose help is made in send_help.
+_GROUPS = ("teleop.cli.take:app", "teleop.cli.calibrate:app", "teleop.cli.decode:app", "teleop.cli.encode:app")
 _ABOUT = (teleop.__doc__ or "").partition("\n")[0]  # its first line: the rest is for programs
-app = App(name="teleop", help=_ABOUT, version=lambda: version("rs-teleop"), suppress_keyboard_interrupt=False)
-for _name, (_place, _help) in COMMANDS.items():
-    app.command(_place, name=_name, help=_help)
+app = App(
+    name="teleop",
+    help=_ABOUT,
+    help_epilogue=examples(""),
+    help_format="plaintext",
+    version=lambda: version("rs-teleop"),
+    suppress_keyboard_interrupt=False,
+)
+for _order, (_name, (_place, _help)) in enumerate(COMMANDS.items()):
+    _own = {} if _place in _GROUPS else {"help_epilogue": "" if _name == "send" else examples(_name)}
+    app.command(_place, name=_name, help=_help, sort_key=_order, **_own)
+_OPTIONS = Group("Options", sort_key=1)
+app.register_install_completion_command(
+    help="Install tab completion for your shell.", group=_OPTIONS, help_epilogue="", version_flags=[]
+)
+for _flag in ("--help", "--version"):
+    app[_flag].group = _OPTIONS
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -14,6 +14,7 @@ from cyclopts import App
 
 from teleop.cli.calibrate_signs import signs
 from teleop.cli.display import Display
+from teleop.cli.examples import examples
 from teleop.cli.folded import complain, tell
 from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
@@ -36,11 +37,13 @@ SWINGS = 6  # the first and the last are eased in and out, the others are measur
 FAITHFUL = 0.5, 1.5  # times as far as commanded: beyond these it does something else than it was told
 NOISE = 0.5  # deg rms that no delay explains
 
-app = App(name="calibrate", help="Measure what a profile has to know about a gimbal.")
-app.command(signs)
+app = App(
+    name="calibrate", help="Measure what a profile has to know about a gimbal.", help_epilogue=examples("calibrate")
+)
+app.command(signs, help_epilogue=examples("calibrate signs"))
 
 
-@app.command(name="delay")
+@app.command(name="delay", help_epilogue=examples("calibrate delay"))
 def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULTS) -> int:
     """Measure how much later than commanded the gimbal moves, by a small slow test move, for `delay` in the profile.
 

@@ -12,7 +12,8 @@ from cyclopts import Parameter
 
 from teleop.cli.flying import is_flown
 from teleop.cli.folded import tell
-from teleop.cli.options import DEFAULTS, Options, warn
+from teleop.cli.options import DEFAULTS, MOVES, Options, warn
+from teleop.cli.shipped_files import named
 from teleop.cli.timelapse_words import facts, summary
 from teleop.motion import Limits
 from teleop.planner.move import Peaks
@@ -22,13 +23,13 @@ from teleop.sources.sequence_file import Performance
 
 
 def check(
-    file: Annotated[str, Parameter(help="A shipped sequence's name, or a file.")],
+    file: Annotated[str | None, Parameter(help="A shipped move's name, or a file.", completer=MOVES)] = None,
     /,
     *,
     options: Options = DEFAULTS,
 ) -> int:
     """Check a sequence against a rig: every error with its line, or what the move asks of each axis."""
-    profile, performance, timelapse = options.compiled(file)
+    profile, performance, timelapse = options.compiled(named("check", file, options.json))
     if timelapse is not None:
         warn(performance)
     most = 1.0 if is_flown(performance.move.tracks) else fastest(performance.move, profile.limits)

@@ -20,6 +20,7 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from teleop.cli.drone_options import KeyFile, Model, cipher_of
+from teleop.cli.examples import examples
 from teleop.dji.frame import FrameReader
 from teleop.dji.record import MakeCipher, Transcriber
 from teleop.dji.registry import Registry
@@ -30,18 +31,23 @@ R_SDK_IDS = ("222", "223")  # from the gimbal, to the gimbal (V2.5 section 3.1);
 HEX_NOISE = re.compile(r"\b0x|[\s,:;]", re.IGNORECASE)
 _CANDUMP = re.compile(r"\((?P<time>\d+\.\d+)\)\s+(?P<bus>\S+)\s+(?P<id>[0-9A-Fa-f]+)#(?P<data>\S*)(\s+[RT])?\s*")
 
-app = App(name="decode", help="Print what bytes mean, a JSON line for each frame.")
-app.command("teleop.cli.decode_hid:hid", name="hid", help="Decode input reports of a joystick, a gamepad or a dial.")
+app = App(name="decode", help="Print what bytes mean, a JSON line for each frame.", help_epilogue=examples("decode"))
+app.command(
+    "teleop.cli.decode_hid:hid",
+    name="hid",
+    help="Decode input reports of a joystick, a gamepad or a dial.",
+    help_epilogue=examples("decode hid"),
+)
 
 
 class InputError(UsageError):
     """A file that cannot be read."""
 
 
-@app.command(name="r-sdk")
+@app.command(name="r-sdk", help_epilogue=examples("decode r-sdk"))
 def r_sdk(
     *text: Annotated[str, Parameter(help="Hexadecimal, or with --candump files; without any, standard input.")],
-    candump: Annotated[bool, Parameter(help="Read logs of candump -L or -l.", negative=())] = False,
+    candump: Annotated[bool, Parameter(help="Read logs of candump -L or -l.", negative=(), show_default=False)] = False,
 ) -> None:
     """Decode frames of the handheld gimbal."""
     from teleop.dji.r_sdk import R_SDK
@@ -54,13 +60,18 @@ def r_sdk(
         print(line, flush=True)
 
 
-@app.command
+@app.command(help_epilogue=examples("decode onboard"))
 def onboard(
     *text: Annotated[str, Parameter(help="Hexadecimal; without any, standard input.")],
     model: Model = "m100",
     key_file: KeyFile = None,
     parts: Annotated[
-        bool, Parameter(help="List the parts of the broadcast with their units, and decode nothing.", negative=())
+        bool,
+        Parameter(
+            help="List the parts of the broadcast with their units, and decode nothing.",
+            negative=(),
+            show_default=False,
+        ),
     ] = False,
 ) -> None:
     """Decode frames of the drone's Onboard SDK.

@@ -32,8 +32,9 @@ def hid(
     descriptor: Annotated[
         Path,
         Parameter(
+            metavar="FILE",
             help="File with the report descriptor, as bytes (Linux has it in "
-            "/sys/class/hidraw/hidraw0/device/report_descriptor) or as hexadecimal."
+            "/sys/class/hidraw/hidraw0/device/report_descriptor) or as hexadecimal.",
         ),
     ],
 ) -> None:

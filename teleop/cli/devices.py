@@ -54,7 +54,7 @@ class Listing:
         self.notes += other.notes
 
 
-def devices(*, as_json: Annotated[bool, Parameter(name="--json", negative="")] = False) -> None:
+def devices(*, as_json: Annotated[bool, Parameter(name="--json", negative="", show_default=False)] = False) -> None:
     """List CAN interfaces, serial ports and HID devices, as a profile names them.
 
     Parameters

@@ -24,7 +24,7 @@ CHECKS: Sequence[Callable[[], Findings]] = (
 )  # fmt: skip
 
 
-def doctor(*, as_json: Annotated[bool, Parameter(name="--json", negative="")] = False) -> int:
+def doctor(*, as_json: Annotated[bool, Parameter(name="--json", negative="", show_default=False)] = False) -> int:
     """Say what this machine can do: packages, permissions, adapters, timing, room for takes.
 
     Parameters

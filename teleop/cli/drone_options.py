@@ -19,6 +19,7 @@ Model = Annotated[
 KeyFile = Annotated[
     Path | None,
     Parameter(
+        metavar="FILE",
         help="File with the key of encrypted frames, 64 hexadecimal digits; without it, TELEOP_DJI_APP_KEY or the key "
         "in ~/.config/teleop/dji.yaml.",
         show_default=False,

@@ -14,18 +14,21 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from teleop.cli.drone_options import KeyFile, Model, cipher_of
+from teleop.cli.examples import examples
 from teleop.dji.frame import pieces
 from teleop.dji.record import MakeCipher, RecordError, restore
 from teleop.dji.registry import Registry
 from teleop.ports import TeleopError
 
-app = App(name="encode", help="Print the bytes of frames that `teleop decode` printed.")
+app = App(name="encode", help="Print the bytes of frames that teleop decode printed.", help_epilogue=examples("encode"))
 
 
-@app.command(name="r-sdk")
+@app.command(name="r-sdk", help_epilogue=examples("encode r-sdk"))
 def r_sdk(
     *text: Annotated[str, Parameter(help="JSON lines; without any, standard input.")],
-    can: Annotated[bool, Parameter(help="Print the pieces of 8 bytes that go onto a CAN bus.", negative=())] = False,
+    can: Annotated[
+        bool, Parameter(help="Print the pieces of 8 bytes that go onto a CAN bus.", negative=(), show_default=False)
+    ] = False,
 ) -> None:
     """Encode frames of the handheld gimbal."""
     from teleop.dji.r_sdk import R_SDK
@@ -34,7 +37,7 @@ def r_sdk(
         print(line, flush=True)
 
 
-@app.command
+@app.command(help_epilogue=examples("encode onboard"))
 def onboard(
     *text: Annotated[str, Parameter(help="JSON lines; without any, standard input.")],
     model: Model = "m100",

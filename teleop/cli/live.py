@@ -39,8 +39,12 @@ NOBODY = "live: there is no joystick, and no terminal for its keys: plug one in,
 
 def live(
     *,
-    sticks: Annotated[Path | None, Parameter(help="CSV: time in s, and a deflection of -1..1 for each axis.")] = None,
-    presets: Annotated[Path | None, Parameter(help="Where presets are kept; else one file for each rig.")] = None,
+    sticks: Annotated[
+        Path | None, Parameter(metavar="FILE", help="CSV: time in s, and a deflection of -1..1 for each axis.")
+    ] = None,
+    presets: Annotated[
+        Path | None, Parameter(metavar="FILE", help="Where presets are kept; else one file for each rig.")
+    ] = None,
     learn: Annotated[bool, Parameter(help="Ask what each control is to do.", negative=(), show_default=False)] = False,
     fast: Fast = False,
     take: Take = None,

@@ -47,13 +47,22 @@ _HIDDEN: Mapping[str, str] = {"drone.activate": "app_id"}
 def monitor(
     place: Annotated[
         str,
-        Parameter(help="Which of the rig's links; without it, its CAN bus, or else its drone's.", show_default=False),
+        Parameter(
+            metavar="LINK",
+            help="Which of the rig's links; without it, its CAN bus, or else its drone's.",
+            show_default=False,
+        ),
     ] = "",
     /,
     *,
     seconds: Annotated[
         float,
-        Parameter(help="End after this time; without it, at Ctrl-C.", validator=Number(gt=0), show_default=False),
+        Parameter(
+            metavar="SECONDS",
+            help="End after this time; without it, at Ctrl-C.",
+            validator=Number(gt=0),
+            show_default=False,
+        ),
     ] = math.inf,
     model: Model = "m100",
     options: Options = DEFAULTS,

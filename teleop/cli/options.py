@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter, Token
 
+from teleop.cli.completing import offered
 from teleop.cli.folded import complain, tell
 from teleop.document import DocumentError, UnplayableError
 from teleop.files import is_stdout
@@ -20,6 +21,8 @@ from teleop.sinks.recorder import ENDING
 if TYPE_CHECKING:
     from teleop.sources.sequence_file import Performance
     from teleop.sources.timelapse_file import Timelapse
+
+MOVES, RIGS = offered("sequences", ".yaml", ".yml", ENDING), offered("profiles", ".yaml", ".yml")
 
 
 def whole(_type: Any, tokens: Sequence[Token]) -> int:
@@ -35,10 +38,12 @@ def whole(_type: Any, tokens: Sequence[Token]) -> int:
 class Options:
     """Which rig, where, and how to talk about it."""
 
-    rig: Annotated[str, Parameter(help="The rig: a shipped profile's name, or a file.")] = "sim"
+    rig: Annotated[
+        str, Parameter(metavar="NAME|FILE", help="The rig: a shipped profile's name, or a file.", completer=RIGS)
+    ] = "sim"
     link: Annotated[
         tuple[str, ...],
-        Parameter(help="NAME=URL: another place for one of the rig's links.", negative=(), show_default=False),
+        Parameter(metavar="NAME=URL", help="Where one of the rig's links is today.", negative=(), show_default=False),
     ] = ()
     json: Annotated[bool, Parameter(help="Print JSON, for programs.", negative=(), show_default=False)] = False
     debug: Annotated[bool, Parameter(help="Print tracebacks.", negative=(), show_default=False)] = False

@@ -11,8 +11,9 @@ from cyclopts import Parameter
 
 from teleop.cli.attended import attended
 from teleop.cli.flying import Understood, ask_to_fly, is_flown
-from teleop.cli.options import DEFAULTS, Options, is_take, warn
+from teleop.cli.options import DEFAULTS, MOVES, Options, is_take, warn
 from teleop.cli.sequence_run import SequenceRun
+from teleop.cli.shipped_files import named
 from teleop.cli.shoot_options import NOTHING_ASKED, ShootOptions
 from teleop.cli.staging_options import NO_STAGING, StagingOptions
 from teleop.cli.trim_options import NO_TRIM, TrimOptions
@@ -34,15 +35,22 @@ Fast = Annotated[
     bool,
     Parameter(help="Do not wait: simulated time, only on sim: links.", negative=(), show_default=False),
 ]
-Take = Annotated[Path | None, Parameter(name="--take", help="Record everything the run does to a new .mcap file.")]
+Take = Annotated[
+    Path | None, Parameter(name="--take", metavar="FILE", help="Record everything the run does to a new .mcap file.")
+]
 
 
 def play(
-    file: Annotated[str, Parameter(help="A shipped sequence's name, a sequence file, or a take (.mcap).")],
+    file: Annotated[
+        str | None, Parameter(help="A shipped move's name, a sequence file, or a take (.mcap).", completer=MOVES)
+    ] = None,
     /,
     *,
     speed: Annotated[
-        str, Parameter(help="How fast, as a percentage: up to 200, as far as `check` says the move allows.")
+        str,
+        Parameter(
+            metavar="PERCENT", help="How fast, as a percentage: up to 200, as far as teleop check says the move allows."
+        ),
     ] = "100%",
     staging: StagingOptions = NO_STAGING,
     shooting: ShootOptions = NOTHING_ASKED,
@@ -56,7 +64,7 @@ def play(
 
     A timelapse is shot, frame by frame; its journal in this folder knows where it was left.
     """
-    left = trim.left
+    left, file = trim.left, named("play", file, options.json)
     profile, performance, timelapse = options.compiled(file, left)
     shooting.check(file, timelapse is not None)
     axes = list(performance.move.tracks)

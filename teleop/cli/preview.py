@@ -14,7 +14,8 @@ from typing import Annotated, BinaryIO
 
 from cyclopts import Parameter
 
-from teleop.cli.options import DEFAULTS, Options, announce, announce_json, warn
+from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json, warn
+from teleop.cli.shipped_files import named
 from teleop.files import replacing
 from teleop.ports import UsageError
 from teleop.profile import Profile
@@ -25,18 +26,19 @@ Write = Callable[[Performance, Profile, BinaryIO], None]
 
 
 def preview(
-    file: Annotated[str, Parameter(help="A shipped sequence's name, or a file.")],
+    file: Annotated[str | None, Parameter(help="A shipped move's name, or a file.", completer=MOVES)] = None,
     /,
     *,
     output: Annotated[
-        Path | None, Parameter(name=("--output", "-o"), help="Write a page (.html) or a drawing (.svg, .png).")
+        Path | None,
+        Parameter(name=("--output", "-o"), metavar="FILE", help="Write a page (.html) or a drawing (.svg, .png)."),
     ] = None,
-    csv: Annotated[Path | None, Parameter(help="Write a table of every axis over time.")] = None,
-    rate: Annotated[float, Parameter(help="Rows of the table per second.")] = 100.0,
+    csv: Annotated[Path | None, Parameter(metavar="FILE", help="Write a table of every axis over time.")] = None,
+    rate: Annotated[float, Parameter(metavar="HZ", help="Rows of the table per second.")] = 100.0,
     options: Options = DEFAULTS,
 ) -> int:
     """Draw a sequence as a rig would play it: an interactive page, a drawing or a table."""
-    writes = _writes(output, csv, rate)
+    file, writes = named("preview", file, options.json), _writes(output, csv, rate)
     profile, performance, timelapse = options.compiled(file)
     if timelapse is not None:
         warn(performance)

@@ -27,6 +27,8 @@ from teleop.dji.message import FieldError, Message
 from teleop.dji.r_sdk import R_SDK
 from teleop.dji.record import Record, Transcriber, describe
 from teleop.dji.session import REPLY_TIMEOUT, Received, Session
+from teleop.dji.unnamed import unnamed
+from teleop.dji.vocabulary import fields_of
 from teleop.document import DocumentError
 from teleop.ports import Clock, DeviceError, Link
 from teleop.profile import Profile
@@ -59,11 +61,15 @@ TAKEN_OVER = (
 def send(
     *words: Annotated[
         str,
-        Parameter(help="gimbal, camera, focus or drone, a command and field=value ...; or plain words, as recenter."),
+        Parameter(
+            metavar="COMMAND",
+            help="gimbal, camera, focus or drone, a command and field=value ...; or plain words, as recenter.",
+        ),
     ],
     retries: Annotated[
         int | None,
         Parameter(
+            metavar="N",
             help="How often to ask again without a reply: 2, and 0 for what must not be done twice.",
             validator=Number(gte=0),
             converter=whole,
@@ -103,6 +109,8 @@ def send(
     with opened(url, clock, _simulated) as link:
         record = stream(link, message) if not message.has_reply else ask(link, url, message, clock, tries)
     tell(message.name, record, refusal(record), readable(message.name, record), options.json)
+    if isinstance(message, gimbal.Speed | gimbal.Joystick) and (left := unnamed(fields_of(words))):
+        print(f"{message.name}: {' and '.join(left)} not named: sent as 0", file=sys.stderr)
     if isinstance(message, gimbal.Speed) and message.take_over:
         print(TAKEN_OVER, file=sys.stderr)
     return 0

@@ -6,6 +6,7 @@ import shutil
 import textwrap
 from collections.abc import Iterator, Sequence
 
+from teleop.cli.examples import examples
 from teleop.dji.catalogue import RIG
 from teleop.dji.drone_catalogue import DRONE
 from teleop.dji.vocabulary import Vocabulary, help_of
@@ -27,6 +28,8 @@ def print_help(words: Sequence[str]) -> None:
         raise DocumentError([f"no command begins with {' '.join(words)!r}; teleop send --help lists everything"])
     app.help_print(["send"])
     print(*lines, sep="\n")
+    if not words:
+        print("", examples("send"), sep="\n")
 
 
 def _vocabulary(vocabulary: Vocabulary, beginning: str, width: int) -> Iterator[str]:

@@ -30,24 +30,36 @@ class StagingOptions:
     """What stands around the move; where nothing is said, the sequence's own."""
 
     preroll: Annotated[
-        str | None, Parameter(help="The rest in place before the start, as in 3s.", show_default=False)
+        str | None, Parameter(metavar="TIME", help="The rest in place before the start, as in 3s.", show_default=False)
     ] = None
     back_to_one: Annotated[
         bool | None, Parameter(help="At the end, go back to the first keyframe.", show_default=False)
     ] = None
     start_at: Annotated[
         str | None,
-        Parameter(help="Begin in mid move, at a time or a key (key1 is the first), with a run-up.", show_default=False),
+        Parameter(
+            metavar="TIME|KEY",
+            help="Begin in mid move, at a time or a key (key1 is the first), with a run-up.",
+            show_default=False,
+        ),
     ] = None
     loop: Annotated[bool, Parameter(help="Over and over, until stopped.", negative=(), show_default=False)] = False
     passes: Annotated[
         int | None,
-        Parameter(help="So often, and say how far each pass lay from the first.", converter=whole, show_default=False),
+        Parameter(
+            metavar="N",
+            help="So often, and say how far each pass lay from the first.",
+            converter=whole,
+            show_default=False,
+        ),
     ] = None
 
     trigger: Annotated[
         str | None,
-        Parameter(help="What starts it in place: key, osc:9000/go, mtc, timecode:01:00:00:00, time:18:30:00."),
+        Parameter(
+            metavar="TRIGGER",
+            help="What starts it in place: key, osc:9000/go, mtc, timecode:01:00:00:00, time:18:30:00.",
+        ),
     ] = None
 
     def staging(self, performance: Performance, clock: Clock, keys: bool) -> Staging:
@@ -69,8 +81,7 @@ class StagingOptions:
         text = self.start_at
         if text is None:
             return 0.0
-        keys = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
-        time = _key(text, keys) if text.startswith(KEY) else _time("start-at", text, performance.fps)
+        time = _key(text, performance.key_times) if text.startswith(KEY) else _time("start-at", text, performance.fps)
         if time >= performance.duration:
             raise UsageError(f"--start-at {text}: the move is over at {performance.duration:g} s")
         return time

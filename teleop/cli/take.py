@@ -6,6 +6,8 @@ from collections.abc import Mapping
 
 from cyclopts import App
 
+from teleop.cli.examples import examples
+
 COMMANDS: Mapping[str, tuple[str, str]] = {
     "list": ("teleop.cli.take_list:take_list", "List the takes of a folder."),
     "info": ("teleop.cli.take_list:take_info", "Say what is in a take."),
@@ -15,6 +17,6 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "recover": ("teleop.cli.take_files:take_recover", "Save what is whole of a take that was never closed."),
 }
 
-app = App(name="take", help="List, judge, export and repair recorded runs.")
-for _name, (_place, _help) in COMMANDS.items():
-    app.command(_place, name=_name, help=_help)
+app = App(name="take", help="List, judge, export and repair recorded runs.", help_epilogue=examples("take"))
+for _order, (_name, (_place, _help)) in enumerate(COMMANDS.items()):
+    app.command(_place, name=_name, help=_help, sort_key=_order, help_epilogue=examples(f"take {_name}"))

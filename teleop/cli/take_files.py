@@ -27,7 +27,7 @@ def take_export(
     file: TakeFile,
     /,
     *,
-    csv: Annotated[Path, Parameter(help=f"The table to write, a row for each tick. {COLUMNS}")],
+    csv: Annotated[Path, Parameter(metavar="FILE", help=f"The table to write, a row for each tick. {COLUMNS}")],
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> int:
@@ -52,7 +52,8 @@ def take_recover(
     /,
     *,
     output: Annotated[
-        Path | None, Parameter(name=("--output", "-o"), help="The new file; else FILE-recovered.mcap beside it.")
+        Path | None,
+        Parameter(name=("--output", "-o"), metavar="FILE", help="The new file; else FILE-recovered.mcap beside it."),
     ] = None,
     overwrite: Overwrite = False,
     as_json: Json = False,

@@ -25,14 +25,20 @@ def take_keyframes(
     file: TakeFile,
     /,
     *,
-    output: Annotated[Path, Parameter(name=("--output", "-o"), help="The sequence file to write (.yaml).")],
+    output: Annotated[
+        Path, Parameter(name=("--output", "-o"), metavar="FILE", help="The sequence file to write (.yaml).")
+    ],
     tolerance: Annotated[
-        float, Parameter(help="How far off it may be at any time: degrees; for focus and sticks per cent of their way.")
+        float,
+        Parameter(
+            metavar="DEGREES",
+            help="How far off it may be at any time: degrees; for focus and sticks per cent of their way.",
+        ),
     ] = 0.2,
     measured: Annotated[
         bool, Parameter(help="Follow where the axes were measured, not commanded.", negative=(), show_default=False)
     ] = False,
-    speed: Annotated[str, Parameter(help="The take's own pace, as a percentage.")] = "100%",
+    speed: Annotated[str, Parameter(metavar="PERCENT", help="The take's own pace, as a percentage.")] = "100%",
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> int:

@@ -31,7 +31,10 @@ def take_report(
     /,
     *,
     output: Annotated[
-        Path | None, Parameter(name=("--output", "-o"), help="Draw it too: a page (.html) or a drawing (.svg, .png).")
+        Path | None,
+        Parameter(
+            name=("--output", "-o"), metavar="FILE", help="Draw it too: a page (.html) or a drawing (.svg, .png)."
+        ),
     ] = None,
     overwrite: Overwrite = False,
     as_json: Json = False,

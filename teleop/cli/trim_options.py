@@ -30,9 +30,12 @@ class TrimOptions:
     trim: Annotated[
         bool, Parameter(help="Sticks, dials and keys move the playing sequence aside.", negative=(), show_default=False)
     ] = False
-    trim_share: Annotated[str, Parameter(help="Of velocity, acceleration and jerk, for the trim.")] = SHARE
+    trim_share: Annotated[
+        str, Parameter(metavar="PERCENT", help="Of velocity, acceleration and jerk, for the trim.")
+    ] = SHARE
     trim_out: Annotated[
-        Path | None, Parameter(help="Write the sequence with the trim in its keys: at w, or at the end.")
+        Path | None,
+        Parameter(metavar="FILE", help="Write the sequence with the trim in its keys: at w, or at the end."),
     ] = None
 
     @property

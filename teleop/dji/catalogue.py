@@ -17,6 +17,7 @@ PLAIN: Final[Mapping[str, Message]] = {
     "gimbal recenter": gimbal.Mode(action=gimbal.CentreAction.RECENTER),
     "gimbal selfie": gimbal.Mode(action=gimbal.CentreAction.SELFIE),
     **rows(gimbal.FollowMode, "gimbal follow", gimbal.Mode, "mode"),
+    "gimbal follow pan": gimbal.Mode(gimbal.FollowMode.YAW),  # the word of the button, and of sequences
     **rows(gimbal.Orientation, "gimbal orientation", gimbal.Orient, "orientation"),
     "gimbal angles": gimbal.Angles(),
     "gimbal angles joint": gimbal.Angles(gimbal.AngleKind.JOINT),

@@ -8,8 +8,9 @@ what the drone says of itself in broadcast.py.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import field
-from typing import Annotated, ClassVar, Final
+from typing import Annotated, Any, ClassVar, Final
 
 from teleop.dji.drone_words import (
     ActivationCode,
@@ -27,6 +28,7 @@ from teleop.dji.drone_words import (
 )
 from teleop.dji.message import STREAM, Message, message
 from teleop.dji.real import Text
+from teleop.dji.unnamed import ignoring, resting
 from teleop.dji.wire import I16, U8, U16, U32, Flag, Reserved
 
 ACTIVATION: Final = 0x00  # command sets
@@ -206,7 +208,7 @@ class ShortArmAck(Message):
 
 @message("drone.gimbal_speed", CONTROL, 0x1A, cmd_type=STREAM)
 class GimbalSpeed(Message):
-    """Turn the drone's gimbal at these speeds."""
+    """Turn the drone's gimbal at these speeds; an axis that is not named gets 0."""
 
     yaw: decidegrees_per_second
     roll: decidegrees_per_second
@@ -214,10 +216,17 @@ class GimbalSpeed(Message):
     control: Annotated[bool, Flag(first=7)] = True
     reserved: Annotated[int, Reserved()] = 0
 
+    @classmethod
+    def completed(cls, fields: Mapping[str, Any]) -> Mapping[str, Any]:
+        return resting(fields)
+
 
 @message("drone.gimbal_angle", CONTROL, 0x1B, cmd_type=STREAM)
 class GimbalAngle(Message):
-    """Turn the drone's gimbal to these angles, or by them when not `absolute`, within `duration`."""
+    """Turn the drone's gimbal to these angles, or by them when not `absolute`, within `duration`.
+
+    An axis that is not named is ignored.
+    """
 
     yaw: decidegrees
     roll: decidegrees
@@ -228,6 +237,10 @@ class GimbalAngle(Message):
     pitch_ignored: Annotated[bool, Flag(first=3)] = False
     reserved: Annotated[int, Reserved()] = 0
     duration: Annotated[float, U8(scale=10, unit="s", low=0.1, high=25.5)] = field(kw_only=True)
+
+    @classmethod
+    def completed(cls, fields: Mapping[str, Any]) -> Mapping[str, Any]:
+        return ignoring(fields)
 
 
 @message("drone.photo", CONTROL, 0x20, cmd_type=STREAM)

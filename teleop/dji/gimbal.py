@@ -6,11 +6,13 @@ the axis order differs from message to message, on purpose. Signs are the gimbal
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import field
-from typing import Annotated, ClassVar, Final
+from typing import Annotated, Any, ClassVar, Final
 
 from teleop.dji.message import STREAM, FieldError, Message, message, result_code
 from teleop.dji.tlv import Ids, OptionalByte, Parameter, Tlv
+from teleop.dji.unnamed import ignoring, resting
 from teleop.dji.wire import I16, U8, U32, Bits, DottedVersion, Flag, Reserved
 from teleop.dji.words import (
     AngleKind,
@@ -51,7 +53,7 @@ angle_kind = Annotated[int, U8(words=AngleKind)]
 class Position(Message):
     """Turn to these angles, or by these angles when not `absolute`, at constant speed within `time_for_action`.
 
-    The default time is that of the document's own sample (section 3.3).
+    An axis that is not named is ignored. The default time is that of the document's own sample (section 3.3).
     """
 
     yaw: yaw_decidegrees
@@ -64,10 +66,14 @@ class Position(Message):
     reserved: Annotated[int, Reserved()] = 0
     time_for_action: Annotated[float, U8(scale=10, unit="s", low=0.1, high=25.5)] = 2.0
 
+    @classmethod
+    def completed(cls, fields: Mapping[str, Any]) -> Mapping[str, Any]:
+        return ignoring(fields)
+
 
 @message("gimbal.speed", GIMBAL, 0x01)
 class Speed(Message):
-    """Turn at these speeds for 0.5 s; without `take_over`, give speed control back."""
+    """Turn at these speeds for 0.5 s; without `take_over`, release speed control. An axis that is not named gets 0."""
 
     yaw: decidegrees_per_second
     roll: decidegrees_per_second
@@ -75,6 +81,10 @@ class Speed(Message):
     take_over: Annotated[bool, Flag(first=7)] = True
     ignore_focal_length: Annotated[bool, Flag(first=3)] = False
     reserved: Annotated[int, Reserved()] = 0
+
+    @classmethod
+    def completed(cls, fields: Mapping[str, Any]) -> Mapping[str, Any]:
+        return resting(fields)
 
 
 @message("gimbal.angles", GIMBAL, 0x02)
@@ -239,12 +249,19 @@ class VersionReply(Message):
 
 @message("gimbal.joystick", GIMBAL, 0x0A, cmd_type=STREAM)
 class Joystick(Message):
-    """A joystick's deflections; the speeds reached follow the gimbal's own joystick settings."""
+    """A joystick's deflections, 0 for an axis that is not named.
+
+    The speeds reached depend on the gimbal's own joystick settings.
+    """
 
     controller: ClassVar[byte] = 0x01
     pitch: stick
     roll: stick
     yaw: stick
+
+    @classmethod
+    def completed(cls, fields: Mapping[str, Any]) -> Mapping[str, Any]:
+        return resting(fields)
 
 
 @message("gimbal.dial", GIMBAL, 0x0A, cmd_type=STREAM)

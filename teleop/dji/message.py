@@ -118,6 +118,11 @@ class Message:
             raise FieldError(f"{cls.name}: {', '.join(missing)} missing")
         return cls(**values)
 
+    @classmethod
+    def completed(cls, fields: Mapping[str, Any]) -> Mapping[str, Any]:
+        """What an operator typed, with what a command does about an axis that is not named; as typed by most."""
+        return fields
+
     def _misfit(self) -> str:
         """Which field cannot be encoded."""
         for spec in self.layout.fields:

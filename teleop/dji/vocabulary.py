@@ -22,6 +22,12 @@ def spoken(name: str) -> str:
     return " ".join(name.lower().replace(".", " ").replace("_", " ").replace("-", " ").split())
 
 
+def fields_of(words: Sequence[str]) -> dict[str, str]:
+    """What was typed as field=value."""
+    given = [word.partition("=") for word in words if "=" in word]
+    return {name: value for name, _, value in given}
+
+
 def rows(words: Iterable[IntEnum], prefix: str, make: type[Message], field: str) -> dict[str, Message]:
     """A plain word for each choice of a field."""
     return {
@@ -50,9 +56,8 @@ class Vocabulary(NamedTuple):
 
         The device may be left out of plain words. Ranges are not checked here. Raises FieldError.
         """
-        given = [word.partition("=") for word in words if "=" in word]
-        fields = {name: value for name, _, value in given}
-        if len(fields) < len(given):
+        fields = fields_of(words)
+        if len(fields) < sum("=" in word for word in words):
             raise FieldError("a field is given twice")
         name = spoken(" ".join(word for word in words if "=" not in word))
         names = [name, *(f"{device} {name}" for device in self.devices)]
@@ -60,7 +65,8 @@ class Vocabulary(NamedTuple):
             if full in self.plain and not fields:
                 return self.plain[full]
             if full in self.commands:
-                return self.commands[full].from_fields(fields)
+                command = self.commands[full]
+                return command.from_fields(command.completed(fields))
         if any(full in self.plain for full in names):
             raise FieldError(f"{name} takes no fields")
         return self._unknown(name)

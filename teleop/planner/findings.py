@@ -36,11 +36,9 @@ class Finding:
     def __str__(self) -> str:
         if self.seconds is None:
             return f"{self.axis}, {self.first}: {self.factor:.6g} beyond the soft limit ({self.limit})"
-        start, _, index = self.last.rpartition("[")
-        last = f"[{index}" if start and self.first.startswith(f"{start}[") else self.last
         remedy = "no time would do" if self.shortest is None else f"{self.shortest:.3f} s would do"
         return (
-            f"{self.axis}, {self.first}..{last}: {self.limit} {self.factor:.2f} x its limit"
+            f"{self.axis}, {self.first} to {self.last}: {self.limit} {self.factor:.2f} x its limit"
             f" in {self.seconds:.3f} s; {remedy}"
         )
 
@@ -58,15 +56,27 @@ class RampsTooLong:
 
     def __str__(self) -> str:
         return (
-            f"{self.axis}, {self.first}..{self.last}: ramps of {self.leave:.3g} s and {self.arrive:.3g} s"
+            f"{self.axis}, {self.first} to {self.last}: ramps of {self.leave:.3g} s and {self.arrive:.3g} s"
             f" do not fit into {self.seconds:.3f} s"
         )
+
+
+@dataclass(frozen=True, slots=True)
+class Unsolved:
+    """The solver found no way from one rest to the next, although none of the limits forbids it."""
+
+    axis: Axis
+    first: str
+    last: str
+
+    def __str__(self) -> str:
+        return f"{self.axis}, {self.first} to {self.last}: no plan was found; give it a longer ease, or more time"
 
 
 class Infeasible(PlanError):  # noqa: N818  the field's word for it
     """The keys ask for more than the limits allow; `findings` holds everything that does, of all axes."""
 
-    def __init__(self, findings: Sequence[Finding | RampsTooLong]) -> None:
+    def __init__(self, findings: Sequence[Finding | RampsTooLong | Unsolved]) -> None:
         super().__init__("; ".join(map(str, findings)))
         self.findings = tuple(findings)
 
@@ -81,7 +91,7 @@ class Overshoot:
     size: float
 
     def __str__(self) -> str:
-        return f"{self.axis}, {self.first}..{self.last}: overshoots by {self.size:.3g} to keep its limits"
+        return f"{self.axis}, {self.first} to {self.last}: overshoots by {self.size:.3g} to keep its limits"
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ import numpy as np
 
 from teleop.motion import Axis, Limits
 from teleop.planner.explain import explain
-from teleop.planner.findings import Finding, Infeasible, LongRamp, Overshoot, RampsTooLong
+from teleop.planner.findings import Finding, Infeasible, LongRamp, Overshoot, PlanError, RampsTooLong, Unsolved
 from teleop.planner.leg import Leg
 from teleop.planner.move import Move, Track
 from teleop.planner.polynomial import Array
@@ -56,11 +56,11 @@ def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tens
     outcomes = {
         axis: _plan_axis(axis, of_axis, limits[axis], tension) for axis, of_axis in keys.items() if not beyond[axis]
     }
-    findings: list[Finding | RampsTooLong] = [finding for of_axis in beyond.values() for finding in of_axis]
+    findings: list[Finding | RampsTooLong | Unsolved] = [finding for of_axis in beyond.values() for finding in of_axis]
     for axis, outcome in outcomes.items():
         findings += outcome.too_long
         for leg, wheres in outcome.unsolved:
-            findings += explain(axis, leg, wheres, limits[axis])
+            findings += explain(axis, leg, wheres, limits[axis]) or [Unsolved(axis, wheres[0], wheres[-1])]
     if findings:
         raise Infeasible(findings)
     return _assemble(outcomes)
@@ -113,8 +113,11 @@ def _attempt(
 
 
 def _assemble(outcomes: Mapping[Axis, _Outcome]) -> Move:
+    tracks = {axis: outcome.track for axis, outcome in outcomes.items() if outcome.track is not None}
+    if missing := [axis for axis in outcomes if axis not in tracks]:
+        raise PlanError(f"{', '.join(missing)}: no plan, and no reason why")  # an axis is never left out in silence
     return Move(
-        {axis: outcome.track for axis, outcome in outcomes.items() if outcome.track is not None},
+        tracks,
         tuple(overshoot for outcome in outcomes.values() for overshoot in outcome.overshoots),
         tuple(ramp for outcome in outcomes.values() for ramp in outcome.long_ramps),
     )

@@ -5,12 +5,11 @@ Needs the `plot` extra. matplotlib is asked for a bare Figure, not for pyplot, w
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from teleop.motion import Axis, Limits
 from teleop.preview.curves import QUANTITIES, Curve, curve
-from teleop.preview.look import COLOURS, PER, UNITS
+from teleop.preview.look import COLOURS, PER, UNITS, mark
 from teleop.profile import Profile
 from teleop.sources.sequence_file import Cue, Performance
 
@@ -104,7 +103,7 @@ def _keys(scale: Axes, axis: Axis, performance: Performance, *, above: bool) -> 
     for key in performance.keys[axis]:
         held = [key.at, key.at + key.hold]
         scale.plot(held, [key.position] * 2, "D-", color=COLOURS[axis], markersize=5, markevery=[0], linewidth=4)
-        name = re.sub(r"keyframes|include|panorama", "", key.where)
+        name = mark(key.where)
         spot = (key.at, key.position)
         aside = (0, 7 if above else -14)
         scale.annotate(name, spot, aside, textcoords="offset points", ha="center", color=COLOURS[axis], fontsize=8)

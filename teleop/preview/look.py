@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from teleop.motion import Axis
@@ -22,3 +23,8 @@ UNITS: Mapping[Axis, str] = {axis: DEGREES if axis in (Axis.PAN, Axis.TILT, Axis
 """Axes of one unit share a scale: focus and the sticks, 0..1 and -1..1, would be flat lines among degrees."""
 
 PER: Mapping[str, str] = {"position": "", "error": "", "velocity": "/s", "acceleration": "/s²", "jerk": "/s³"}
+
+
+def mark(where: str) -> str:
+    """A key's name as it stands beside its diamond: 3 for key 3, 1.2 for key 2 of include 1."""
+    return re.sub(r"(include|key|shot) ", "", where).replace(", ", ".")

@@ -17,7 +17,7 @@ from typing import Any
 
 from teleop.motion import Axis, Limits
 from teleop.preview.curves import QUANTITIES, curve
-from teleop.preview.look import COLOURS, PER, UNITS
+from teleop.preview.look import COLOURS, PER, UNITS, mark
 from teleop.profile import Profile
 from teleop.sources.sequence_file import Performance
 
@@ -81,7 +81,7 @@ def _axis(axis: Axis, performance: Performance, limits: Limits) -> dict[str, Any
             **{name: [short(getattr(peaks, name))] for name in QUANTITIES[1:]},
         },
         "keys": [
-            {"at": key.at, "hold": key.hold, "position": key.position, "name": key.where}
+            {"at": key.at, "hold": key.hold, "position": key.position, "name": key.where, "mark": mark(key.where)}
             for key in performance.keys[axis]
         ],
         "times": [round(time, 6) for time in times.tolist()],

@@ -24,6 +24,7 @@ KINDS = ("camera", "follow", "recenter", "send", "wait")
 FOLLOW: Mapping[str, str] = {
     "lock": "gimbal follow lock",
     "pan": "gimbal follow yaw",
+    "yaw": "gimbal follow yaw",  # the gimbal's own word for it, and that of `teleop send`
     "sport": "gimbal follow sport",
 }
 CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)
@@ -51,7 +52,7 @@ class CueSection(Section):
 
     at: Time
     camera: Literal["record", "stop", "shutter", "focus", "end_focus"] | None = None
-    follow: Literal["lock", "pan", "sport"] | None = None
+    follow: Literal["lock", "pan", "yaw", "sport"] | None = None
     recenter: Time = None
     send: str | None = None
     wait: Literal["operator"] | None = None

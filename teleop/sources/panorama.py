@@ -14,7 +14,7 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import Field
 
-from teleop.document import Wrong, mapping, number, sequence
+from teleop.document import Wrong, mapping, number, numbered, sequence
 from teleop.motion import Axis, Limits
 from teleop.planner.waypoints import Key
 from teleop.section import Finite, Section
@@ -110,7 +110,7 @@ def shots(section: PanoramaSection, fps: float | None) -> Shots:
         time = at + index * every
         shutters.append(time + settle)
         for of_axis, position in zip(keys.values(), aim, strict=True):
-            of_axis.append(Key(time, position, True, settle + exposure, f"{WHERE}[{index}]"))
+            of_axis.append(Key(time, position, True, settle + exposure, numbered(WHERE, index)))
     return Shots(keys, shutters)
 
 

@@ -7,10 +7,11 @@ keyframe where it goes wrong. The rules read the plain data, so that all errors 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from teleop.document import DocumentError, UnplayableError, path_text
+from teleop.document import ENTRIES, DocumentError, UnplayableError, path_text
 from teleop.motion import Axis, Limits
 from teleop.planner.findings import Infeasible
 from teleop.planner.keyframes import Key, plan, stretch
@@ -42,6 +43,17 @@ class Performance:
     preroll: float = PREROLL
     back_to_one: bool = False
     fps: float | None = None
+
+    @property
+    def key_times(self) -> Sequence[float]:
+        """When each key of the file begins (s), key 1 first; where it has none of its own, the times of all keys."""
+        keys = [key for of_axis in self.keys.values() for key in of_axis]
+        own: dict[int, float] = {}
+        for key in keys:
+            kind, _, number = key.where.partition(" ")
+            if kind == ENTRIES["keyframes"]:
+                own[int(number)] = min(key.at, own.get(int(number), math.inf))
+        return [own[number] for number in sorted(own)] or sorted({key.at for key in keys})
 
     @property
     def duration(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from teleop.document import Document
+from teleop.document import Document, numbered
 from teleop.motion import Axis, Limits
 from teleop.planner.waypoints import Key
 from teleop.sources.cues import CENTRED
@@ -37,14 +37,14 @@ def keys_of(sheet: SequenceSection) -> Keys:
             position = getattr(frame, axis.value)
             if position is not None:
                 stop = frame.pass_ == "stop"
-                of_axis.append(Key(at, position, stop, hold, f"keyframes[{index}]", *eases))
+                of_axis.append(Key(at, position, stop, hold, numbered("keyframes", index), *eases))
     return keys
 
 
 def line_at(document: Document, where: str, text: str) -> str:
     """A line for something the planner says of the keyframe that it calls `where`."""
-    index = int(where.removeprefix("keyframes[").removesuffix("]"))
-    return document.line(("keyframes", index), text)
+    number = int(where.rpartition(" ")[2])
+    return document.line(("keyframes", number - 1), text)
 
 
 def recentred(keys: Keys, limits: Mapping[Axis, Limits], at: float, duration: float, where: str) -> Keys:

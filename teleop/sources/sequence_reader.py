@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from teleop.document import Document, DocumentError, mapping, sequence
+from teleop.document import Document, DocumentError, mapping, numbered, sequence
 from teleop.motion import Axis, Limits
 from teleop.shipped import find, is_bare
 from teleop.sources.sequence_rules import STICKS, file_rules, rig_rules
@@ -112,7 +112,7 @@ class Reader:
 
     def _lay(self, script: Script, index: int, inner: Script, blocks: dict[Axis, list[Block]]) -> None:
         """Put what `include[index]` names among the blocks."""
-        entry, where = script.sheet.include[index], f"include[{index}]"
+        entry, where = script.sheet.include[index], numbered("include", index)
         laid = inner.laid(seconds(entry.at, script.sheet.fps), percentage(entry.speed), where)
         script.places |= laid.places
         script.cues += laid.cues

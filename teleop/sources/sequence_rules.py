@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from typing import Any
 
-from teleop.document import Location, Wrong, mapping, number, sequence
+from teleop.document import Location, Wrong, mapping, number, numbered, sequence
 from teleop.motion import Axis, Limits
 from teleop.sources.cues import cue_rules
 from teleop.sources.easing import ease_rules
@@ -63,7 +63,10 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
         if at is None:
             continue
         if before and at <= before[1]:
-            yield ("keyframes", index, "at"), f"must be after keyframes[{before[0]}].at ({_said(before[1], when)})"
+            yield (
+                ("keyframes", index, "at"),
+                f"must be after {numbered('keyframes', before[0])} ({_said(before[1], when)})",
+            )
         else:
             yield from _hold_rules(index, frame, at, free, when)
         before = (index, at)
@@ -100,7 +103,7 @@ def _hold_rules(
         if frame.get(axis) is not None and at < end:
             yield (
                 ("keyframes", index, "at"),
-                f"must be after keyframes[{holder}] has held {axis} (until {_said(end, when)})",
+                f"must be after {numbered('keyframes', holder)} has held {axis} (until {_said(end, when)})",
             )
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from teleop.document import Document, Location
+from teleop.document import Document, Location, numbered
 from teleop.motion import Action, Axis, Limits
 from teleop.planner.findings import PlanError
 from teleop.planner.repeat import repeated
@@ -72,15 +72,15 @@ class Script:
         """With the file's own cues and places, as yet without keys."""
         script = cls(document, sheet)
         for name, count in (("keyframes", len(sheet.keyframes)), ("cues", len(sheet.cues))):
-            script.places |= {f"{name}[{index}]": Place(document, (name, index)) for index in range(count)}
+            script.places |= {numbered(name, index): Place(document, (name, index)) for index in range(count)}
         for index, cue in enumerate(sheet.cues):
             if cue.act is not None:
-                place = script.places[f"cues[{index}]"]
+                place = script.places[numbered("cues", index)]
                 script.cues.append(Timed(Cue(seconds(cue.at, sheet.fps), cue.act), cue.needs_rest, place))
         if sheet.panorama:
             place = Place(document, (WHERE,))
             for index, at in enumerate(shots(sheet.panorama, sheet.fps).shutters):
-                script.places[f"{WHERE}[{index}]"] = place
+                script.places[numbered(WHERE, index)] = place
                 script.cues.append(Timed(Cue(at, Action.SHUTTER), False, place))
         return script
 
@@ -104,14 +104,14 @@ class Script:
             for axis, of_axis in self.keys.items()
         }
         cues = [timed._replace(cue=timed.cue._replace(at=at + timed.cue.at / rate)) for timed in self.cues]
-        places = {f"{name}.{where}": place for where, place in self.places.items()}
+        places = {f"{name}, {where}": place for where, place in self.places.items()}
         return replace(self, keys=keys, cues=cues, places=places)
 
 
 def _laid(key: Key, at: float, rate: float, name: str, tension: float | None, stop: bool) -> Key:
     later = key.later(1 / rate)
     own = key.tension if key.tension is not None else tension
-    return replace(later, at=at + later.at, stop=stop or key.stop, where=f"{name}.{key.where}", tension=own)
+    return replace(later, at=at + later.at, stop=stop or key.stop, where=f"{name}, {key.where}", tension=own)
 
 
 def joined(blocks: Mapping[Axis, list[Block]]) -> tuple[Keys, list[str]]:
@@ -153,7 +153,7 @@ def finish(script: Script, limits: Mapping[Axis, Limits]) -> Iterator[str]:
     for index, cue in sorted(centres, key=lambda each: seconds(each[1].at, sheet.fps)):
         at, duration = seconds(cue.at, sheet.fps), seconds(cue.recenter, sheet.fps)
         try:
-            script.keys = recentred(script.keys, limits, at, duration, f"cues[{index}]")
+            script.keys = recentred(script.keys, limits, at, duration, numbered("cues", index))
         except KeysError as error:
             yield document.problem(("cues", index, "recenter"), str(error))
     for index, cue in enumerate(sheet.cues):

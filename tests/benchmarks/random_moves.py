@@ -48,7 +48,7 @@ def random_keys(rng: np.random.Generator, hurried: bool) -> list[Key]:
         positions = np.clip(np.cumsum(np.append(0.0, rng.uniform(-20, 20, count) * gaps)), -160, 160)
     times = np.append(0.0, np.cumsum(gaps))
     return [
-        Key(float(at), float(position), stop=bool(rng.random() < 0.15), where=f"keyframes[{i}]")
+        Key(float(at), float(position), stop=bool(rng.random() < 0.15), where=f"key {i + 1}")
         for i, (at, position) in enumerate(zip(times, positions, strict=True))
     ]
 

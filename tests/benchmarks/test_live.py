@@ -1,4 +1,4 @@
-"""Issue 5's figures of the live path: `pytest tests/benchmarks/test_live.py --benchmark-enable -s` prints them.
+"""Issue 5's figures of the live path: `pytest tests/benchmarks/test_live.py --benchmark-enable -s -n 0` prints them.
 
 Each is measured beside a bare loop, one that only sleeps to the same grid, on the same machine at the same time, so
 that the machine drops out. Nothing is asserted about time: without `--benchmark-enable` the same runs are short, and

@@ -1,4 +1,4 @@
-"""Issue 4's figures: `pytest tests/benchmarks/test_planner.py --benchmark-enable -s` prints them as ratios.
+"""Issue 4's figures: `pytest tests/benchmarks/test_planner.py --benchmark-enable -s -n 0` prints them as ratios.
 
 The unit is one bare Ruckig velocity update of 4 axes with a new target, measured in the same run, so that the machine
 drops out. Nothing is asserted about time: the figures are for reading, and for comparing over commits.

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from command import running, teleop
+from waiting import DEADLINE
 
 from teleop.cli import run
 from teleop.clock import VirtualClock
@@ -116,7 +117,7 @@ def test_a_signal_stops_it_as_it_stops_any_run(tmp_path: Path) -> None:
     with running("calibrate", "delay", "--rig", profile(tmp_path, "speed")) as process:
         next(iter(process.stderr))  # type: ignore[arg-type]  # it is a pipe
         process.send_signal(signal.SIGTERM)
-        result, said = process.communicate(timeout=10)
+        result, said = process.communicate(timeout=DEADLINE)
     assert (process.returncode, result) == (130, "")
     assert said.splitlines()[-1] == "teleop: stopped: SIGTERM received"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import signal
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from teleop.motion import Axis
 from teleop.shipped import folder
 from teleop.takes.take import read_take
 
+MOVING = re.compile(r"\+\d+\.(?!00)\d\d")  # an angle that is not 0
 LEFT_THE_SCREEN = "\x1b[?1049l"
 
 
@@ -48,10 +50,12 @@ def test_a_session_by_keys_from_jog_to_e_stop_to_quit(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT])
 def test_a_signal_in_mid_pan_gives_the_terminal_back(tmp_path: Path, number: signal.Signals) -> None:
-    with terminal("live", folder=tmp_path) as term:
+    rig = tmp_path / "slow.yaml"  # on its way for many seconds, however seldom the screen is drawn
+    rig.write_text((folder("profiles") / "sim.yaml").read_text().replace("velocity: 120", "velocity: 1"))
+    with terminal("live", "--rig", str(rig), folder=tmp_path) as term:
         term.wait_for("keys  ready")
         term.type("L" * 9)
-        term.wait_for("+4")
+        wait_until(lambda: MOVING.search(term.shown), "a pan on the screen")
         term.process.send_signal(number)
         code, _ = term.end()
         assert code == 130

@@ -14,7 +14,7 @@ import can
 import pytest
 from command import TELEOP, running, teleop
 from network import own_network
-from waiting import wait_until
+from waiting import DEADLINE, wait_until
 
 from teleop.cli import run
 from teleop.cli.monitor import Tap, Watch
@@ -223,7 +223,7 @@ def test_two_other_processes_are_overheard_until_ctrl_c(network: str) -> None:
         assert [asked["direction"], answered["direction"]] == ["to gimbal", "from gimbal"]
         assert answered["fields"]["pitch_max"] == 145
         watching.send_signal(signal.SIGINT)
-        _, said = watching.communicate(timeout=10)
+        _, said = watching.communicate(timeout=DEADLINE)
         assert watching.returncode == 130
         assert said.startswith("1 frames to the gimbal, 1 from it, 0 damaged, 0 of other ids")
 
@@ -245,7 +245,7 @@ def test_a_terminal_has_a_status_line(network: str) -> None:
             stranger.send(can.Message(arbitration_id=0x530, is_extended_id=False, data=b"duml"))
         wait_until(lambda: shows(b"1 of other ids (0x530 1)"), "a status line with the stranger")
         watching.terminate()
-        assert watching.wait(timeout=10) == 130
+        assert watching.wait(timeout=DEADLINE) == 130
     finally:
         watching.kill()
         watching.wait()

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 import pytest
 from command import running, teleop
 from network import own_network
-from waiting import wait_until
+from waiting import DEADLINE, wait_until
 
 from teleop.cli import run
 from teleop.cli.send import ask, asked_for, default_retries
@@ -159,6 +159,28 @@ def test_speed_control_that_was_taken_over_is_said_to_be(capsys: pytest.CaptureF
     assert capsys.readouterr().err == ""
 
 
+def test_axes_that_are_not_named_are_ignored_on_the_wire(capsys: pytest.CaptureFixture[str]) -> None:
+    """V2.5 section 2.3.4.1: bits 1, 2, 3 of the ctrl byte have yaw, roll, pitch ignored."""
+    with silent_bus() as (sent, link):
+        run(["send", "gimbal", "position", "yaw=10", "--retries", "0", link])
+        [frame] = sent()
+    assert frame.data == bytes.fromhex("0e00 6400 0000 0000 0d 14".replace(" ", ""))
+    capsys.readouterr()
+    with far_gimbal() as (far, link):
+        assert run(["send", "gimbal", "position", "pitch=-5", "roll=3", "time_for_action=0.1", link]) == 0
+        wait_until(lambda: far.angles == (0, 3, -5), "roll and pitch")
+        assert run(["send", "gimbal", "position", "yaw=10", "time_for_action=0.1", link]) == 0
+        wait_until(lambda: far.angles == (10, 3, -5), "yaw alone")
+    assert capsys.readouterr().err == ""
+
+
+def test_a_speed_has_no_such_bit_and_it_is_said_what_was_sent(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["send", "joystick", "yaw=1"]) == 0
+    assert capsys.readouterr().err == "gimbal.joystick: roll and pitch not named: sent as 0\n"
+    assert run(["send", "speed", "yaw=1", "take_over=false"]) == 0
+    assert capsys.readouterr().err == "gimbal.speed: roll and pitch not named: sent as 0\n"
+
+
 def test_a_refusal_is_a_failure_of_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     with far_gimbal() as (_, link):
         assert run(["send", "set_parameters", "parameters=motor:01", link]) == 0
@@ -253,7 +275,7 @@ def test_a_question_that_was_lost_is_asked_again_after_100_ms() -> None:
         (["gimbal", "position", "yaw=400", "roll=0", "pitch=0"], "gimbal.position: yaw must be -180..180 deg, not 400"),
         (["focus", "set", "position=x"], "focus.set: position must be 0..4095, not 'x'"),
         (["gimbal", "mode"], "gimbal.mode: give either a mode (lock, yaw, sport) or an action (recenter, selfie)"),
-        (["gimbal", "speed", "yaw=1"], "gimbal.speed: roll, pitch missing"),
+        (["gimbal", "speed"], "gimbal.speed: yaw, roll, pitch missing"),
         (["speed", "yam=1"], "gimbal.speed: no field 'yam', did you mean 'yaw'?"),
         (["recenter", "--retries", "-1"], 'teleop: Invalid value "-1" for --retries. Must be >= 0.'),
         (["xyzzy", "--help"], "no command begins with 'xyzzy'; teleop send --help lists everything"),
@@ -325,6 +347,6 @@ def test_a_command_to_another_process_over_a_real_bus() -> None:
             where = teleop("send", "angles", "--link", bus, "--json")
             assert json.loads(where.stdout)["fields"]["yaw"] > 0
             far.send_signal(signal.SIGINT)
-            far.communicate(timeout=10)
+            far.communicate(timeout=DEADLINE)
         gone = teleop("send", "angles", "--link", bus)
         assert (gone.returncode, gone.stdout, gone.stderr.count("\n")) == (1, "", 1)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from command import TELEOP, running, teleop
+from waiting import DEADLINE
 
 from teleop.profile import load_profile
 from teleop.shipped import find
@@ -68,7 +69,7 @@ def left_at(folder: Path, frame: int, number: signal.Signals) -> str:
         assert (second.returncode, second.stdout) == (2, "")
         assert second.stderr == "teleop: dusk.journal: another teleop is shooting with this journal\n"
         process.send_signal(number)
-        said, _ = process.communicate(timeout=20)
+        said, _ = process.communicate(timeout=DEADLINE)
     assert process.returncode == (130 if number is signal.SIGINT else -number)
     return said
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from teleop.dji import camera, focus, gimbal
+from teleop.dji import camera, drone, focus, gimbal
 from teleop.dji.camera import CameraCommand
 from teleop.dji.catalogue import COMMANDS, PLAIN, find
+from teleop.dji.drone_catalogue import DRONE
 from teleop.dji.focus import CalibrationAction
 from teleop.dji.message import FieldError, Message
 from teleop.dji.r_sdk import R_SDK
@@ -40,6 +41,11 @@ from teleop.dji.vocabulary import FieldHelp, help_of
         ("focus calibrate action=stop", focus.Calibrate(CalibrationAction.STOP)),
         ("focus set position=4095", focus.Set(4095)),
         ("gimbal position yaw=10 roll=0 pitch=-5.5", gimbal.Position(10, 0, -5.5)),
+        ("gimbal position yaw=10", gimbal.Position(10, 0, 0, roll_ignored=True, pitch_ignored=True)),
+        ("gimbal position pitch=3 absolute=false", gimbal.Position(0, 0, 3, False, True, True)),
+        ("gimbal speed pitch=5", gimbal.Speed(0, 0, 5)),
+        ("joystick yaw=15000", gimbal.Joystick(0, 0, 15000)),
+        ("follow pan", gimbal.Mode(gimbal.FollowMode.YAW)),
         (
             "set_limits pitch_max=1 pitch_min=2 yaw_max=3 yaw_min=4 roll_max=5 roll_min=6",
             gimbal.SetLimits(1, 2, 3, 4, 5, 6),
@@ -72,7 +78,9 @@ def test_every_command_of_the_document_can_be_sent() -> None:
         ("recentre", "there is no command 'recentre', did you mean 'recenter'?"),
         ("xyzzy", "there is no command 'xyzzy'"),
         ("gimbal recenter speed=1", "gimbal recenter takes no fields"),
-        ("gimbal position yaw=1", "gimbal.position: roll, pitch missing"),
+        ("gimbal position", "gimbal.position: yaw, roll, pitch missing"),
+        ("gimbal position time_for_action=1", "gimbal.position: yaw, roll, pitch missing"),
+        ("gimbal set_stiffness yaw=1", "gimbal.set_stiffness: pitch, roll missing"),
         ("gimbal position yaw=1 yaw=2 roll=0 pitch=0", "a field is given twice"),
         ("focus set position=near", "focus.set: position must be 0..4095, not 'near'"),
     ],
@@ -81,6 +89,13 @@ def test_words_that_lead_nowhere(words: str, error: str) -> None:
     with pytest.raises(FieldError) as raised:
         find(words.split())
     assert str(raised.value) == error
+
+
+def test_of_the_drone_s_gimbal_an_axis_that_is_not_named_is_ignored_or_gets_0() -> None:
+    ignored = drone.GimbalAngle(0, 0, -90, yaw_ignored=True, roll_ignored=True, duration=1)
+    assert DRONE.find(["drone", "gimbal", "angle", "pitch=-90", "duration=1"]) == ignored
+    assert ignored.encode()[6] == 0b0111  # absolute, yaw and roll ignored
+    assert DRONE.find(["drone", "gimbal", "speed", "yaw=4"]) == drone.GimbalSpeed(4, 0, 0)
 
 
 def test_help_has_requirement_unit_and_default() -> None:

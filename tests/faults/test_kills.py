@@ -195,7 +195,7 @@ def test_no_frame_is_lost_or_shot_twice_whenever_the_process_is_killed(tmp_path:
 
     def of(folder: Path) -> int:
         with lane(folder) as where:
-            return kill_many(where, random.Random(), KILLS // LANES)
+            return kill_many(where, random.Random(folder.name), KILLS // LANES)
 
     with ThreadPoolExecutor(LANES) as pool:
         assert sum(pool.map(of, folders)) >= 100

@@ -15,7 +15,7 @@ import pytest
 from command import TELEOP, running
 from far_gimbal import FarGimbal, far_gimbal
 from network import own_network
-from waiting import wait_until
+from waiting import DEADLINE, wait_until
 
 from teleop.dji import gimbal
 
@@ -80,10 +80,10 @@ def test_a_process_that_is_stopped_leaves_the_gimbal_at_rest(
     (tmp_path / "sticks.csv").write_text(STICKS)
     arguments = ["live", "--sticks", str(tmp_path / "sticks.csv"), "--rig", str(tmp_path / "rig.yaml")]
     with running(*arguments, "--link", f"gimbal={bus}") as process:
-        wait_until(lambda: sum(rate > 0.9 * SPEED for _, rate in far.turned) > 50, "cruising", patience=30)
+        wait_until(lambda: sum(rate > 0.9 * SPEED for _, rate in far.turned) > 50, "cruising")
         broken_at = time.monotonic()
         row.breaks(process)
-        _, said = process.communicate(timeout=20)
+        _, said = process.communicate(timeout=DEADLINE)
     assert process.returncode == row.code, said
     assert row.said in said
     wait_until(lambda: abs(far.rates.yaw) < 0.01, "rest")
@@ -125,12 +125,12 @@ def test_a_log_that_nobody_reads_holds_up_neither_the_motion_nor_its_end(
     command = [TELEOP, *arguments, "--link", f"gimbal={bus}"]
     with Popen(command, stdin=DEVNULL, stdout=PIPE, stderr=writing, text=True) as process:
         os.close(writing)
-        wait_until(lambda: sum(rate > 0.9 * SPEED for _, rate in far.turned) > 1000, "cruising for 2 s", patience=30)
+        wait_until(lambda: sum(rate > 0.9 * SPEED for _, rate in far.turned) > 1000, "cruising for 2 s")
         process.send_signal(signal.SIGTERM)
         wait_until(lambda: abs(far.rates.yaw) < 0.01 and not far.controlled, "rest, and given back")
         with os.fdopen(reading) as log:
             said = log.read()
-        process.communicate(timeout=20)
+        process.communicate(timeout=DEADLINE)
     assert process.returncode == 130
     cruising = [line for line in said.splitlines() if "pan" in line]
     assert len(cruising) >= 2, "what there was no room for came when there was"

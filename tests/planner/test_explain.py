@@ -27,7 +27,7 @@ def refusal(keys) -> Sequence[Finding]:
 
 
 def named(times, positions):
-    return [Key(t, p, where=f"keyframes[{i}]") for i, (t, p) in enumerate(zip(times, positions, strict=True))]
+    return [Key(t, p, where=f"key {i + 1}") for i, (t, p) in enumerate(zip(times, positions, strict=True))]
 
 
 def lengthened(keys, durations):
@@ -65,12 +65,12 @@ def test_all_findings_of_all_axes_at_once():
     keys = {PAN: named([0, 4, 4.5, 9], [0, 40, 80, 80]), TILT: named([0, 0.5, 1.0], [0, 30, 0])}
     found = {(f.axis, f.first) for f in refusal(keys)}
     assert {axis for axis, _ in found} == {PAN, TILT}
-    assert (PAN, "keyframes[1]") in found
+    assert (PAN, "key 2") in found
 
 
 def test_too_far_in_the_time_is_the_velocity():
     (finding,) = refusal({PAN: named([0, 2], [0, 150])})
-    assert (finding.limit, finding.first, finding.last) == ("velocity", "keyframes[0]", "keyframes[1]")
+    assert (finding.limit, finding.first, finding.last) == ("velocity", "key 1", "key 2")
     assert finding.factor > 150 / 2 / (0.95 * 60)  # the mean velocity, and it starts and ends at rest
 
 
@@ -83,14 +83,14 @@ def test_a_short_step_is_the_jerk():
 
 def test_only_the_segment_in_the_way_is_blamed():
     found = refusal({PAN: named([0, 0.854, 3], [0, 40, 50])})
-    assert [f.last for f in found] == ["keyframes[1]"]
+    assert [f.last for f in found] == ["key 2"]
 
 
 def test_the_text_says_it_all():
-    finding = Finding(PAN, "keyframes[2]", "keyframes[3]", "jerk", 2.031, 0.854, 1.022)
-    assert str(finding) == "pan, keyframes[2]..[3]: jerk 2.03 x its limit in 0.854 s; 1.022 s would do"
-    beyond = Finding(TILT, "keyframes[1]", "keyframes[1]", "maximum", 1.5)
-    assert str(beyond) == "tilt, keyframes[1]: 1.5 beyond the soft limit (maximum)"
+    finding = Finding(PAN, "key 3", "key 4", "jerk", 2.031, 0.854, 1.022)
+    assert str(finding) == "pan, key 3 to key 4: jerk 2.03 x its limit in 0.854 s; 1.022 s would do"
+    beyond = Finding(TILT, "key 2", "key 2", "maximum", 1.5)
+    assert str(beyond) == "tilt, key 2: 1.5 beyond the soft limit (maximum)"
     assert "\n" not in str(Infeasible([finding, beyond]))
 
 

@@ -24,14 +24,14 @@ def one(*keys, tension=0.0, limits=LIMITS):
 def key_lists(draw, gentlest=1.0):
     """Keys whose durations are `gentlest`..5 times what a rest-to-rest quintic needs."""
     steps = draw(st.lists(st.floats(-60, 60), min_size=1, max_size=8))
-    keys = [Key(1.0, draw(st.floats(-100, 100)), where="keyframes[0]")]
+    keys = [Key(1.0, draw(st.floats(-100, 100)), where="key 1")]
     for number, step in enumerate(steps, start=1):
         position = min(max(keys[-1].position + step, -160.0), 160.0)
         distance = abs(position - keys[-1].position)
         rest = max(15 / 8 * distance / 57, (5.7735 * distance / 114) ** 0.5, (60 * distance / 570) ** (1 / 3), 0.05)
         at = keys[-1].at + keys[-1].hold + rest * draw(st.floats(gentlest, 5))
         stop, hold = draw(st.sampled_from([(False, 0.0), (False, 0.0), (True, 0.0), (False, 0.75)]))
-        keys.append(Key(at, position, stop, hold, f"keyframes[{number}]"))
+        keys.append(Key(at, position, stop, hold, f"key {number + 1}"))
     return keys
 
 
@@ -75,14 +75,14 @@ def test_generous_keys_never_need_to_overshoot():
 
 def test_overshoot_that_cannot_be_avoided_is_reported_with_its_size():
     # 40 deg/s into a key that the next, 0.1 deg on, leaves no room to brake at
-    keys = [Key(0, 0, where="keyframes[0]"), Key(1.3, 40, where="keyframes[1]"), Key(1.6, 40.1, where="keyframes[2]")]
-    move = one(*keys, Key(4, 40.2, where="keyframes[3]"))
+    keys = [Key(0, 0, where="key 1"), Key(1.3, 40, where="key 2"), Key(1.6, 40.1, where="key 3")]
+    move = one(*keys, Key(4, 40.2, where="key 4"))
     (overshoot, *_) = move.overshoots
     times = np.linspace(1.3, 1.6, 4001)
-    if overshoot.first == "keyframes[1]":
+    if overshoot.first == "key 2":
         assert overshoot.size == pytest.approx(move.sample(times)[PAN][0].max() - 40.1, abs=1e-4)
     assert "overshoots by" in str(overshoot)
-    assert str(overshoot).startswith("pan, keyframes[")
+    assert str(overshoot).startswith("pan, key ")
 
 
 def test_a_hold_holds_exactly():
@@ -163,29 +163,29 @@ def test_a_continuous_axis_has_no_soft_limits():
 
 def test_a_key_beyond_a_soft_limit_is_named_with_all_others():
     keys = {
-        PAN: [Key(0, 0, where="keyframes[0]"), Key(4, 190, where="keyframes[1]")],
-        TILT: [Key(0, -31, where="keyframes[0]"), Key(4, 41, where="keyframes[1]")],
+        PAN: [Key(0, 0, where="key 1"), Key(4, 190, where="key 2")],
+        TILT: [Key(0, -31, where="key 1"), Key(4, 41, where="key 2")],
     }
     with pytest.raises(Infeasible) as refused:
         plan(keys, ALL)
     found = [(f.axis, f.first, f.limit, f.factor) for f in refused.value.findings if isinstance(f, Finding)]
     assert found == [
-        (PAN, "keyframes[1]", "maximum", 20),
-        (TILT, "keyframes[0]", "minimum", 1),
-        (TILT, "keyframes[1]", "maximum", 1),
+        (PAN, "key 2", "maximum", 20),
+        (TILT, "key 1", "minimum", 1),
+        (TILT, "key 2", "maximum", 1),
     ]
 
 
 @pytest.mark.parametrize(
     "keys",
     [
-        [Key(0, 0), Key(2, 10, where="keyframes[1]"), Key(1, 20, where="keyframes[2]")],
-        [Key(0, 0), Key(2, 10, hold=3, where="keyframes[1]"), Key(4, 20, where="keyframes[2]")],
-        [Key(0, 0), Key(2, 10, where="keyframes[1]"), Key(2, 20, where="keyframes[2]")],
+        [Key(0, 0), Key(2, 10, where="key 2"), Key(1, 20, where="key 3")],
+        [Key(0, 0), Key(2, 10, hold=3, where="key 2"), Key(4, 20, where="key 3")],
+        [Key(0, 0), Key(2, 10, where="key 2"), Key(2, 20, where="key 3")],
     ],
 )
 def test_keys_out_of_order_are_refused(keys):
-    with pytest.raises(PlanError, match=r"keyframes\[2\].*is not after keyframes\[1\]"):
+    with pytest.raises(PlanError, match=r"key 3.*is not after key 2"):
         one(*keys)
 
 

@@ -50,10 +50,10 @@ def test_a_softer_name_takes_longer_to_get_up_to_speed():
 
 
 def test_a_ramp_shorter_than_the_limits_allow_is_as_short_as_they_do_and_said():
-    move = plan({PAN: [Key(0, 0, leave=Ramp(0.05), where="keyframes[0]"), Key(4, 120, where="keyframes[1]")]}, LIMITS)
-    assert [(ramp.last, ramp.asked) for ramp in move.long_ramps] == [("keyframes[0]", 0.05), ("keyframes[1]", 0.05)]
+    move = plan({PAN: [Key(0, 0, leave=Ramp(0.05), where="key 1"), Key(4, 120, where="key 2")]}, LIMITS)
+    assert [(ramp.last, ramp.asked) for ramp in move.long_ramps] == [("key 1", 0.05), ("key 2", 0.05)]
     taken = move.long_ramps[0].taken
-    assert str(move.long_ramps[0]) == f"pan, keyframes[0]: a ramp of {taken:.2f} s, not 0.05 s, to keep its limits"
+    assert str(move.long_ramps[0]) == f"pan, key 1: a ramp of {taken:.2f} s, not 0.05 s, to keep its limits"
     assert speeds(move, taken)[0] == pytest.approx(120 / (4 - taken), rel=0.05)
     assert speeds(move, taken / 2)[0] < 0.7 * speeds(move, taken)[0]
 
@@ -66,15 +66,15 @@ def test_no_ramp_at_all_asks_for_the_shortest_there_is_without_a_word():
 
 def test_ramps_that_do_not_fit_are_refused_all_at_once():
     keys = [
-        Key(0, 0, leave=Ramp(3.0), where="keyframes[0]"),
-        Key(4, 10, stop=True, arrive=Ramp(2.0), leave=Ramp(5.0), where="keyframes[1]"),
-        Key(8, 0, where="keyframes[2]"),
+        Key(0, 0, leave=Ramp(3.0), where="key 1"),
+        Key(4, 10, stop=True, arrive=Ramp(2.0), leave=Ramp(5.0), where="key 2"),
+        Key(8, 0, where="key 3"),
     ]
     with pytest.raises(Infeasible) as refusal:
         plan({PAN: keys}, LIMITS)
     assert [str(finding) for finding in refusal.value.findings] == [
-        "pan, keyframes[0]..keyframes[1]: ramps of 3 s and 2 s do not fit into 4.000 s",
-        "pan, keyframes[1]..keyframes[2]: ramps of 5 s and 5 s do not fit into 4.000 s",
+        "pan, key 1 to key 2: ramps of 3 s and 2 s do not fit into 4.000 s",
+        "pan, key 2 to key 3: ramps of 5 s and 5 s do not fit into 4.000 s",
     ]
     with pytest.raises(Infeasible):
         stretch({PAN: keys}, LIMITS)
@@ -123,3 +123,17 @@ def test_limits_hold_and_keys_are_met_whatever_the_ramps(drawn):
     assert peaks.jerk <= 600
     for key in keys:
         assert move.at(key.at)[PAN].position == pytest.approx(key.position, abs=1e-3)
+
+
+def test_an_axis_that_the_solver_finds_no_way_for_is_refused_and_never_left_out() -> None:
+    """Found at random: it was a move of 0 s, in which pan stayed where it was."""
+    none = Ramp(0.0)
+    keys = [
+        Key(0, 70, where="key 1", leave=none),
+        Key(1, 0, where="key 2"),
+        Key(9, 0.002, where="key 3", arrive=none),
+    ]
+    tilt = [Key(0, 0), Key(4, 10)]
+    wide = Limits(-180, 180, 120, 240, 1200)
+    with pytest.raises(Infeasible, match=r"pan, key 1 to key 3: no plan was found; give it a longer ease"):
+        plan({PAN: keys, Axis.TILT: tilt}, {PAN: wide, Axis.TILT: wide})

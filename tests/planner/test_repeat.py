@@ -49,8 +49,8 @@ def test_an_axis_that_ends_early_waits_for_the_others():
 
 
 def test_a_loop_that_does_not_close_is_refused():
-    with pytest.raises(PlanError, match=r"pan, keyframes\[1\]: a loop must end where it began, at 0, not 5"):
-        repeated({PAN: [Key(0, 0), Key(1, 5, where="keyframes[1]")]}, 2, Repeat.LOOP)
+    with pytest.raises(PlanError, match=r"pan, key 2: a loop must end where it began, at 0, not 5"):
+        repeated({PAN: [Key(0, 0), Key(1, 5, where="key 2")]}, 2, Repeat.LOOP)
 
 
 def test_once_is_the_move_itself():

@@ -72,7 +72,7 @@ def test_the_move_is_in_it(reveal: str, profile: Profile) -> None:
     assert (move["title"], move["rig"], move["duration"]) == ("Slow reveal", "Simulated rig", 15)
     assert move["cues"] == [{"at": 0, "name": "record"}, {"at": 15, "name": "stop"}]
     pan = move["axes"][0]
-    assert [key["name"] for key in pan["keys"]] == [f"keyframes[{index}]" for index in range(5)]
+    assert [key["name"] for key in pan["keys"]] == [f"key {number}" for number in range(1, 6)]
     assert pan["limits"]["velocity"] == [-profile.limits[Axis.PAN].velocity, profile.limits[Axis.PAN].velocity]
     for key in pan["keys"]:
         index = max(i for i, time in enumerate(pan["times"]) if time <= key["at"])
@@ -99,7 +99,7 @@ def test_a_continuous_axis_has_no_soft_limits(profile: Profile) -> None:
 def test_a_long_move_of_every_axis_is_a_small_page(profile: Profile) -> None:
     axes = list(profile.limits)
     move = Move({axis: random_track(3000, seed) for seed, axis in enumerate(axes)})
-    keys = {axis: [Key(0, 0, where="keyframes[0]")] for axis in axes}
+    keys = {axis: [Key(0, 0, where="key 1")] for axis in axes}
     text = page(Performance("long", move, [Cue(1, Action.SHUTTER)], [], keys), profile)
     assert len(text) < 60_000 + 45 * MOST * len(axes)
     assert all(len(axis["times"]) <= MOST for axis in Reader(text).move["axes"])

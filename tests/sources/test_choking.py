@@ -16,7 +16,7 @@ from sequences import LIMITS, load, problems_of
 from teleop.document import DocumentError
 from teleop.sources.sequence_file import load_performance
 
-SOON = 4.0  # s, on a machine that does five other things; alone each takes less than one
+SOON = 4.0  # s of this thread's own work, whatever else the machine does; each takes less than one
 LAUGHS = "\n".join(["a0: &a0 x"] + [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]" for i in range(1, 12)])
 
 
@@ -40,9 +40,9 @@ LAUGHS = "\n".join(["a0: &a0 x"] + [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 1
 )
 @pytest.mark.timeout(30)
 def test_refused_soon(tmp_path: Path, text: str, said: str) -> None:
-    began = time.monotonic()
+    began = time.thread_time()
     problems = problems_of(tmp_path, text)
-    assert time.monotonic() - began < SOON
+    assert time.thread_time() - began < SOON
     assert any(said in problem for problem in problems), problems
     assert all(len(problem) < 300 and "\n" not in problem for problem in problems)
 
@@ -58,10 +58,10 @@ def test_numbers_that_are_none_are_refused_in_words(tmp_path: Path, digits: str,
 
 
 def test_a_hundred_thousand_keyframes_are_too_many_and_it_says_so_soon(tmp_path: Path) -> None:
-    began = time.monotonic()
+    began = time.thread_time()
     text = "keyframes:\n" + "".join(f"  - {{at: {i}, pan: {i % 7}}}\n" for i in range(100_000))
     [problem] = problems_of(tmp_path, text)
-    assert time.monotonic() - began < SOON
+    assert time.thread_time() - began < SOON
     assert problem == "shoot.yaml:32001:10: holds too many values"
     text = "keyframes:\n" + "".join(f"  - {{at: {i}, pan: {i % 7}}}\n" for i in range(12_000))
     assert problems_of(tmp_path, text) == ["shoot.yaml:1:1: would be 12000 keys of pan; at most 10000"]
@@ -70,15 +70,15 @@ def test_a_hundred_thousand_keyframes_are_too_many_and_it_says_so_soon(tmp_path:
 def test_of_many_errors_the_first_are_told_and_the_others_counted(tmp_path: Path) -> None:
     text = "keyframes:\n" + "".join(f"  - {{at: {i}, pna: 1}}\n" for i in range(5000))
     (tmp_path / "wrong.yaml").write_text(text)
-    began = time.monotonic()
+    began = time.thread_time()
     with pytest.raises(DocumentError) as caught:
         load_performance(str(tmp_path / "wrong.yaml"), LIMITS, "the rig")
-    assert time.monotonic() - began < SOON
+    assert time.thread_time() - began < SOON
     assert len(caught.value.problems) + caught.value.more == 10_000  # each names no axis, and a key that is not known
     done = teleop("check", "wrong.yaml", cwd=tmp_path)
     assert done.returncode == 2
     lines = done.stderr.splitlines()
-    assert lines[0].startswith("wrong.yaml:2:5: keyframes[0] names no axis")
+    assert lines[0].startswith("wrong.yaml:2:5: key 1 names no axis")
     assert (len(lines), lines[-1]) == (51, "teleop: and 9950 more")
 
 

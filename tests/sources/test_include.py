@@ -50,7 +50,7 @@ def test_a_shipped_name_and_a_part_of_a_part_in_another_folder(tmp_path: Path) -
     (tmp_path / "inner" / "b.yaml").write_text("include: [{move: reveal, at: 1}]\n")
     performance = load(tmp_path, "include: [{move: inner/a.yaml, at: 1}]\n")
     assert performance.duration == 18
-    assert performance.keys[Axis.FOCUS][0].where == "include[0].include[0].include[0].keyframes[0]"
+    assert performance.keys[Axis.FOCUS][0].where == "include 1, include 1, include 1, key 1"
 
 
 def test_an_error_is_said_where_it_stands_and_where_that_was_included(tmp_path: Path) -> None:
@@ -60,43 +60,43 @@ def test_an_error_is_said_where_it_stands_and_where_that_was_included(tmp_path: 
     by_a, by_b = (" (included at shoot.yaml:%d:5)", " (included at a.yaml:3:5) (included at shoot.yaml:%d:5)")
     assert sorted(problems_of(tmp_path, text)) == sorted(
         [
-            "shoot.yaml:3:12: include[1].move cannot be: none.yaml: no such file",
-            "shoot.yaml:4:34: include[2].speed must be 1% to 1000%",
+            "shoot.yaml:3:12: include 2: move cannot be: none.yaml: no such file",
+            "shoot.yaml:4:34: include 3: speed must be 1% to 1000%",
         ]
         + ["a.yaml:4:1: zoom is not known here" + by_a % line for line in (2, 4)]
-        + ["b.yaml:3:10: keyframes[1].at must be after keyframes[0].at (1 s)" + by_b % line for line in (2, 4)]
-        + ["b.yaml:3:18: keyframes[1].pan must be within -180..180 (the rig), not 900" + by_b % line for line in (2, 4)]
+        + ["b.yaml:3:10: key 2: at must be after key 1 (1 s)" + by_b % line for line in (2, 4)]
+        + ["b.yaml:3:18: key 2: pan must be within -180..180 (the rig), not 900" + by_b % line for line in (2, 4)]
     )
 
 
 def test_what_only_the_rig_cannot_do_is_that_kind_of_error_from_within_too(tmp_path: Path) -> None:
     (tmp_path / "part.yaml").write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 1, pan: 60}\n")
     [found] = problems_of(tmp_path, "include:\n  - {move: part.yaml, at: 3, speed: 200%}\n", UnplayableError)
-    assert found.startswith("part.yaml:3:5: pan, include[0].keyframes[0]..[1]: ")
+    assert found.startswith("part.yaml:3:5: pan, include 1, key 1 to include 1, key 2: ")
     assert found.endswith(" (included at shoot.yaml:2:5)")
     (tmp_path / "part.yaml").write_text("keyframes:\n  - {at: 0, roll: 0}\n")
     [found] = problems_of(tmp_path, "include:\n  - {move: part.yaml, at: 3}\n", UnplayableError)
-    assert found.startswith("part.yaml:2:19: keyframes[0].roll cannot be: the rig has no roll")
+    assert found.startswith("part.yaml:2:19: key 1: roll cannot be: the rig has no roll")
 
 
 @pytest.mark.parametrize(
     ("entry", "problem"),
     [
-        ("{move: shoot.yaml, at: 0}", "2:12: include[0].move would go on for ever: shoot.yaml -> shoot.yaml"),
+        ("{move: shoot.yaml, at: 0}", "2:12: include 1: move would go on for ever: shoot.yaml -> shoot.yaml"),
         (
             "{move: a.yaml, at: 0}",
-            "a.yaml:1:18: include[0].move would go on for ever: shoot.yaml -> a.yaml -> ",
+            "a.yaml:1:18: include 1: move would go on for ever: shoot.yaml -> a.yaml -> ",
         ),
-        ("{move: lapse.yaml, at: 0}", "2:12: include[0].move is a timelapse, whose times are frames and not seconds"),
+        ("{move: lapse.yaml, at: 0}", "2:12: include 1: move is a timelapse, whose times are frames and not seconds"),
         (
             "{move: revel, at: 0}",
-            "2:12: include[0].move cannot be: revel: no sequence of that name is shipped;",
+            "2:12: include 1: move cannot be: revel: no sequence of that name is shipped;",
         ),
-        ("{move: ., at: 0}", "2:12: include[0].move cannot be: .:"),
-        ("{move: reveal}", "2:5: include[0].at is missing"),
-        ("{move: reveal, at: 0, speed: 2}", "2:34: include[0].speed must be a percentage (30%), not 2"),
-        ("{move: 3, at: 0}", "2:12: include[0].move must be text, not 3"),
-        ("reveal", "2:5: include[0] must be a mapping, not 'reveal'"),
+        ("{move: ., at: 0}", "2:12: include 1: move cannot be: .:"),
+        ("{move: reveal}", "2:5: include 1: at is missing"),
+        ("{move: reveal, at: 0, speed: 2}", "2:34: include 1: speed must be a percentage (30%), not 2"),
+        ("{move: 3, at: 0}", "2:12: include 1: move must be text, not 3"),
+        ("reveal", "2:5: include 1 must be a mapping, not 'reveal'"),
     ],
 )
 def test_what_cannot_be_included(tmp_path: Path, entry: str, problem: str) -> None:
@@ -113,8 +113,8 @@ def test_two_may_not_want_an_axis_at_once(tmp_path: Path) -> None:
     (tmp_path / "part.yaml").write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 4, pan: 30}\n")
     text = "include:\n  - {move: part.yaml, at: 1}\n  - {move: part.yaml, at: 4}\nkeyframes:\n  - {at: 3, pan: 1}\n"
     assert problems_of(tmp_path, text) == [
-        "shoot.yaml:5:5: keyframes[0] must be after include[0] is done with pan (5 s)",
-        "shoot.yaml:3:5: include[1] must be after include[0] is done with pan (5 s)",
+        "shoot.yaml:5:5: key 1 must be after include 1 is done with pan (5 s)",
+        "shoot.yaml:3:5: include 2 must be after include 1 is done with pan (5 s)",
     ]
     meets = "include:\n  - {move: part.yaml, at: 1}\nkeyframes:\n  - {at: 5, pan: 30, hold: 1}\n  - {at: 8, pan: 0}\n"
     assert load(tmp_path, meets).move.at(6.0)[Axis.PAN] == (30, 0, 0)
@@ -124,7 +124,7 @@ def test_a_cue_that_needs_rest_is_judged_by_all_that_moves(tmp_path: Path) -> No
     (tmp_path / "part.yaml").write_text("keyframes: [{at: 0, tilt: 0}]\ncues:\n  - {at: 2, follow: lock}\n")
     text = "include: [{move: part.yaml, at: 1}]\nkeyframes: [{at: 0, pan: 0}, {at: 9, pan: 40}]\n"
     [found] = problems_of(tmp_path, text)
-    assert found.startswith("part.yaml:3:5: cues[0] is at 3 s, where pan moves; all rest at 0 s")
+    assert found.startswith("part.yaml:3:5: cue 1 is at 3 s, where pan moves; all rest at 0 s")
     assert found.endswith(" (included at shoot.yaml:1:11)")
 
 
@@ -133,7 +133,7 @@ def test_sticks_at_another_speed_are_a_warning(tmp_path: Path) -> None:
     (tmp_path / "part.yaml").write_text(part)
     text = "title: stick_\ninclude:\n  - {move: part.yaml, at: 1, speed: 50%}\n"
     [warning] = load(tmp_path, text).warnings
-    assert "shoot.yaml:3:37: include[0].speed leaves stick_yaw as far as they are" in warning
+    assert "shoot.yaml:3:37: include 1: speed leaves stick_yaw as far as they are" in warning
 
 
 def test_what_would_include_a_million_files_is_refused_soon(tmp_path: Path) -> None:
@@ -141,9 +141,9 @@ def test_what_would_include_a_million_files_is_refused_soon(tmp_path: Path) -> N
         entries = "".join(f"  - {{move: {level + 1}.yaml, at: {at * 10**level}}}\n" for at in range(10))
         (tmp_path / f"{level}.yaml").write_text("include:\n" + entries)
     (tmp_path / "8.yaml").write_text("keyframes: [{at: 0, pan: 0}]\n")
-    began = time.monotonic()
+    began = time.thread_time()
     found = problems_of(tmp_path, "include: [{move: 0.yaml, at: 0}]\n")
-    assert time.monotonic() - began < 3
+    assert time.thread_time() - began < 3
     assert any("is too much: at most 200 files are included" in line for line in found)
     (tmp_path / "deep.yaml").write_text("include: [{move: deeper.yaml, at: 0}]\n")
     (tmp_path / "8.yaml").write_text("include: [{move: 9.yaml, at: 0}]\n")

@@ -20,27 +20,27 @@ from teleop.sources.sequence_file import load_performance
     [
         ("title: x\n", "shoot.yaml:1:1: keyframes is missing"),
         ("keyframes: []\n", "shoot.yaml:1:12: keyframes must have at least 1"),
-        ("keyframes:\n  - {pan: 1}\n", "shoot.yaml:2:5: keyframes[0].at is missing"),
-        ("keyframes:\n  - {at: 0}\n", "shoot.yaml:2:5: keyframes[0] names no axis (pan, tilt, roll, focus)"),
+        ("keyframes:\n  - {pan: 1}\n", "shoot.yaml:2:5: key 1: at is missing"),
+        ("keyframes:\n  - {at: 0}\n", "shoot.yaml:2:5: key 1 names no axis (pan, tilt, roll, focus)"),
         (
             "keyframes:\n  - {at: 0, pan: 0}\n  - {at: 6.5, pan: 1}\n  - {at: 6, tilt: 1}\n",
-            "shoot.yaml:4:10: keyframes[2].at must be after keyframes[1].at (6.5 s)",
+            "shoot.yaml:4:10: key 3: at must be after key 2 (6.5 s)",
         ),
         (
             "keyframes:\n  - {at: 0, pan: 0, hold: 3s}\n  - {at: 1, tilt: 1}\n  - {at: 2, pan: 1}\n",
-            "shoot.yaml:4:10: keyframes[2].at must be after keyframes[0] has held pan (until 3 s)",
+            "shoot.yaml:4:10: key 3: at must be after key 1 has held pan (until 3 s)",
         ),
-        ("keyframes:\n  - {at: soon, pan: 0}\n", "shoot.yaml:2:10: keyframes[0].at must be a time (4, 4s, 1m30s,"),
-        ("keyframes:\n  - {at: 96f, pan: 0}\n", "shoot.yaml:2:10: keyframes[0].at is 96f, in frames, which needs fps"),
-        ("keyframes:\n  - {at: 0, pna: 0}\n", "shoot.yaml:2:13: keyframes[0].pna is not known here; did you mean pan?"),
-        ("keyframes:\n  - {at: 0, pan: left}\n", "shoot.yaml:2:18: keyframes[0].pan must be a number, not 'left'"),
+        ("keyframes:\n  - {at: soon, pan: 0}\n", "shoot.yaml:2:10: key 1: at must be a time (4, 4s, 1m30s,"),
+        ("keyframes:\n  - {at: 96f, pan: 0}\n", "shoot.yaml:2:10: key 1: at is 96f, in frames, which needs fps"),
+        ("keyframes:\n  - {at: 0, pna: 0}\n", "shoot.yaml:2:13: key 1: pna is not known here; did you mean pan?"),
+        ("keyframes:\n  - {at: 0, pan: left}\n", "shoot.yaml:2:18: key 1: pan must be a number, not 'left'"),
         (
             "keyframes:\n  - {at: 0, pan: 0, pass: by}\n",
-            "shoot.yaml:2:27: keyframes[0].pass must be one of through, stop, not 'by'",
+            "shoot.yaml:2:27: key 1: pass must be one of through, stop, not 'by'",
         ),
         (
             "keyframes:\n  - {at: 0, pan: 0}\ncues:\n  - {at: 0, camera: rcord}\n",
-            "shoot.yaml:4:21: cues[0].camera must be one of record, stop, shutter, focus, end_focus, not 'rcord'; did",
+            "shoot.yaml:4:21: cue 1: camera must be one of record, stop, shutter, focus, end_focus, not 'rcord'; did",
         ),
         ("keyframes: 3\n", "shoot.yaml:1:12: keyframes must be a list, not 3"),
         ("- 3\n", "shoot.yaml:1:1: must be a mapping, not [3]"),
@@ -58,15 +58,15 @@ def test_all_errors_come_at_once_whatever_their_kind(tmp_path: Path) -> None:
 def test_what_the_rig_cannot_do_is_another_kind_of_error(tmp_path: Path) -> None:
     text = "keyframes:\n  - {at: 0, pan: 200}\n  - {at: 3, roll: 1}\n"
     assert problems_of(tmp_path, text, UnplayableError) == [
-        "shoot.yaml:2:18: keyframes[0].pan must be within -180..180 (the rig), not 200",
-        "shoot.yaml:3:19: keyframes[1].roll cannot be: the rig has no roll; it has pan, tilt, focus",
+        "shoot.yaml:2:18: key 1: pan must be within -180..180 (the rig), not 200",
+        "shoot.yaml:3:19: key 2: roll cannot be: the rig has no roll; it has pan, tilt, focus",
     ]
 
 
 def test_an_infeasible_move_names_keyframe_axis_limit_and_a_time_that_does(tmp_path: Path) -> None:
     text = "keyframes:\n  - {at: 0, pan: -60}\n  - {at: %s, pan: 60}\n"
     [problem] = problems_of(tmp_path, text % 1, UnplayableError)
-    assert problem.startswith("shoot.yaml:3:5: pan, keyframes[0]..[1]: ")
+    assert problem.startswith("shoot.yaml:3:5: pan, key 1 to key 2: ")
     shortest = float(problem.split("; ")[1].split(" s ")[0])
     assert shortest > 1
     assert load(tmp_path, text % (shortest + 0.001)).duration == pytest.approx(shortest + 0.001)
@@ -136,7 +136,7 @@ def test_a_bounce_goes_there_and_back_and_a_loop_ends_where_it_began(tmp_path: P
     assert move.duration == 12
     assert [round(move.at(time)[Axis.PAN].position, 3) for time in (0, 4, 8, 12)] == [0, 20, 0, 20]
     [problem] = problems_of(tmp_path, text.replace("bounce", "loop"))
-    assert problem == ("shoot.yaml:1:9: repeat pan, keyframes[1]: a loop must end where it began, at 0, not 20")
+    assert problem == ("shoot.yaml:1:9: repeat pan, key 2: a loop must end where it began, at 0, not 20")
 
 
 def test_ease_of_the_file_of_a_key_and_of_one_end_of_it(tmp_path: Path) -> None:
@@ -154,11 +154,11 @@ def test_ease_of_the_file_of_a_key_and_of_one_end_of_it(tmp_path: Path) -> None:
 def test_ramps_are_refused_or_lengthened_with_the_line_of_their_key(tmp_path: Path) -> None:
     text = "ease: 3s\nkeyframes:\n  - {at: 0, pan: 0}\n  - {at: 4, pan: 20}\n"
     [problem] = problems_of(tmp_path, text, UnplayableError)
-    assert problem == "shoot.yaml:4:5: pan, keyframes[0]..keyframes[1]: ramps of 3 s and 3 s do not fit into 4.000 s"
+    assert problem == "shoot.yaml:4:5: pan, key 1 to key 2: ramps of 3 s and 3 s do not fit into 4.000 s"
     warnings = load(tmp_path, text.replace("3s", "0.01s")).warnings
     assert [warning.removeprefix(f"{tmp_path}/").partition(" a ramp of")[0] for warning in warnings] == [
-        "shoot.yaml:3:5: pan, keyframes[0]:",
-        "shoot.yaml:4:5: pan, keyframes[1]:",
+        "shoot.yaml:3:5: pan, key 1:",
+        "shoot.yaml:4:5: pan, key 2:",
     ]
 
 
@@ -193,11 +193,31 @@ def test_a_title_stands_in_one_line_of_a_screen(tmp_path: Path) -> None:
 
 def test_what_is_empty_is_called_so(tmp_path: Path) -> None:
     assert problems_of(tmp_path, "keyframes:\n  - {at: , pan: 1, hold: ~}\n") == [
-        "shoot.yaml:2:10: keyframes[0].at must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty",
-        "shoot.yaml:2:26: keyframes[0].hold must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty",
+        "shoot.yaml:2:10: key 1: at must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty",
+        "shoot.yaml:2:26: key 1: hold must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty",
     ]
 
 
 def test_an_axis_that_is_empty_is_not_there(tmp_path: Path) -> None:
     text = "keyframes:\n  - {at: 0, pan: 0, tilt: ~, hold: 3}\n  - {at: 2, pan: ~, tilt: 5}\n  - {at: 5, pan: 9}\n"
     assert load(tmp_path, text).duration == 5
+
+
+def test_key_numbers_are_those_of_the_file_in_errors_options_and_previews(tmp_path: Path) -> None:
+    """A recentre adds keys in between, and an axis may leave keys out: the numbers stay those that a person counts."""
+    text = (
+        "keyframes:\n  - {at: 0, pan: 0}\n  - {at: 4, pan: 20, hold: 8}\n  - {at: 6, tilt: 5}\n"
+        "  - {at: 7, tilt: 5}\n  - {at: 20, pan: 30}\ncues:\n  - {at: 12, recenter: 4s}\n"
+    )
+    performance = load(tmp_path, text)
+    assert list(performance.key_times) == [0, 4, 6, 7, 20]
+    named = {key.at: key.where for of_axis in performance.keys.values() for key in of_axis}
+    assert named == {0: "key 1", 4: "key 2", 6: "key 3", 7: "key 4", 12: "cue 1", 16: "cue 1", 20: "key 5"}
+    [problem] = problems_of(tmp_path, text.replace("at: 20", "at: 7"))
+    assert problem == "shoot.yaml:6:10: key 5: at must be after key 4 (7 s)"
+
+
+def test_a_move_made_of_others_has_its_keys_numbered_in_time(tmp_path: Path) -> None:
+    performance = load(tmp_path, "include: [{move: nudge, at: 0}]\n")
+    assert list(performance.key_times) == [0, 3, 9, 12, 15, 18]
+    assert performance.keys[Axis.PAN][1].where == "include 1, key 2"

@@ -89,7 +89,7 @@ def test_a_continuous_move_is_at_each_frame_when_it_is_due(tmp_path: Path, inter
 
 BAD = [
     ("frames", "0", "9:11: timelapse.frames must be at least 1"),
-    ("frames", "700", "7:10: keyframes[2].at must be at most 699, the last of 700 frames counted from 0, not 719"),
+    ("frames", "700", "7:10: key 3: at must be at most 699, the last of 700 frames counted from 0, not 719"),
     ("interval", "soon", "10:13: timelapse.interval must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not 'soon'"),
     ("interval", "0", "10:13: timelapse.interval must be more than 0 s"),
     ("interval", "{from: 2s}", "10:13: timelapse.interval.to is missing"),
@@ -119,14 +119,14 @@ def test_what_only_a_film_has_is_refused_and_times_are_frames(tmp_path: Path) ->
         load_text(tmp_path, text + "repeat: {times: 2, mode: bounce}\ncues: [{at: 0, camera: record}]\n")
     said = "\n".join(problem.partition("dusk.yaml:")[2] for problem in caught.value.problems)
     assert "4:16: ease.arrive must be in output frames here (24f), or a share or a name, not '1s'" in said
-    assert "7:10: keyframes[1].at must be in output frames (240 or 240f), not '4s'" in said
-    assert "7:20: keyframes[1].ease must be in output frames" in said
+    assert "7:10: key 2: at must be in output frames (240 or 240f), not '4s'" in said
+    assert "7:20: key 2: ease must be in output frames" in said
     assert "repeat has no place beside timelapse: its frames are counted once" in said
     assert "cues has no place beside timelapse: the shutter is its only cue" in said
 
 
 def test_keys_out_of_order_are_said_in_frames(tmp_path: Path) -> None:
-    with pytest.raises(DocumentError, match=r"keyframes\[1\].at must be after keyframes\[0\].at \(frame 300\)"):
+    with pytest.raises(DocumentError, match=r"key 2: at must be after key 1 \(frame 300\)"):
         load_text(tmp_path, FILE.replace("at: 0, ", "at: 300, "))
 
 

@@ -64,10 +64,10 @@ def test_what_is_no_plain_number_is_refused_beforehand_and_all_of_it(tmp_path: P
     with pytest.raises(DocumentError) as refusal:
         trimmed(tmp_path, text)
     assert [problem.partition(".yaml:")[2] for problem in refusal.value.problems] == [
-        "5:26: cues[0].recenter goes to 0 in any case: --trim-out cannot move it",
-        "2:18: keyframes[0].pan must be a plain number to be moved by --trim-out",
-        "3:18: keyframes[1].pan must be a plain number to be moved by --trim-out",
-        "2:18: keyframes[2].pan must be a plain number to be moved by --trim-out",
+        "5:26: cue 1: recenter goes to 0 in any case: --trim-out cannot move it",
+        "2:18: key 1: pan must be a plain number to be moved by --trim-out",
+        "3:18: key 2: pan must be a plain number to be moved by --trim-out",
+        "2:18: key 3: pan must be a plain number to be moved by --trim-out",
     ]
 
 

@@ -15,8 +15,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from command import TELEOP
-from waiting import wait_until
+from waiting import DEADLINE, wait_until
 
+END = "\x1b]end of the test\a"  # what no program here writes
 _CONTROL = re.compile(r"\x1b\[[0-9;?]*[@-~]")
 
 
@@ -59,8 +60,12 @@ class Terminal:
         wait_until(lambda: not termios.tcgetattr(self.slave)[3] & termios.ICANON, "single keys")
 
     def end(self) -> tuple[int, str]:
-        """Wait until the program has ended: its exit code and its stdout."""
-        out, _ = self.process.communicate(timeout=20)
+        """Wait until the program has ended and all that it has shown is on the screen: its exit code and its stdout."""
+        out, _ = self.process.communicate(timeout=DEADLINE)
+        if self.slave >= 0:  # unless the window was closed
+            os.write(self.slave, END.encode())  # behind all that the program wrote: once it is here, so is that
+            wait_until(lambda: END in self.raw, "the end of what was shown")
+            self.raw = self.raw.replace(END, "")
         return self.process.returncode, out
 
     @property

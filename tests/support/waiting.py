@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from teleop.ports import Link, LinkError
 
-DEADLINE = 5.0  # s: far beyond any bus here, so that only a real fault reaches it
+DEADLINE = 60.0  # s: far beyond any bus and any load here, so that only a real fault reaches it
 
 
 def wait_until(holds: Callable[[], object], what: str = "condition", patience: float = DEADLINE) -> None:

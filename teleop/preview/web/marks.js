@@ -60,7 +60,7 @@ function drawKeys(plot, axis, quantity, pixel) {
     ctx.beginPath();
     [[0, -size], [size, 0], [0, size], [-size, 0]].forEach(([dx, dy]) => ctx.lineTo(x + dx, y + dy));
     ctx.fill();
-    drawn.push({ x, y, colour: axis.colour, text: key.name.replace(/keyframes|include|panorama/g, "") });
+    drawn.push({ x, y, colour: axis.colour, text: key.mark });
   }
   return drawn;
 }

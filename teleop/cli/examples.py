@@ -1,0 +1,59 @@
+"""The examples below each command's help; a test reads each of them as it would be typed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+EXAMPLES: Mapping[str, Sequence[str]] = {
+    "": ["teleop play reveal", "teleop live", "teleop list"],
+    "play": [
+        "teleop play reveal",
+        "teleop play ./mine.yaml --rig rs2 --link gimbal=socketcan:can0",
+        "teleop play reveal --start-at key3 --speed 50%",
+        "teleop play day-to-night --rehearse",
+    ],
+    "live": [
+        "teleop live",
+        "teleop live --rig rs2 --link gimbal=slcan:/dev/ttyACM0",
+        "teleop live --sticks recorded.csv --fast",
+    ],
+    "check": ["teleop check reveal", "teleop check ./mine.yaml --rig rs2"],
+    "preview": ["teleop preview reveal -o move.html", "teleop preview reveal --csv move.csv --rate 25"],
+    "list": ["teleop list", "teleop list moves", "teleop list rigs --json"],
+    "copy": ["teleop copy reveal mine.yaml", "teleop copy rs2 my-rig.yaml"],
+    "take": ["teleop take list", "teleop take report run.mcap -o run.html"],
+    "take list": ["teleop take list", "teleop take list shots/"],
+    "take info": ["teleop take info run.mcap"],
+    "take export": ["teleop take export run.mcap --csv run.csv"],
+    "take keyframes": ["teleop take keyframes run.mcap -o mine.yaml --tolerance 0.2"],
+    "take report": ["teleop take report run.mcap", "teleop take report run.mcap -o run.html"],
+    "take recover": ["teleop take recover run.mcap"],
+    "calibrate": ["teleop calibrate delay --rig rs2 --link gimbal=socketcan:can0"],
+    "calibrate delay": ["teleop calibrate delay --axis tilt --rig rs2"],
+    "calibrate signs": ["teleop calibrate signs --rig rs5 --link gimbal=socketcan:can0"],
+    "devices": ["teleop devices", "teleop devices --json"],
+    "doctor": ["teleop doctor"],
+    "send": [
+        "teleop send recenter",
+        "teleop send gimbal position yaw=10 --rig rs2 --link gimbal=socketcan:can0",
+        "teleop send camera record --rig rs2",
+    ],
+    "monitor": [
+        "teleop monitor --rig rs2 --link gimbal=socketcan:can0",
+        "teleop monitor drone --rig m100 --link drone=serial:/dev/ttyUSB0@230400",
+    ],
+    "sim": ["teleop sim --link gimbal=udp_multicast:239.74.163.2", "teleop sim --drone"],
+    "schema": ["teleop schema sequence"],
+    "decode": ["teleop decode r-sdk aa1a0003..."],
+    "decode r-sdk": ["teleop decode r-sdk aa1a0003...", "teleop decode r-sdk --candump log.txt"],
+    "decode onboard": ["teleop decode onboard --model m100 aa1a0003...", "teleop decode onboard --parts"],
+    "decode hid": ["teleop decode hid --descriptor descriptor.bin 017f7f80"],
+    "encode": ["teleop encode r-sdk"],
+    "encode r-sdk": ["teleop encode r-sdk", "teleop encode r-sdk --can"],
+    "encode onboard": ["teleop encode onboard"],
+}
+
+
+def examples(command: str) -> str:
+    """For the end of a command's help."""
+    return "\n".join(["Examples:", *(f"  {line}" for line in EXAMPLES[command])])
