@@ -85,6 +85,20 @@ def fits(device: DeviceSection, info: DeviceInfo) -> bool:
     )
 
 
+def stops(control: ControlSection) -> bool:
+    """Whether it is a STOP, in one of its directions maybe."""
+    parts = [control, *(getattr(control, direction) for direction in DIRECTIONS)]
+    return any(Command.STOP in (part.press, part.hold) for part in parts if part is not None)
+
+
+def may_stop(section: InputSection) -> bool:
+    """Whether the device that is plugged in for it may have a STOP: by what is written, else that is the device's."""
+    if not section.pad and not section.controls:
+        return True
+    controls = {**(load_pad(section.pad).controls if section.pad else {}), **section.controls}
+    return any(stops(control) for control in controls.values() if control is not None)
+
+
 def choose(section: InputSection, info: DeviceInfo, names: Collection[str]) -> Chosen:
     """What the device does that `section` stands for and that has these controls."""
     named = load_pad(section.pad) if section.pad else None

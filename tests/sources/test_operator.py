@@ -474,10 +474,10 @@ def test_a_continuous_axis_goes_to_the_nearest_turn(tmp_path: Path) -> None:
 # --- steps
 
 
-def test_steps_add_up_and_are_reached_exactly(desk: Desk) -> None:
+def test_steps_one_after_the_other_add_up_and_are_reached_exactly(desk: Desk) -> None:
     for _ in range(3):
         desk.pad.turn(PAN, 1.0)
-        desk.tick(3)
+        desk.run(0.5)
     desk.pad.turn(FOCUS, 0.05)
     desk.run(1.5)
     assert desk.motion[PAN] == State(3.0)
@@ -485,10 +485,11 @@ def test_steps_add_up_and_are_reached_exactly(desk: Desk) -> None:
     assert desk.demand == {}
 
 
-def test_steps_end_at_the_soft_limit_and_the_way_back_is_free_at_once(desk: Desk) -> None:
-    for _ in range(5):
+def test_steps_end_at_the_soft_limit_and_the_way_back_is_free_at_once(tmp_path: Path) -> None:
+    desk = Desk(tmp_path / "presets.yaml", start_range=3)
+    for _ in range(3):
         desk.pad.turn(FOCUS, 0.5)
-        desk.tick()
+        desk.run(0.8)
     assert desk.messages[0] == "focus is at its soft limit"
     desk.run(5)
     assert desk.motion[FOCUS] == State(1.0)
@@ -497,7 +498,8 @@ def test_steps_end_at_the_soft_limit_and_the_way_back_is_free_at_once(desk: Desk
     assert desk.motion[FOCUS] == State(0.9)
 
 
-def test_a_stick_ends_the_steps_of_its_axis_alone(desk: Desk) -> None:
+def test_a_stick_ends_the_steps_of_its_axis_alone(tmp_path: Path) -> None:
+    desk = Desk(tmp_path / "presets.yaml", start_range=3)
     desk.pad.turn(PAN, 90.0)
     desk.pad.turn(FOCUS, 0.8)
     desk.run(0.3)
