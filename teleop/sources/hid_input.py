@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 
+from teleop.sources.enable_rules import enable_trouble
 from teleop.sources.handling import DEAD_ZONE, EXPO
 from teleop.sources.hid_backend import Hidapi, HidBackend, described
 from teleop.sources.hid_reader import Claims, HidReader, Plugged
@@ -53,6 +54,7 @@ class HidInput:
         self._reader = HidReader(section, backend, now, claims or Claims(), self._mapped)
         self._plugged: Plugged | None = None  # the one that was read last
         self._has_stop = may_stop(section)
+        self._misnamed = ""  # why its enable cannot be one
         self._judged: set[str] = set()  # the sticks of which it has been said that they were not in their middle
 
     @property
@@ -83,7 +85,7 @@ class HidInput:
         notes: list[str] = []
         if plugged is not self._plugged:
             last_words = self._plugged and self._look(self._plugged, now)
-            self._plugged, self._judged = plugged, set()
+            self._plugged, self._judged, self._misnamed = plugged, set(), self._enable_trouble(plugged)
             if plugged is not None and plugged.missing and not plugged.chosen.guessed:
                 notes.append(
                     f"{self.name}: it has no {', '.join(plugged.missing)}; what is mapped to that does nothing"
@@ -124,6 +126,11 @@ class HidInput:
             return f"{self.name}: {self._reader.refused}"
         return f"{self.name}: unplugged" if self._reader.last else f"{self.name}: not plugged in"
 
+    def _enable_trouble(self, plugged: Plugged | None) -> str:
+        if plugged is None or self._stop_only:
+            return ""
+        return enable_trouble(self._section.enable, plugged.state.names, plugged.chosen.controls)
+
     def _mapped(self, chosen: Chosen, state: HidState) -> Mapped:
         enable = self._section.enable
         if self._stop_only:
@@ -136,6 +143,8 @@ class HidInput:
 
     def _trouble(self, plugged: Plugged, held: Held, now: float) -> str:
         state = plugged.state
+        if self._misnamed:
+            return self._misnamed
         deflected = bool(held.dial) or any(held.deflections.values())
         if not plugged.mapped.names & state.values.keys():
             return "has not reported yet"

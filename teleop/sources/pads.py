@@ -3,7 +3,7 @@
 The guess for a pad nobody described: the left stick (X, Y) is pan and tilt, the right one (Rx and Ry, or Z and Rz,
 whichever rests in its middle) roll and focus; a joystick's twist (Rz without a Z) is roll. The puck of a multi-axis
 controller turns as the head is to turn. HID counts Y downwards, and up is to be up. Button 1, a joystick's trigger and
-the first under a thumb, is the e-stop, which does no harm when pressed unasked; 2 clears it, 3 records, 4 recentres, 5
+the first under a thumb, is STOP, which does no harm when pressed unasked; 2 clears it, 3 records, 4 recentres, 5
 and 6 (the shoulders) are slower and faster. The hat recalls presets 1 to 4 and, held, stores them.
 """
 

@@ -18,7 +18,7 @@ from teleop.takes.take import read_take
 LEFT_THE_SCREEN = "\x1b[?1049l"
 
 
-def test_a_session_by_keys_from_jog_to_e_stop_to_quit(tmp_path: Path) -> None:
+def test_a_session_by_keys_from_jog_to_stop_to_quit(tmp_path: Path) -> None:
     with terminal("live", "--presets", str(tmp_path / "presets.yaml"), folder=tmp_path) as term:
         term.wait_for("keys  ready")
         term.wait_for("joystick: not plugged in")
@@ -28,11 +28,11 @@ def test_a_session_by_keys_from_jog_to_e_stop_to_quit(tmp_path: Path) -> None:
         term.type("s4")
         term.wait_for("preset 4 stored")
         term.type("z ")
-        term.wait_for("E-STOP by keys")
+        term.wait_for("STOP by keys")
         term.type("4")
-        term.wait_for("preset 4 refused: the e-stop is not cleared")
+        term.wait_for("preset 4 refused: STOP is not cleared")
         term.type("dengage\r")
-        term.wait_for("drone: not engaged: the e-stop is not cleared")
+        term.wait_for("drone: not engaged: STOP is not cleared")
         term.type("cdengage\r")
         term.wait_for("drone engage: this rig has no drone")
         term.type("4")
@@ -112,7 +112,7 @@ def test_recorded_sticks_on_a_terminal_end_by_themselves_and_keys_can_stop_them(
     with terminal("live", "--sticks", str(tmp_path / "sticks.csv"), folder=tmp_path) as term:
         term.wait_for("keys  ready")
         term.type(" ")
-        term.wait_for("E-STOP by keys")
+        term.wait_for("STOP by keys")
         term.type("q")
         assert term.end()[0] == 0
 

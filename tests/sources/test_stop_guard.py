@@ -11,7 +11,7 @@ from hands import FakeInput
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teleop.motion import Act, Action, Axis, Halt, Limits, State, Tick, Told
+from teleop.motion import Act, Action, Axis, Demand, Halt, Limits, Motion, State, Tick, Told
 from teleop.planner.keyframes import Key, plan
 from teleop.planner.live import Live
 from teleop.planner.stop import stop_phases, stop_state
@@ -74,11 +74,11 @@ class Run:
         self.said: list[str] = []
         self.guard = StopGuard(self.conductor, relays, self.said.append)
         self.planner = Live(LIMITS, DT)
-        self.motion = {PAN: State(start), TILT: State(0.0)}
+        self.motion: Motion = {PAN: State(start), TILT: State(0.0)}
         self.planner.reset(self.motion)
         self.now = 0.0
         self.acts: list[Act] = []
-        self.demand: dict = {}
+        self.demand: Demand = {}
         self.ended: BaseException | None = None
         self.guard.start(self.now, self.motion)
 
@@ -119,7 +119,7 @@ class Run:
         return math.isinf(self.guard.next_change(self.now)) and self.rests
 
 
-def check_legal(before: dict, after: dict) -> None:
+def check_legal(before: Motion, after: Motion) -> None:
     for axis, of in LIMITS.items():
         position, velocity, acceleration = after[axis]
         assert of.minimum - 1e-6 <= position <= of.maximum + 1e-6
@@ -350,7 +350,7 @@ def test_a_calibration_move_that_was_stopped_begins_anew_where_the_axis_rests() 
     motion = {PAN: State(0.0)}
     planner.reset(motion)
     guard.start(0.0, motion)
-    now = 0.0
+    now = rest = 0.0
     script = {300: STOP, 500: CLEAR, 600: GO}
     for tick in range(3000):
         now += DT
