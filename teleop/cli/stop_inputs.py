@@ -6,10 +6,10 @@ absent is a warning and no more; plugged in later, it counts from then on.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
 
+from teleop.cli.folded import complain
 from teleop.ports import Clock, DeviceError
 from teleop.profile import Profile
 from teleop.sources.hid_backend import Hidapi
@@ -43,4 +43,4 @@ def open_stop_inputs(stack: ExitStack, profile: Profile, clock: Clock) -> Sequen
 
 
 def _warn(text: str) -> None:
-    print(f"teleop: warning: {text}", file=sys.stderr)
+    complain(f"teleop: warning: {text}")
