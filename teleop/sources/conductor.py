@@ -90,7 +90,7 @@ class Conductor:
     def pauses(self) -> bool:
         return self._sequence.travels
 
-    busy = False  # nothing that it has begun has to be ended
+    busy, quits = False, True  # nothing that it has begun has to be ended
 
     def pause(self, now: float) -> bool | None:
         playback = self._sequence.playback

@@ -48,6 +48,11 @@ class Resumable(Source, Protocol):
         ...
 
     @property
+    def quits(self) -> bool:
+        """Whether it ends the run itself when it is asked to, while nothing holds it."""
+        ...
+
+    @property
     def pauses(self) -> bool:
         """Whether it can now pause by itself, on its path."""
         ...
@@ -153,7 +158,7 @@ class StopGuard:
         if self._going and self._rests and not self._source.busy:
             self._hold, self._going, self.stopped_by, self._why = Hold.FREE, False, "", ""
             self._source.resume(now, self._motion)
-        if self._hold is Hold.FREE:
+        if self._hold is Hold.FREE and self._end is None:
             return self._source.read(now)
         return dict.fromkeys(self._motion, Halt()), self._source.linger(now)
 
@@ -207,7 +212,8 @@ class StopGuard:
         hints = CLEAR_HINTS if self._hold is Hold.STOPPED else GO_HINTS
         paused = self._hold is not Hold.STOPPED
         stop = stop_state(not paused, self._motion)
-        return replace(status, stop=stop, paused=paused, left=None, note=self.note, hints=hints)
+        phase = stop or "paused"
+        return replace(status, phase=phase, stop=stop, paused=paused, left=None, note=self.note, hints=hints)
 
     @property
     def _rests(self) -> bool:
@@ -219,13 +225,13 @@ class StopGuard:
             self._stop(relay.name, now)
         elif command is Command.CLEAR:
             self._clear(now)
+        elif command is Command.QUIT and (self._hold is not Hold.FREE or not self._source.quits):
+            self._end = self._end or Interrupted(f"stopped by {relay.name}")
         elif self._hold is Hold.FREE:
             if command is Command.PAUSE and not self._source.pauses:
                 self._halt(Hold.PAUSED, now)
             else:
                 relay.pass_on(press)
-        elif command is Command.QUIT:
-            self._end = self._end or Interrupted(f"stopped by {relay.name}")
         elif command in GOES_ON and self._hold is not Hold.STOPPED:
             self._going = True
 
@@ -233,7 +239,7 @@ class StopGuard:
         if self._hold is Hold.STOPPED:
             return
         self.stopped_by = name
-        self.say(f"STOP by {name}: nothing moves until it is cleared; a camera that records goes on recording")
+        self.say(f"STOP by {name}. A camera that records goes on recording.")
         self._halt(Hold.STOPPED, now)
         if not self._source.resumable:
             self._end = self._end or Interrupted(f"STOP by {name}: a drone's move cannot go on from its middle")

@@ -48,7 +48,7 @@ class Swing:
         self._side = 1.0 if room[0] >= self._reach else -1.0
         self.begin = now + REST
 
-    resumable, pauses, busy = True, False, False  # a pause would spoil the measurement: it begins anew
+    resumable, pauses, busy, quits = True, False, False, False  # a pause would spoil the measurement: it begins anew
 
     def pause(self, now: float) -> bool | None:  # noqa: ARG002 - see `pauses`
         return False

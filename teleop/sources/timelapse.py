@@ -112,7 +112,7 @@ class TimelapseSource:
         self.progress.due = self._carriage.when(self._due, now)
         return {axis: Follow(*state) for axis, state in self._carriage.at(now).items()}, self._acts
 
-    resumable = pauses = True
+    resumable = pauses = quits = True
 
     @property
     def busy(self) -> bool:

@@ -299,7 +299,7 @@ def test_a_pad_stops_what_the_keys_began_and_says_so() -> None:
     run.until(Phase.PLAYING)
     run.pad.press(STOP)
     run.tick()
-    assert run.said == ["STOP by pad: nothing moves until it is cleared; a camera that records goes on recording"]
+    assert run.said == ["STOP by pad. A camera that records goes on recording."]
     assert run.guard.stopped_by == "pad"
 
 
