@@ -108,8 +108,8 @@ def test_a_pause_holds_between_two_frames_for_hours_and_keeps_the_gimbal_awake(s
 STOP, CLEAR, GO = Press(Key.STOP), Press(Key.CLEAR), Press(Key.GO)
 
 
-@pytest.mark.parametrize("later", [step / 10 for step in range(0, 41, 3)])
-@pytest.mark.parametrize("mode", ["", "  mode: continuous\n  prefocus: 0.3s\n"])
+@pytest.mark.parametrize("later", [step / 10 for step in range(2, 41, 3)])
+@pytest.mark.parametrize("mode", ["", "  prefocus: 0.3s\n", "  mode: continuous\n"])
 def test_a_stop_at_any_moment_of_a_frame_loses_none_repeats_none_and_presses_no_shutter(
     stage: Stage, later: float, mode: str
 ) -> None:
@@ -127,7 +127,7 @@ def test_a_stop_at_any_moment_of_a_frame_loses_none_repeats_none_and_presses_no_
     for frame, shot in enumerate(shots):
         blurred = frame in stage.shooting.progress.stopped
         assert blurred or stage.off(shot, frame) < 0.2, frame
-    assert len(stage.shooting.progress.stopped) <= (1 if mode else 0)
+    assert len(stage.shooting.progress.stopped) <= ("continuous" in mode)
     assert not any(stage.shooting.progress.troubles.values())
     assert stage.silences() < AWAKE
     gaps = [after.time - before.time for before, after in pairwise(shots)]
