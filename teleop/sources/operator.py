@@ -52,6 +52,7 @@ class Operator:
         self._now = -math.inf
         self._range = sticks.start_range - 1
         self._stopped = self._done = self._recording = False
+        self.reason = ""  # that the run is stopped, for its report if it ends now
         self._hands_on = self._beneath_trusted = True
         self._dial = 0.0
         self._follow = ""
@@ -148,13 +149,14 @@ class Operator:
     def _stop(self, hand: Arming, _press: Press) -> None:
         if not self._stopped:
             self.say(f"STOP by {hand.name}: nothing moves until it is cleared")
+            self.reason = f"ended while stopped: STOP by {hand.name}"
         self._stopped = True
         self._distrust_all()
 
     def _clear(self, _hand: Arming, _press: Press) -> None:
         if self._stopped:
             self.say("STOP cleared: center all sticks")
-            self._stopped = False
+            self._stopped, self.reason = False, ""
             self._distrust_all()
 
     def _enable(self, _hand: Arming, _press: Press) -> None:

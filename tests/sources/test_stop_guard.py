@@ -22,6 +22,7 @@ from teleop.sources.inputs import Command
 from teleop.sources.sequence import Phase, SequenceSource
 from teleop.sources.sequence_file import Performance
 from teleop.sources.staging import Staging
+from teleop.sources.sticks import Sticks, SticksSource
 from teleop.sources.stop_guard import Relay, StopGuard, Together
 from teleop.sources.swing import Swing
 
@@ -367,6 +368,28 @@ def test_a_calibration_move_that_was_stopped_begins_anew_where_the_axis_rests() 
             break
     assert swing.begin == pytest.approx(6.01 + 1, abs=2 * DT)
     assert motion[PAN].position == pytest.approx(rest)
+
+
+def test_recorded_sticks_stand_still_during_a_stop_and_go_on_where_they_were() -> None:
+    pad = FakeInput("pad")
+    sticks = SticksSource(Sticks([PAN], [0.0, 2.0, 3.0], [[0.5], [0.0], [0.0]]), lambda _axis, share: 60 * share)
+    guard = StopGuard(sticks, [Relay(pad)])
+    planner, motion, now = Live({PAN: LIMITS[PAN]}, DT), {PAN: State(0.0)}, 0.0
+    planner.reset(motion)
+    guard.start(now, motion)
+    for tick in range(3000):
+        now += DT
+        for at, command in ((100, STOP), (400, CLEAR), (500, GO)):
+            if tick == at:
+                pad.press(command)
+        demand, acts = guard.read(now)
+        motion = planner.step(demand)
+        guard.write(Tick(now, motion, demand, acts, {}))
+        assert not 200 < tick < 500 or motion[PAN].velocity == 0
+        if math.isinf(guard.next_change(now)):
+            break
+    assert now == pytest.approx(3 + 4, abs=2 * DT)
+    assert motion[PAN].velocity == 0
 
 
 PRESSES = st.sampled_from(
