@@ -1,4 +1,4 @@
-"""STOP in runs that move by themselves, typed on a real terminal: it holds, it is cleared, the run goes on to its end."""
+"""STOP in runs that move by themselves, typed on a real terminal: it holds, is cleared, the run goes on."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def test_a_stop_in_a_move_holds_until_it_is_cleared_and_then_the_move_goes_on(tm
         term.wait_for("playing")
         term.type(" ")
         term.wait_for("STOPPED. Press c to clear")
-        term.type(" pc")
+        term.type("c")
         term.wait_for("STOP cleared. Press p or Enter to go on")
         term.type("p")
         code, out = term.end()
