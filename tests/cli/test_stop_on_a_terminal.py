@@ -30,8 +30,8 @@ def test_a_stop_in_a_move_holds_until_it_is_cleared_and_then_the_move_goes_on(tm
         term.wait_for("STOP cleared. Press p or Enter to go on")
         term.type("p")
         code, out = term.end()
+        assert term.restored
     assert code == 0, term.shown
-    assert term.restored
     assert "stopped" not in out
     recorded = read_take(take)
     assert recorded.state(Axis.PAN, -1).position == pytest.approx(40, abs=1e-3)
