@@ -83,10 +83,14 @@ class Cruise(NamedTuple):
 
 
 class Goto(NamedTuple):
-    """Be at rest at `position`, `arrive` seconds from now or, when None, as soon as the limits allow."""
+    """Be at rest at `position`, `arrive` seconds from now or, when None, as soon as the limits allow.
+
+    `velocity` (unit/s) is the most that an axis on its own, without an `arrive`, may go; None is the axis's own.
+    """
 
     position: float
     arrive: float | None = None
+    velocity: float | None = None
 
 
 class Follow(NamedTuple):

@@ -29,6 +29,7 @@ from teleop.profile_sinks import (
 )
 from teleop.section import Finite, Section
 from teleop.shipped import find
+from teleop.sources.enable_rules import enable_rules
 from teleop.sources.handling import PresetsSection, SticksSection
 from teleop.sources.inputs_section import InputSection, input_rules
 from teleop.yaml_text import read_document
@@ -135,6 +136,7 @@ def _rules(data: Any) -> Iterator[Wrong]:
             yield ("links", name), wrong
     yield from sink_rules(data)
     yield from input_rules(data)
+    yield from enable_rules(data)
 
 
 def _axis_rules(name: str, section: Any) -> Iterator[Wrong]:

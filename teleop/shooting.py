@@ -26,11 +26,13 @@ from teleop.sources.carriage import Glide, Steps
 from teleop.sources.inputs import Input
 from teleop.sources.keyboard import CLOSED
 from teleop.sources.progress import Progress
+from teleop.sources.run_status import RunStatus
+from teleop.sources.stop_guard import Relay, StopGuard, Together
 from teleop.sources.timelapse import TimelapseSource
 from teleop.sources.timelapse_file import Timelapse
 from teleop.supervisor import Result
 
-LOOK = 0.1  # s between looks for a signal while waiting
+LOOK = 0.1  # s between looks for a signal while waiting, and at the inputs while nothing moves
 RETRY = 2.0  # s between two tries to reach a rig that was lost
 LONGEST_WAIT = 24 * 3600.0  # s of such pauses in a row, after which the shoot ends
 STALLS = 5  # runs in a row that a stalled computer may end without a frame
@@ -54,7 +56,10 @@ def camera_link(profile: Profile) -> str:
 
 
 class Shooting:
-    """One shoot: its journal is open, `say` tells the operator a line, `watchers` look on through every run."""
+    """One shoot: its journal is open, `say` tells the operator a line, `watchers` look on through every run.
+
+    `keys` and `inputs` can stop it; a STOP that is not cleared outlasts a run.
+    """
 
     def __init__(
         self,
@@ -67,10 +72,13 @@ class Shooting:
         keys: Input | None = None,
         in_doubt: InDoubt = "shoot",
         executor: Executor | None = None,
+        inputs: Sequence[Input] = (),
     ) -> None:
         self._timelapse, self._profile, self._clock, self._journal = timelapse, profile, clock, journal
-        self._say, self._watchers, self._keys, self._in_doubt = say, watchers, keys, in_doubt
+        self._say, self._watchers, self._in_doubt = say, watchers, in_doubt
         self._executor = executor
+        self._inputs = [*([] if keys is None else [keys]), *inputs]
+        self.guard: StopGuard | None = None
         self._camera = camera_link(profile)
         shot = sum(state is Frame.DONE for state in journal.frames.values())
         self.progress = Progress(timelapse.slots, timelapse.fps, shot, frame=journal.next)
@@ -88,6 +96,10 @@ class Shooting:
     def begin(self) -> float:
         """When the first frame of the first run is due, on the clock; inf as long as that is not known."""
         return min(self._begin, self._source.begin) if self._source else math.inf
+
+    def shown(self, status: RunStatus) -> RunStatus:
+        """What a view shows of it: the status, and over it a STOP, or a pause, that holds the axes."""
+        return self.guard.over(status) if self.guard else status
 
     def run(self) -> Ended:
         """Shoot until it is over. Raises LinkError where the rig cannot be reached at first."""
@@ -123,14 +135,19 @@ class Shooting:
         """How it ended, what was raised in it, and whether the rig was reached."""
         timelapse, first = self._timelapse, self._journal.next
         carriage = Glide(timelapse, self._executor) if timelapse.continuous else Steps(timelapse)
-        source = TimelapseSource(timelapse, carriage, self._journal, first, self.progress, self._slot, self._keys)
+        relays = [Relay(each) for each in self._inputs]
+        keys = Together(relays) if relays else None
+        source = TimelapseSource(timelapse, carriage, self._journal, first, self.progress, self._slot, keys)
         self._source = source
+        guard = StopGuard(source, relays, self._say, LOOK, self.guard.stopped_by if self.guard else "")
+        self.guard = guard
         self._runs += 1
         try:
             with open_rig(self._profile, self._clock) as rig:
                 shutter = ShutterSink(rig.connections[self._camera], source.heard)
                 notes = LinkNotes(rig.connections.values(), self._say)
-                self._loop = rig.loop(list(timelapse.limits), [source], [shutter, source, notes, *self._watchers])
+                watchers = [shutter, source, guard, notes, *self._watchers]
+                self._loop = rig.loop(list(timelapse.limits), [guard], watchers)
                 if self._interrupted:
                     self._loop.interrupt(self._interrupted)
                 supervisor = self._loop.run()
@@ -144,7 +161,9 @@ class Shooting:
         reached = source.begin < math.inf
         if reached:
             self._begin = min(self._begin, source.begin)
-            self._slot = source.due_at(self._journal.next, self._clock.now())
+            halted = guard.halted  # then no slot passes
+            self._slot = -math.inf if halted else source.due_at(self._journal.next, self._clock.now())
+        supervisor.reasons += [guard.reason] if guard.reason else []
         return Ended(supervisor.result, supervisor.reasons), self._loop.faults, reached
 
     def _may_go_on(self, faults: Sequence[BaseException], reached: bool, waiting: bool, fruitless: int) -> bool:

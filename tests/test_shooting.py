@@ -105,6 +105,60 @@ def test_a_pause_holds_between_two_frames_for_hours_and_keeps_the_gimbal_awake(s
     assert stage.shooting.progress.missed == 0
 
 
+STOP, CLEAR, GO = Press(Key.STOP), Press(Key.CLEAR), Press(Key.GO)
+
+
+@pytest.mark.parametrize("later", [step / 10 for step in range(2, 41, 3)])
+@pytest.mark.parametrize("mode", ["", "  prefocus: 0.3s\n", "  mode: continuous\n"])
+def test_a_stop_at_any_moment_of_a_frame_loses_none_repeats_none_and_presses_no_shutter(
+    stage: Stage, later: float, mode: str
+) -> None:
+    stage.write(12, "4s", mode)
+    stage.executor = AtOnce()
+    stage.keys = Keys()
+    stopped, cleared = 1016.0 + later, 1116.0
+    stage.keys.presses = [(stopped, STOP), (1050.0, PAUSE), (1060.0, GO), (cleared, CLEAR), (cleared + 10, GO)]
+    assert stage.shoot().result is Result.DONE
+    shots = stage.shots
+    assert len(shots) == 12
+    assert not [shot for shot in shots if stopped + 0.05 < shot.time < cleared + 10]
+    moving = [time for each in stage.gimbals for time, rate in each.turned if rate > 0.05]
+    assert not [time for time in moving if stopped + 1.5 < time < cleared + 10]
+    for frame, shot in enumerate(shots):
+        blurred = frame in stage.shooting.progress.stopped
+        assert blurred or stage.off(shot, frame) < 0.2, frame
+    assert len(stage.shooting.progress.stopped) <= ("continuous" in mode)
+    assert not any(stage.shooting.progress.troubles.values())
+    assert stage.silences() < AWAKE
+    gaps = [after.time - before.time for before, after in pairwise(shots)]
+    assert sum(gap > 4.1 for gap in gaps) == 1, "the rest keeps its rhythm"
+
+
+def test_a_shoot_that_ends_while_it_is_stopped_says_so_and_can_be_gone_on_with(stage: Stage) -> None:
+    stage.write(8, "2s")
+    stage.keys = Keys()
+    stage.keys.presses = [(1008.0, STOP), (1020.0, Press(Key.QUIT))]
+    ended = stage.shoot()
+    assert ended.result is Result.INTERRUPTED
+    assert list(ended.reasons) == ["stopped by keys", "ended while stopped: STOP by keys"]
+    stage.keys = None
+    assert stage.shoot(resume=True).result is Result.DONE
+    assert len(stage.shots) == 8
+
+
+def test_a_stop_outlasts_a_link_that_is_lost_and_found_again(stage: Stage) -> None:
+    stage.write(8, "2s")
+    stage.profile = stage.profile.model_copy(update={"timelapse": ShootingSection(wait_for_link=True)})
+    stage.keys = Keys()
+    stage.keys.presses = [(1008.0, STOP), (1100.0, CLEAR), (1101.0, GO)]
+    deaf = [(1020.0, 1030.0)]
+    stage.prepare = lambda gimbal: setattr(gimbal, "deaf", lambda now: any(a < now < b for a, b in deaf))
+    assert stage.shoot().result is Result.DONE
+    assert len(stage.gimbals) > 1
+    assert len(stage.shots) == 8
+    assert not [shot for shot in stage.shots if 1008.1 < shot.time < 1101.0]
+
+
 @pytest.mark.parametrize("interval", ["2s", "{from: 1s, to: 4s}"])
 def test_a_continuous_move_is_shot_in_its_slots_and_places(stage: Stage, interval: str) -> None:
     stage.write(60, interval, "  mode: continuous\n  lead_in: 3\n")

@@ -7,6 +7,9 @@ and signals. The profile's own delay and gains are left out meanwhile, because t
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import replace
 from statistics import fmean, stdev
 from typing import TYPE_CHECKING
 
@@ -20,12 +23,17 @@ from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.perform import EXIT_CODES
 from teleop.cli.play import Fast, the_clock
+from teleop.cli.stop_inputs import open_stop_inputs
 from teleop.motion import Axis
-from teleop.ports import DeviceError, UsageError
+from teleop.ports import Clock, DeviceError, UsageError
 from teleop.profile import Profile
 from teleop.profile_sinks import Angle, GainsSection, GimbalSection
 from teleop.rig import open_rig
 from teleop.sinks.link_notes import LinkNotes
+from teleop.sources.keyboard import Keyboard, terminal
+from teleop.sources.play_keys import RUN_KEYS, PlayKeys
+from teleop.sources.run_status import Hint
+from teleop.sources.stop_guard import Relay, StopGuard
 from teleop.sources.swing import Swing
 from teleop.supervisor import Result, Supervisor
 
@@ -36,6 +44,8 @@ REACH = 6.0  # deg: enough for a grid of 0.1 deg, and little enough to be made a
 SWINGS = 6  # the first and the last are eased in and out, the others are measured
 FAITHFUL = 0.5, 1.5  # times as far as commanded: beyond these it does something else than it was told
 NOISE = 0.5  # deg rms that no delay explains
+
+HINTS = (Hint("space", "STOP"), Hint("p", "pause"), Hint("q", "end"))
 
 app = App(
     name="calibrate", help="Measure what a profile has to know about a gimbal.", help_epilogue=examples("calibrate")
@@ -57,25 +67,44 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
     clock = the_clock(fast, profile)
     swing = Swing(moved, profile.limits[moved], REACH, SWINGS)
     title = f"measuring the delay of {axis}, mode {mode}"
-    display = Display(
-        title, {moved: profile.limits[moved]}, swing.status, silent=options.json, command="teleop calibrate"
-    )
     from teleop.sinks.delay import Traces  # numpy takes 0.1 s to load
 
     traces = Traces(moved)
-    with open_rig(profile, clock) as rig:
-        warnings: list[str] = []
+    warnings: list[str] = []
+    with ExitStack() as stack:
+        guard, keys = _guarded(stack, swing, profile, clock, fast)
+        hints = HINTS if keys else ()
+        display = Display(
+            title,
+            {moved: profile.limits[moved]},
+            lambda now: guard.over(replace(swing.status(now), hints=hints)),
+            silent=options.json,
+            command="teleop calibrate",
+        )
+        guard.say = display.say
+        rig = stack.enter_context(open_rig(profile, clock))
         notes = LinkNotes(rig.connections.values(), warnings.append)
-        loop = rig.loop([moved], [swing], [traces, notes, display])
+        loop = rig.loop([moved], [guard], [traces, guard, notes, *map(stack.enter_context, keys), display])
         with signals_to(loop.interrupt, loop.release_at_once, display.say), display:
             ended = loop.run()
     for warning in warnings:
         complain(warning)
+    ended.reasons += [guard.reason] if guard.reason else []
     if ended.result is not Result.DONE:
         return _stopped(ended, options.json)
     delays = _delays(swing, traces)
     _say(axis, mode, delays, options.json)
     return 0
+
+
+def _guarded(
+    stack: ExitStack, swing: Swing, profile: Profile, clock: Clock, fast: bool
+) -> tuple[StopGuard, Sequence[Keyboard]]:
+    """The test move under every STOP that there is, and the keys of the terminal, which are to be entered."""
+    descriptor = None if fast else terminal()
+    keys = [] if descriptor is None else [Keyboard(descriptor, PlayKeys(RUN_KEYS))]
+    devices = [] if fast else open_stop_inputs(stack, profile, clock)
+    return StopGuard(swing, [Relay(each) for each in (*devices, *keys)]), keys
 
 
 def _undelayed(profile: Profile, axis: Axis) -> tuple[Profile, str]:

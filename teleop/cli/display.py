@@ -69,7 +69,7 @@ class Display(Screen):
     def _seen(self, status: RunStatus) -> RunStatus:
         """With what the ticks say: the camera's lamp, and that the whole run comes to rest."""
         recording = self._recording if status.recording is None else status.recording
-        if self._halted and not status.stop:
+        if self._halted and not status.stop and not status.paused:
             note = status.note if status.note.startswith("STOPPED") else "STOPPED"
             return replace(status, recording=recording, stop=self._halted, note=note)
         return replace(status, recording=recording)

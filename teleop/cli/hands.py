@@ -20,12 +20,12 @@ def open_devices(
     """The joysticks and dials of the profile, open until the stack is left, and what is to be said of them.
 
     Without `keys` something else has to be there that could move anything: raises UsageError, saying `nobody`, when
-    nothing is, and DeviceError when what the profile names cannot be.
+    nothing is, and DeviceError when no device can be read.
     """
     try:
         backend = Hidapi()
     except DeviceError as error:
-        if profile.inputs or not keys:
+        if not keys:
             raise
         return [], str(error)
     if not keys and not profile.inputs and not wanted(DeviceSection(), backend.enumerate(), None):

@@ -1,7 +1,7 @@
 """`teleop live`: a rig in an operator's hands, or moved by recorded sticks.
 
-Recorded sticks alone need neither a joystick nor a terminal, and then nothing of either is touched. Everything else
-goes through the `Operator`; what is recorded then drives the axes that no hand does.
+Recorded sticks alone need neither a joystick nor a terminal: then only the STOP of what is plugged in counts.
+Everything else goes through the `Operator`; what is recorded then drives the axes that no hand does.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.perform import camera_answers, commands, perform
 from teleop.cli.play import Fast, Take, the_clock
 from teleop.cli.presence import open_present
+from teleop.cli.stop_inputs import open_stop_inputs
 from teleop.cli.take_words import take_words
 from teleop.motion import Action, Axis
 from teleop.ports import Clock, Sink, UsageError
@@ -33,6 +34,7 @@ from teleop.sources.operator import Operator
 from teleop.sources.presets import default_file, read_presets
 from teleop.sources.shaping import shape
 from teleop.sources.sticks import Sticks, SticksSource, read_sticks
+from teleop.sources.stop_guard import Relay, StopGuard
 
 NOBODY = "live: there is no joystick, and no terminal for its keys: plug one in, run it on a terminal, or give --sticks"
 
@@ -71,15 +73,21 @@ def live(
         ask_to_fly(title, axes, i_understand)
         tally = Tally(lambda: replay.begin)
         limits = {axis: profile.limits[axis] for axis in axes}
-        status = timed(lambda: replay.begin, recorded.times[-1], "replaying sticks")
-        display = Display(title, limits, status, silent=options.json, command="teleop live")
+        shown = timed(lambda: replay.begin, recorded.times[-1], "replaying sticks")
         status = aboard.status if is_flown(axes) else None
-        with (
-            recording(take, profile.name, title, limits, status, patient=fast) as recorder,
-            open_rig(profile, clock) as rig,
-        ):
+        with ExitStack() as stack:
+            devices = [] if fast else open_stop_inputs(stack, profile, clock)
+            guard = StopGuard(replay, [Relay(each) for each in devices])
+            display = Display(
+                title, limits, lambda now: guard.over(shown(now)), silent=options.json, command="teleop live"
+            )
+            guard.say = display.say
+            recorder = stack.enter_context(recording(take, profile.name, title, limits, status, patient=fast))
+            rig = stack.enter_context(open_rig(profile, clock))
             aboard.board(rig, axes, display.say, by_script=True)
-            return perform(rig, axes, [replay], tally, display, options.json, recorder)
+            return perform(
+                *(rig, axes, [guard], tally, display, options.json, recorder, [guard]), stopped=lambda: guard.reason
+            )
     with ExitStack() as stack:
         inputs, note = open_devices(stack, profile, clock, keyboard is not None, NOBODY)
         rig, axes, left_out = _opened(stack, profile, clock, None if recorded is None else axes)
@@ -109,7 +117,9 @@ def live(
             *([] if keyboard is None else [keyboard]),
         ]
         tally = Tally(lambda: operator.begin)
-        return perform(rig, axes, [operator], tally, view, options.json, recorder, watchers)
+        return perform(
+            *(rig, axes, [operator], tally, view, options.json, recorder, watchers), stopped=lambda: operator.reason
+        )
 
 
 def _opened(

@@ -106,7 +106,7 @@ def _dot(colour: str) -> tuple[str, str]:
 
 
 def said(message: Said, now: float) -> Text:
-    style = "bold red" if message.text.startswith(("STOP", "E-STOP")) else ""
+    style = "bold red" if message.text.startswith("STOP by") else ""
     return Text.assemble((f" {max(0.0, now - message.time):4.0f} s ago  ", "dim"), (message.text, style))
 
 

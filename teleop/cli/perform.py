@@ -51,11 +51,16 @@ def perform(
     take: Recorder | None = None,
     watchers: Sequence[Sink] = (),
     extras: Sequence[Extra] = (),
+    stopped: Callable[[], str] = lambda: "",
 ) -> int:
-    """Run the sources on the rig, show it, record it if asked to, print the report and `extras`; the exit code."""
+    """Run the sources on the rig, show it, record it if asked to, print the report and `extras`; the exit code.
+
+    `stopped` is asked at the end for a STOP that was not left, which then is among the reasons.
+    """
     loop = rig.loop(axes, sources, [tally, *watchers, *([] if take is None else [take]), display])
     with undisturbed(loop.interrupt, loop.release_at_once, display.say), display:
         ended = loop.run()
+    ended.reasons += [reason] if (reason := stopped()) else []
     if take is not None:
         links = {name: dict(connection.counts) for name, connection in rig.connections.items()}
         take.finish(ended.result, ended.reasons, links)

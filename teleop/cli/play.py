@@ -27,7 +27,7 @@ from teleop.planner.warp import NoRunUp
 from teleop.ports import UsageError
 from teleop.profile import Profile
 from teleop.sources.keyboard import Keyboard, terminal
-from teleop.sources.play_keys import KEYS, TRIM_KEYS, PlayKeys
+from teleop.sources.play_keys import FLOWN_KEYS, KEYS, TRIM_KEYS, PlayKeys
 from teleop.sources.sequence import SequenceSource
 from teleop.sources.trimmed_file import TrimmedFile
 
@@ -81,8 +81,9 @@ def play(
         return shoot(file, timelapse, profile, the_clock(fast, profile), shooting, take, options)
     if timelapse is not None:
         warn(performance)
-    descriptor = None if fast or flown else terminal()  # a drone does not stand still while a move is paused
-    performance = attended(file, performance, descriptor is not None, fast)
+    descriptor = None if fast else terminal()
+    waits = descriptor is not None and not flown  # a drone does not stand still while a move waits
+    performance = attended(file, performance, waits, fast)
     trimmed = None if trim.trim_out is None else _trimmed(file, trim.trim_out, axes, profile)
     if is_take(file):
         from teleop.takes.repeat import followable
@@ -94,14 +95,18 @@ def play(
     if flown:
         _refuse_to_fly(speed, staging, trim)
     ask_to_fly(performance.title, axes, i_understand)
-    rate, stage = percentage("--speed", speed), staging.staging(performance, clock, descriptor is not None)
+    rate, stage = percentage("--speed", speed), staging.staging(performance, clock, waits)
     try:
         source = SequenceSource(performance, sequence_limits(profile.limits, left), rate, staging=stage)
     except NoRunUp as error:
         raise DocumentError([f"--start-at {staging.start_at}: {error}"]) from None
     except PlanError as error:
         raise DocumentError([f"--speed {speed}: {error}"]) from None
-    keys = None if descriptor is None else Keyboard(descriptor, PlayKeys(TRIM_KEYS if trim.trim else KEYS))
+    keys = (
+        None
+        if descriptor is None
+        else Keyboard(descriptor, PlayKeys(FLOWN_KEYS if flown else TRIM_KEYS if trim.trim else KEYS))
+    )
     run = SequenceRun(profile, performance, source, clock, keys, left, trimmed, take, options.json, patient=fast)
     return run.perform()
 

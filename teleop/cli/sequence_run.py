@@ -14,6 +14,7 @@ from teleop.cli.hands import open_devices
 from teleop.cli.passes import PassesReport
 from teleop.cli.perform import EXIT_CODES, Extra, commands, perform
 from teleop.cli.run_rows import NO_KEYS, RUN_HINTS
+from teleop.cli.stop_inputs import open_stop_inputs
 from teleop.cli.take_words import take_words
 from teleop.cli.trim_options import TrimReport
 from teleop.motion import Axis
@@ -25,10 +26,10 @@ from teleop.sinks.recorder import recording
 from teleop.sinks.repeatability import Repeatability
 from teleop.sinks.tally import Tally
 from teleop.sources.conductor import Conductor
-from teleop.sources.inputs import Input
 from teleop.sources.keyboard import Keyboard
 from teleop.sources.sequence import SequenceSource
 from teleop.sources.sequence_file import Performance
+from teleop.sources.stop_guard import Relay, StopGuard, Together
 from teleop.sources.trimmed_file import TrimmedFile
 from teleop.sources.trimming import Trimming
 from teleop.supervisor import Result
@@ -58,7 +59,7 @@ class SequenceRun:
         extras: list[Extra] = []
         aboard = Aboard()
         with ExitStack() as stack:
-            conductor = self._conductor(stack, axes, extras)
+            conductor, guard = self._conductor(stack, axes, extras)
             title = self.performance.title
             status = aboard.status if is_flown(axes) else None
             taking = recording(self.take, profile.name, title, limits, status, patient=self.patient)
@@ -66,40 +67,52 @@ class SequenceRun:
             if source.staging.trigger is not None:
                 source.staging.trigger.open(stack)
             rig = stack.enter_context(open_rig(profile, self.clock))
-            watchers = self._watchers(stack, rig, axes, conductor, extras)
+            watchers = self._watchers(stack, rig, axes, [each for each in (conductor, guard) if each], extras)
             status_of = source.status if conductor is None else conductor.status
             keys = NO_KEYS if self.keys is None else RUN_HINTS
-            display = Display(title, limits, status_of, self.as_json, take_words(recorder), hints=keys)
+            shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
+            display = Display(title, limits, shown, self.as_json, take_words(recorder), hints=keys)
             aboard.board(rig, axes, display.say, by_script=True)
-            tally, sources = Tally(lambda: source.begin), [conductor or source]
-            code = perform(rig, axes, sources, tally, display, self.as_json, recorder, watchers, extras)
+            tally, sources = Tally(lambda: source.begin), [guard or source]
+            stopped = (lambda: guard.reason) if guard else (lambda: "")
+            if guard:
+                guard.say = display.say
+            code = perform(rig, axes, sources, tally, display, self.as_json, recorder, watchers, extras, stopped)
             lost = any(isinstance(extra, TrimReport) and extra.failure for extra in extras)
             return code or (EXIT_CODES[Result.FAILED] if lost else code)
 
-    def _conductor(self, stack: ExitStack, axes: Sequence[Axis], extras: list[Extra]) -> Conductor | None:
-        """Whoever has a hand on it, if anybody has; with a trim also what is reported of that."""
+    def _conductor(
+        self, stack: ExitStack, axes: Sequence[Axis], extras: list[Extra]
+    ) -> tuple[Conductor, StopGuard] | tuple[None, None]:
+        """What its inputs do to it, if there are any, and their STOP; with a trim also what is reported of that."""
         if self.left == 1.0:
-            return None if self.keys is None else Conductor(self.source, self.keys)
+            opened = [] if self.patient else open_stop_inputs(stack, self.profile, self.clock)
+            relays = [Relay(each) for each in (*opened, *([] if self.keys is None else [self.keys]))]
+            if not relays:
+                return None, None
+            conductor = Conductor(self.source, Together(relays))
+            return conductor, StopGuard(conductor, relays)
         devices, note = open_devices(stack, self.profile, self.clock, self.keys is not None, NOBODY)
-        inputs: list[Input] = [*devices, *([] if self.keys is None else [self.keys])]
+        keys = None if self.keys is None else Relay(self.keys)
+        relays = [*map(Relay, devices), *([] if keys is None else [keys])]
         limits = {axis: self.profile.limits[axis] for axis in axes}
-        trimming = Trimming(trim_limits(self.performance.move, limits, self.left), inputs, self.profile.sticks)
+        trimming = Trimming(trim_limits(self.performance.move, limits, self.left), relays, self.profile.sticks)
         if note:
             trimming.say(note)
         report = TrimReport(trimming, self.trimmed)
         extras.append(report)
-        return Conductor(self.source, self.keys, trimming, report.keep)
+        conductor = Conductor(self.source, keys, trimming, report.keep)
+        return conductor, StopGuard(conductor, relays)
 
     def _watchers(
-        self, stack: ExitStack, rig: Rig, axes: Sequence[Axis], conductor: Conductor | None, extras: list[Extra]
+        self, stack: ExitStack, rig: Rig, axes: Sequence[Axis], conducting: Sequence[Sink], extras: list[Extra]
     ) -> list[Sink]:
         said: list[str] = []
         stack.callback(lambda: print(*said, sep="\n", end="\n" if said else "", file=sys.stderr))
         watchers: list[Sink] = [*commands(rig, axes, said.append)]
         if self.keys is not None:
             watchers.append(stack.enter_context(self.keys))
-        if conductor is not None:
-            watchers.append(conductor)
+        watchers += conducting
         watchers += [extra for extra in extras if isinstance(extra, TrimReport)]
         if self.source.staging.compared:
             repeatability = Repeatability(self.source.place)

@@ -13,6 +13,7 @@ from teleop.cli.options import Options
 from teleop.cli.perform import EXIT_CODES, print_links, print_take, undisturbed
 from teleop.cli.shoot_options import ShootOptions
 from teleop.cli.shoot_view import ShootView, free
+from teleop.cli.stop_inputs import open_stop_inputs
 from teleop.cli.take_words import take_words
 from teleop.cli.timelapse_words import clock, summary
 from teleop.clock import VirtualClock
@@ -22,13 +23,10 @@ from teleop.profile import Profile
 from teleop.shooting import Ended, Shooting, camera_link
 from teleop.sinks.recorder import recording
 from teleop.sinks.tally import Tally
-from teleop.sources.inputs import Command, Press
 from teleop.sources.keyboard import Keyboard, terminal
-from teleop.sources.play_keys import KEYS, PlayKeys
+from teleop.sources.play_keys import RUN_KEYS, PlayKeys
 from teleop.sources.timelapse_file import Timelapse
 from teleop.supervisor import Result
-
-SHOOT_KEYS = {key: act for key, act in KEYS.items() if act in (Press(Command.PAUSE), Press(Command.QUIT))}
 
 
 def shoot(
@@ -53,10 +51,18 @@ def shoot(
         recorder = stack.enter_context(
             recording(take, profile.name, timelapse.title, timelapse.limits, patient=virtual)
         )
-        keys = None if descriptor is None else stack.enter_context(Keyboard(descriptor, PlayKeys(SHOOT_KEYS)))
+        keys = None if descriptor is None else stack.enter_context(Keyboard(descriptor, PlayKeys(RUN_KEYS)))
         watchers: list[Sink] = [each for each in (recorder, keys) if each is not None]
         shooting = Shooting(
-            timelapse, profile, time, journal, lambda line: view.say(line), watchers, keys, asked.in_doubt
+            timelapse,
+            profile,
+            time,
+            journal,
+            lambda line: view.say(line),
+            watchers,
+            keys,
+            asked.in_doubt,
+            inputs=[] if virtual else open_stop_inputs(stack, profile, time),
         )
         view = ShootView(
             timelapse.title,
@@ -66,6 +72,7 @@ def shoot(
             options.json,
             bool(keys),
             take_words(recorder),
+            shooting.shown,
         )
         tally = Tally(lambda: shooting.begin)
         watchers += [tally, view]
@@ -112,6 +119,8 @@ def _troubles(shooting: Shooting) -> list[str]:
         lines.append(f"No picture of frames {_numbers(progress.lost)}")
     if progress.doubtful:
         lines.append(f"Frames {_numbers(progress.doubtful)} may be missing: nobody can say whether they were shot")
+    if progress.stopped:
+        lines.append(f"Frames {_numbers(progress.stopped)} were exposing when a STOP halted the axes: look at them")
     if progress.late:
         lines.append(f"{progress.late} frames were late, by {progress.latest:.2f} s at most")
     if progress.refused:
@@ -139,6 +148,7 @@ def _report(ended: Ended, shooting: Shooting, journal: Journal, tally: Tally) ->
         "missed": progress.missed,
         "lost": progress.lost,
         "doubtful": progress.doubtful,
+        "stopped": progress.stopped,
         "late": progress.late,
         "latest": round(progress.latest, 6),
         "refused": progress.refused,

@@ -20,6 +20,7 @@ from teleop.planner.drive import SLACK, Drive
 from teleop.planner.solver import PositionSolver
 
 LONGEST = 5000.0  # s that Ruckig is asked for; it fails from 7600 on (planning.md, "Ruckig traps")
+SLOWEST = 1e-3  # share of V: Ruckig needs more than 0
 LATE = 1e-9  # s, of ticks added up
 
 
@@ -54,7 +55,7 @@ class Recall:
 
     def goes_on(self, wish: Goto, seconds: float) -> bool:
         """Whether `wish` is this recall, a tick older: arrival repeated unchanged, or counted down with the clock."""
-        if wish.position != self.wish.position:
+        if wish.position != self.wish.position or wish.velocity != self.wish.velocity:
             return False
         if wish.arrive is None or self.wish.arrive is None:
             return wish.arrive is self.wish.arrive
@@ -84,7 +85,7 @@ def _plan(asked: Sequence[tuple[Drive, Goto]], arrive: float | None) -> dict[Axi
     trajectory = PositionSolver(len(drives)).solve(
         [drive.state for drive in drives],
         [State(target) for target in targets],
-        [drive.velocity for drive in drives],
+        [_fastest(drive, wish) for drive, wish in asked],
         [drive.guard[0] for drive in drives],
         [drive.guard[1] for drive in drives],
         minimum_duration=arrive,
@@ -92,6 +93,13 @@ def _plan(asked: Sequence[tuple[Drive, Goto]], arrive: float | None) -> dict[Axi
     if trajectory is None or not _within(trajectory, drives):
         return {}
     return {drive.axis: Recall(wish, trajectory, i, targets[i]) for i, (drive, wish) in enumerate(asked)}
+
+
+def _fastest(drive: Drive, wish: Goto) -> float:
+    """What it may go, unit/s; one that is faster than was asked for is braked to that first."""
+    if wish.velocity is None or drive.outside:
+        return drive.velocity
+    return min(drive.velocity, max(wish.velocity, SLOWEST * drive.velocity))
 
 
 def _drift(asked: Sequence[tuple[Drive, Goto]], targets: Sequence[float], arrive: float) -> dict[Axis, Recall]:

@@ -1,7 +1,7 @@
 """The guard stop: the fastest jerk-limited way to rest, in closed form.
 
 The live planner may try anything as long as the state it ends in can still be stopped inside the soft limits; this
-module says how far such a stop reaches and performs it. It is plain arithmetic on purpose: it is the e-stop and what
+module says how far such a stop reaches and performs it. It is plain arithmetic on purpose: it is STOP and what
 remains when a solver fails, so it has no case that can fail. From (v, a) the acceleration falls at -J to -peak, holds
 there if peak is the limit A, and returns to 0 at +J; mirrored when the velocity that is left once the acceleration has
 gone, v + a|a|/2J, is negative.

@@ -1,6 +1,6 @@
 """Whether an input may move anything: what stands between a hand's device and the operator's rules.
 
-An input begins untrusted, and is again after a trouble and after an e-stop. It is trusted once it has been seen
+An input begins untrusted, and is again after a trouble and after a STOP. It is trusted once it has been seen
 centred: a stick that was held over while nobody listened moves nothing when somebody does. One with an enable button
 then waits for that to be pressed, and pressed anew: a button that was held all along is a button that is stuck.
 """
@@ -11,7 +11,7 @@ from teleop.motion import Axis
 from teleop.sources.inputs import Held, Input
 
 CENTRE = "let it go to its centre"
-ENABLE = "press its enable button"
+ENABLE = "hold its enable button"
 OFF = "hands are off"
 JITTER = 0.002  # of a slider's way, which is no move: less than a step of eight bits, more than one of ten
 

@@ -1,7 +1,7 @@
 """A sequence with a hand on it: pause, resume, faster, slower, from key to key, go, stop and trim, while it plays.
 
 The keys only ask; what becomes of it, and when, is the playback's, and where an axis is trimmed to, `Trimming`'s. A
-stop, and the e-stop of any device, ends the run as fast as the axes may: off the path there is nothing to go on with.
+STOP is the affair of the `StopGuard` above it, which then has the conductor suspend all of this and resume it.
 The conductor also looks on as a sink, because only what is raised there ends a run without losing a tick.
 """
 
@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from teleop.motion import Act, Demand, Follow, Halt, Motion, State, Tick
+from teleop.motion import Act, Axis, Demand, Follow, Halt, Motion, State, Tick
 from teleop.ports import Interrupted
 from teleop.sources.inputs import Command, Input, Press
 from teleop.sources.run_status import Hint, RunStatus
@@ -22,9 +22,9 @@ PACE = 0.1  # of the written speed, by which a key changes it
 LOOK = 0.05  # s between two looks at the keys while nothing moves
 HINTS = (Hint("space", "STOP"), Hint("p", "pause"), Hint("q", "end"), Hint("- +", "speed"), Hint("< >", "key"))
 WAITING_HINTS = (Hint("enter", "goes on"), Hint("space", "STOP"), Hint("q", "end"))
-HELP = "space pause  - + speed  < > key  q stop"
-WAITING_HELP = "enter goes on  q stop"
-ARMED_HELP = "enter starts it now  q stop"
+HELP = "space STOP  p pause  - + speed  < > key  q end"
+WAITING_HELP = "enter goes on  space STOP  q end"
+ARMED_HELP = "enter starts it now  space STOP  q end"
 TRIM_HELP = "arrows hjkl [ ] ( ) trim  v its speed  z to 0  w write"
 
 
@@ -43,6 +43,7 @@ class Conductor:
     ) -> None:
         self._sequence, self._keys, self._trimming, self._keep = sequence, keys, trimming, keep
         self._note = self._stopped = ""
+        self._pausing = False  # for a lost input
         self._noted = sequence.phase  # when that was
         playback = sequence.playback
         self._asked: Mapping[Command, Callable[[float], None]] = {
@@ -62,13 +63,14 @@ class Conductor:
             pace = "paused" if playback.chosen == 1 else f"paused, goes on at {pace}"
         line = ARMED_HELP if self._sequence.phase is Phase.ARMED else f"{pace}  {HELP}"
         line = WAITING_HELP if self._sequence.waiting else line
+        line = f"{self._sequence.missed}: {line}" if self._sequence.missed else line
         line = playback.refusal or self._note or (line if self._keys else "no terminal: Ctrl-C stops")
         return line if self._trimming is None else f"{line}\n{self._trim_note(self._trimming)}"
 
     def status(self, now: float) -> RunStatus:
         """What a view shows of the run at `now`; for the control thread."""
         status, playback = self._sequence.status(now), self._sequence.playback
-        note = playback.refusal or self._note
+        note = playback.refusal or self._note or self._sequence.missed
         if self._trimming:
             note = f"{note}\n{self._trim_note(self._trimming)}".strip()
         hints = HINTS if self._keys else ()
@@ -79,6 +81,41 @@ class Conductor:
     def start(self, now: float, motion: Motion) -> None:
         self._sequence.start(now, motion)
         self._noted = self._sequence.phase
+
+    @property
+    def resumable(self) -> bool:
+        return not self._sequence.flies
+
+    @property
+    def pauses(self) -> bool:
+        return self._sequence.travels
+
+    busy, quits = False, True  # nothing that it has begun has to be ended
+
+    def pause(self, now: float) -> bool | None:
+        playback = self._sequence.playback
+        if not self._pausing and not playback.paused:
+            self._pausing = True
+            playback.pause(now)
+        elif playback.paused or not playback.changing(now):
+            self._pausing = False
+            return playback.paused
+        return None
+
+    def suspend(self, now: float) -> None:
+        self._pausing = False
+        self._sequence.suspend(now)
+        if self._trimming:
+            self._trimming.halt()
+
+    def linger(self, now: float) -> Sequence[Act]:  # noqa: ARG002 - nothing has been begun
+        return ()
+
+    def resume(self, now: float, motion: Motion) -> None:
+        offsets: Mapping[Axis, State] = self._trimming.offsets if self._trimming else {}
+        bare = {axis: State(each.position - offsets.get(axis, State(0.0)).position) for axis, each in motion.items()}
+        self._note = ""
+        self._sequence.resume(now, bare)
 
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         self._hear(now)
@@ -131,8 +168,6 @@ class Conductor:
         """Whether it was for the trim. On a device, slower and faster are; the keys have them for the move."""
         by_keys = self._keys is not None and name == self._keys.name
         match press.command:
-            case Command.STOP:
-                self._stopped = f"E-STOP by {name}"
             case Command.RECENTER:
                 trimming.release(name)
             case Command.RANGE:

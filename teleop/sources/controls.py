@@ -33,6 +33,7 @@ class Said:
 
     deflections: dict[Axis, float] = field(default_factory=dict)
     steps: dict[Axis, float] = field(default_factory=dict)
+    click: dict[Axis, float] = field(default_factory=dict)  # what the longest of the steps is worth
     positions: dict[Axis, float] = field(default_factory=dict)
     dial: float = 0.0
     presses: list[Press] = field(default_factory=list)
@@ -123,9 +124,10 @@ class Wheel:
             self._at = sample.value
         worth = (self._section.fine if fine else None) or self._coarse
         if self._steps and self._section.axis is not None:
-            sign = -1 if self._section.invert else 1
-            moved = sign * self._section.speed * worth * sum(count for _, count in clicks)
-            said.steps[self._section.axis] = said.steps.get(self._section.axis, 0.0) + moved
+            sign, click, axis = -1 if self._section.invert else 1, self._section.speed * worth, self._section.axis
+            moved = sign * click * sum(count for _, count in clicks)
+            said.steps[axis] = said.steps.get(axis, 0.0) + moved
+            said.click[axis] = max(said.click.get(axis, 0.0), click if moved else 0.0)
             return
         self._recent.extend(clicks)
         while self._recent and self._recent[0][0] <= now - CLICKS_WITHIN:

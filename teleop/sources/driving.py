@@ -15,7 +15,8 @@ from collections.abc import Callable, Mapping, Sequence
 from teleop.motion import STICKS, Axis, Cruise, Goto, Limits, Motion, Wish
 from teleop.sources.arming import Arming
 from teleop.sources.handling import SticksSection
-from teleop.sources.recall import Jog, Recall
+from teleop.sources.jog import Jog
+from teleop.sources.recall import Recall
 from teleop.sources.steering import Steering
 
 LATE = 0.05  # s after which a recall is said to have been late
@@ -56,8 +57,8 @@ class Driving:
         `seconds` since the last time; `share` is what full deflection is of an axis's velocity.
         """
         self._merge()
-        self._take_steps(motion)
-        sent = self._sent(now, motion)
+        self._take_steps(now, motion)
+        sent = self._sent(now, motion, share)
         demand: dict[Axis, Wish] = self._held()
         for axis, steering in self._steering.items():
             deflection = self.deflections.get(axis, 0.0)
@@ -99,15 +100,16 @@ class Driving:
         if self.recall and (axis := self.deflected):
             self._end_recall(f"{self.drivers[axis].name} moved {axis}")
 
-    def _take_steps(self, motion: Motion) -> None:
+    def _take_steps(self, now: float, motion: Motion) -> None:
         """Steps, and sliders that were moved: both send an axis somewhere, unless a stick has it."""
         for hand in self._hands:
             for axis, units in hand.said.steps.items():
-                if units and self._may_send(hand, axis) and self._jog.step(axis, units, motion[axis], hand):
+                click = hand.said.click.get(axis, 0.0)
+                if units and self._may_send(hand, axis) and self._jog.step(axis, units, motion[axis], hand, now, click):
                     self._say(f"{axis} is at its soft limit")
             for axis, share in hand.slid().items():
                 if self._may_send(hand, axis):
-                    self._jog.slide(axis, share, hand)
+                    self._jog.slide(axis, share, hand, now)
 
     def _may_send(self, hand: Arming, axis: Axis) -> bool:
         if hand.said.trouble:
@@ -124,8 +126,8 @@ class Driving:
             return True
         return False
 
-    def _sent(self, now: float, motion: Motion) -> dict[Axis, Wish]:
-        """The axes that are on their way to a position, and there."""
+    def _sent(self, now: float, motion: Motion, share: float) -> dict[Axis, Wish]:
+        """The axes that are on their way to a position, and there; `share` is the speed range, for steps."""
         recall = self.recall
         if recall and not recall.asker.trusted:
             self._end_recall(f"{recall.asker.name}: {recall.asker.waits_for}")
@@ -133,7 +135,7 @@ class Driving:
             late = now - recall.begun - recall.seconds
             slow = f" in {late + recall.seconds:.1f} s: its axes go no faster" if late > LATE else ""
             self._end_recall(f"{recall.title} reached{slow}", reached=True)
-        return self.recall.wishes() if self.recall else self._jog.wishes(motion)
+        return self.recall.wishes() if self.recall else self._jog.wishes(now, motion, share)
 
     def _end_recall(self, why: str, reached: bool = False) -> None:
         assert self.recall is not None

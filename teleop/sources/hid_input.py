@@ -9,25 +9,28 @@ Reading here never waits: a thread of the reader's does all that may.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 
+from teleop.sources.enable_rules import enable_trouble
 from teleop.sources.handling import DEAD_ZONE, EXPO
 from teleop.sources.hid_backend import Hidapi, HidBackend, described
 from teleop.sources.hid_reader import Claims, HidReader, Plugged
 from teleop.sources.hid_state import HidState
-from teleop.sources.inputs import Held
-from teleop.sources.inputs_section import InputSection
+from teleop.sources.inputs import Command, Held
+from teleop.sources.inputs_section import DIRECTIONS, ActionSection, ControlSection, InputSection
 from teleop.sources.mapping import Mapped
-from teleop.sources.pads import Chosen, load_pad, shipped
+from teleop.sources.pads import Chosen, load_pad, may_stop, shipped
 
 SILENT = 0.2  # s without a report, after which a device is not trusted
+RUN_COMMANDS = {Command.STOP, Command.CLEAR, Command.PAUSE, Command.GO, Command.QUIT}  # of a run that moves by itself
 
 
 class HidInput:
     """The device that `section` stands for, once `start`ed or entered.
 
+    With `stop_only` no control counts but those that stop a run and go on with it, so its sticks cannot trouble it.
     `dead_zone` and `expo` are those of controls that have none of their own, None for what a hand at a stick wants.
     Raises DocumentError when the section's pad cannot be used.
     """
@@ -41,14 +44,17 @@ class HidInput:
         claims: Claims | None = None,
         dead_zone: float | None = None,
         expo: float | None = None,
+        stop_only: bool = False,
     ) -> None:
         if section.pad:
             load_pad(section.pad)
-        self._section = section
+        self._section, self._stop_only = section, stop_only
         self._dead_zone = DEAD_ZONE if dead_zone is None else dead_zone
         self._expo = EXPO if expo is None else expo
         self._reader = HidReader(section, backend, now, claims or Claims(), self._mapped)
         self._plugged: Plugged | None = None  # the one that was read last
+        self._has_stop = may_stop(section)
+        self._misnamed = ""  # why its enable cannot be one
         self._judged: set[str] = set()  # the sticks of which it has been said that they were not in their middle
 
     @property
@@ -71,11 +77,15 @@ class HidInput:
         self.close()
 
     def read(self, now: float) -> Held:
+        held = self._read(now)
+        return replace(held, stop=self._stop_trouble(now))
+
+    def _read(self, now: float) -> Held:
         plugged = self._reader.plugged
         notes: list[str] = []
         if plugged is not self._plugged:
             last_words = self._plugged and self._look(self._plugged, now)
-            self._plugged, self._judged = plugged, set()
+            self._plugged, self._judged, self._misnamed = plugged, set(), self._enable_trouble(plugged)
             if plugged is not None and plugged.missing and not plugged.chosen.guessed:
                 notes.append(
                     f"{self.name}: it has no {', '.join(plugged.missing)}; what is mapped to that does nothing"
@@ -90,6 +100,22 @@ class HidInput:
             return Held(presses=held.presses, enabled=self._off, trouble=f"{self.name}: {trouble}", notes=notes)
         return replace(held, notes=notes)
 
+    def _stop_trouble(self, now: float) -> str | None:
+        """`Held.stop`: of a device that is gone as it was while it was there, None before it has been."""
+        plugged = self._plugged
+        if plugged is None:
+            known = self._has_stop and (self._reader.last is not None or self._reader.refused)
+            return self._absent if known else None
+        stops, state = plugged.mapped.stops, plugged.state
+        self._has_stop = bool(stops)
+        if not stops:
+            return None
+        if stops <= set(plugged.missing):
+            return f"{self.name}: it has no {', '.join(sorted(stops))}"
+        if not plugged.on_change and now - state.last > SILENT:
+            return f"{self.name}: has not reported for {SILENT:g} s"
+        return ""
+
     @property
     def _off(self) -> bool | None:
         return False if self._section.enable else None
@@ -100,8 +126,15 @@ class HidInput:
             return f"{self.name}: {self._reader.refused}"
         return f"{self.name}: unplugged" if self._reader.last else f"{self.name}: not plugged in"
 
+    def _enable_trouble(self, plugged: Plugged | None) -> str:
+        if plugged is None or self._stop_only:
+            return ""
+        return enable_trouble(self._section.enable, plugged.state.names, plugged.chosen.controls)
+
     def _mapped(self, chosen: Chosen, state: HidState) -> Mapped:
         enable = self._section.enable
+        if self._stop_only:
+            return Mapped(_run_controls(chosen.controls), relative=state.relative)
         return Mapped(chosen.controls, enable, state.relative, self._dead_zone, self._expo, guessed=chosen.guessed)
 
     @staticmethod
@@ -110,6 +143,8 @@ class HidInput:
 
     def _trouble(self, plugged: Plugged, held: Held, now: float) -> str:
         state = plugged.state
+        if self._misnamed:
+            return self._misnamed
         deflected = bool(held.dial) or any(held.deflections.values())
         if not plugged.mapped.names & state.values.keys():
             return "has not reported yet"
@@ -132,6 +167,21 @@ class HidInput:
             yield f"{self.name}: {names} was not in its middle and is left out; let it go and plug it in again"
 
 
+def _run_controls(controls: Mapping[str, ControlSection]) -> dict[str, ControlSection]:
+    """Those that stop a run that moves by itself, and go on with it."""
+    kept = {}
+    for name, control in controls.items():
+        update: dict[str, ActionSection | None] = {key: _run_part(getattr(control, key)) for key in DIRECTIONS}
+        if (part := _run_part(control)) or any(update.values()):
+            update |= {} if part else dict.fromkeys(("press", "hold", "axis"))
+            kept[name] = control.model_copy(update=update)
+    return kept
+
+
+def _run_part(action: ActionSection | None) -> ActionSection | None:
+    return action if action is not None and {action.press, action.hold} & RUN_COMMANDS else None
+
+
 @contextmanager
 def open_inputs(
     sections: Sequence[InputSection],
@@ -140,6 +190,7 @@ def open_inputs(
     *,
     dead_zone: float | None = None,
     expo: float | None = None,
+    stop_only: bool = False,
 ) -> Iterator[list[HidInput]]:
     """The devices of a profile, started, in its order; without sections any joystick.
 
@@ -149,7 +200,7 @@ def open_inputs(
     shipped()  # read now: once the loop runs nothing shall keep it waiting
     with ExitStack() as stack:
         inputs = [
-            HidInput(section, devices, now, claims=claims, dead_zone=dead_zone, expo=expo)
+            HidInput(section, devices, now, claims=claims, dead_zone=dead_zone, expo=expo, stop_only=stop_only)
             for section in sections or [InputSection()]
         ]
         yield [stack.enter_context(each) for each in inputs]

@@ -18,8 +18,8 @@ from teleop.motion import Axis
 class Command(StrEnum):
     """What a button or a key asks for; `Press.number` says which preset, `Press.words` what a device is told."""
 
-    STOP = "stop"  # the latched e-stop
-    CLEAR = "clear"  # of the e-stop
+    STOP = "stop"  # latched
+    CLEAR = "clear"  # of the STOP
     ENABLE = "enable"  # for inputs that cannot be held: on, and off again
     SLOWER = "slower"
     FASTER = "faster"
@@ -34,10 +34,10 @@ class Command(StrEnum):
     ENGAGE = "engage"  # the drone
     DISENGAGE = "disengage"
     QUIT = "quit"
-    PAUSE = "pause"  # of a sequence, and on again
+    PAUSE = "pause"  # of a run, on its path, and on again
     NEXT = "next"  # keyframe
     PREVIOUS = "previous"
-    GO = "go"  # for a sequence that waits for it
+    GO = "go"  # for a run that waits for it
     KEEP = "keep"  # the trim of a sequence, in a file
 
 
@@ -56,7 +56,8 @@ class Held:
     of the way between its soft limits; `dial` is -1..1 for the gimbal's own dial. `enabled` is
     whether the enable button is held, None for an input that has none. `trouble` says why it cannot be trusted now, ""
     when it can: unplugged, silent for 0.2 s. What it held before is then no longer true. `notes` are lines that the
-    operator is to read once.
+    operator is to read once. `click` is what one step of `steps` is worth, in units; without it they are one step.
+    `stop` is why a STOP of this input does not count now, "" where it does, None for an input that has none.
     """
 
     deflections: Mapping[Axis, float] = field(default_factory=dict)
@@ -67,6 +68,8 @@ class Held:
     trouble: str = ""
     positions: Mapping[Axis, float] = field(default_factory=dict)
     notes: Sequence[str] = ()
+    click: Mapping[Axis, float] = field(default_factory=dict, compare=False)
+    stop: str | None = field(default=None, compare=False)
 
 
 class Input(Protocol):

@@ -117,13 +117,15 @@ class Keyboard:
     def read(self, now: float) -> Held:  # noqa: ARG002 - keys are pressed, not held
         presses: list[Press] = []
         steps: dict[Axis, float] = {}
+        click: dict[Axis, float] = {}
         while self._asked:
             asked = self._asked.popleft()
             if isinstance(asked, Press):
                 presses.append(asked)
             else:
                 steps[asked.axis] = steps.get(asked.axis, 0.0) + asked.units
-        return Held(steps=steps, presses=presses, trouble=self._closed)
+                click[asked.axis] = max(click.get(asked.axis, 0.0), abs(asked.units))
+        return Held(steps=steps, presses=presses, trouble=self._closed, click=click)
 
     def write(self, tick: Tick) -> None:  # noqa: ARG002 - only whether anybody is left to see it
         """Raises LinkError when the terminal has closed."""

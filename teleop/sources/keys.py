@@ -1,7 +1,7 @@
 """Which key asks for what, and how the bytes of a terminal become keys.
 
 A terminal tells of presses and never of releases, so no key can be held: keys move an axis on by steps. The space bar
-is the e-stop wherever it comes, in the middle of a sequence too: nothing typed before it may swallow it. What a drone
+is STOP wherever it comes, in the middle of a sequence too: nothing typed before it may swallow it. What a drone
 is told is a whole word and Enter, so that no slip of a finger starts a motor.
 """
 
@@ -82,7 +82,7 @@ DRONE_WORDS: Mapping[str, Act] = {
 """What can be spelled after the key that begins a word."""
 
 HELP: Sequence[tuple[str, str]] = (
-    ("space", "STOP"),
+    ("space", "STOP (no emergency stop: motors stay on)"),
     ("c", "clear the STOP"),
     ("arrows", "pan, tilt by 1 deg; shift 10, ctrl 0.1"),
     ("h j k l", "pan, tilt by 0.1 deg; H J K L by 10"),

@@ -12,6 +12,7 @@ from teleop.sources.controls import Button, Lever, Reader, Said, Stick, Wheel
 from teleop.sources.hid_state import Change, Sample
 from teleop.sources.inputs import Held
 from teleop.sources.inputs_section import DIRECTIONS, ControlSection
+from teleop.sources.pads import stops
 
 
 class Mapped:
@@ -19,8 +20,8 @@ class Mapped:
 
     `relative` are the controls that the descriptor calls so, `dead_zone` and `expo` those of controls without their
     own. `guessed`: nobody wrote this mapping, so that what does not rest in its middle is no stick and is left out.
-    `names` are the controls that it needs, `watched` those whose every change counts, `counting` whether those that
-    the descriptor describes wrongly report counts.
+    `names` are the controls that it needs, `stops` those that are a STOP, `watched` those whose every change counts,
+    `counting` whether those that the descriptor describes wrongly report counts.
     """
 
     def __init__(
@@ -43,6 +44,7 @@ class Mapped:
         others = {
             name: _reader(section, name in relative) for name, section in flat.items() if name not in self._sticks
         }
+        self.stops = frozenset(name for name, section in flat.items() if stops(section))
         self._readers: Mapping[str, Reader] = {**self._sticks, **others}
         buttons = {name for name in (enable, *self._fine.values()) if name}
         self.names = frozenset(self._readers) | buttons
@@ -72,7 +74,15 @@ class Mapped:
                 fine = _pressed(values, self._fine[name])
                 reader.read(sample, changed.get(name, ()), now, fine, said)
         enabled = None if self._enable is None else _pressed(values, self._enable)
-        return Held(said.deflections, said.steps, said.dial, said.presses, enabled, positions=said.positions)
+        return Held(
+            said.deflections,
+            said.steps,
+            said.dial,
+            said.presses,
+            enabled,
+            positions=said.positions,
+            click=said.click,
+        )
 
 
 def _pressed(values: Mapping[str, Sample], name: str | None) -> bool:

@@ -1,6 +1,6 @@
 """An operator with inputs in the hand: what several devices say becomes one demand, by rules that hold for all of them.
 
-What moves is the affair of `Driving`; here is what is pressed, and what overrules all motion: the e-stop, latched, and
+What moves is the affair of `Driving`; here is what is pressed, and what overrules all motion: STOP, latched, and
 the end. An input that is not trusted (see `arming`) moves nothing, but its stop always counts.
 
 Where the axes are commanded to be comes from the loop: the operator also looks on as a sink. What an operator is to
@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from teleop.motion import STICKS, Act, Action, Axis, Demand, Dialled, Goto, Halt, Limits, Motion, Tick, Told, Wish
 from teleop.ports import Source
-from teleop.sources.arming import CENTRE, Arming
+from teleop.sources.arming import Arming
 from teleop.sources.driving import Driving
 from teleop.sources.handling import SticksSection
 from teleop.sources.inputs import Command, Input, Press
@@ -31,7 +31,7 @@ CENTRED_STICK = Goto(0.0)  # of a drone: nothing moves, but somebody is there
 class Operator:
     """`inputs` in the order of their priority, `recall` in s: how long a preset takes.
 
-    `beneath` drives the axes that no hand does, and its end is the run's; after an e-stop it is taken for a hand, and
+    `beneath` drives the axes that no hand does, and its end is the run's; after a STOP it is taken for a hand, and
     must be seen at rest once.
     """
 
@@ -52,6 +52,7 @@ class Operator:
         self._now = -math.inf
         self._range = sticks.start_range - 1
         self._stopped = self._done = self._recording = False
+        self.reason = ""  # that the run is stopped, for its report if it ends now
         self._hands_on = self._beneath_trusted = True
         self._dial = 0.0
         self._follow = ""
@@ -147,14 +148,15 @@ class Operator:
 
     def _stop(self, hand: Arming, _press: Press) -> None:
         if not self._stopped:
-            self.say(f"E-STOP by {hand.name}: nothing moves until it is cleared")
+            self.say(f"STOP by {hand.name}: nothing moves until it is cleared")
+            self.reason = f"ended while stopped: STOP by {hand.name}"
         self._stopped = True
         self._distrust_all()
 
     def _clear(self, _hand: Arming, _press: Press) -> None:
         if self._stopped:
-            self.say(f"e-stop cleared: with every stick, {CENTRE} first")
-            self._stopped = False
+            self.say("STOP cleared: center all sticks")
+            self._stopped, self.reason = False, ""
             self._distrust_all()
 
     def _enable(self, _hand: Arming, _press: Press) -> None:
@@ -187,7 +189,7 @@ class Operator:
         """Begin to take the axes somewhere, if the hand that asks may."""
         held = [each.said.deflections for each in self._hands if each.trusted]
         deflected = any(value for said in held for axis, value in said.items() if axis not in STICKS)
-        refusal = "the e-stop is not cleared" if self._stopped else hand.waits_for
+        refusal = "STOP is not cleared" if self._stopped else hand.waits_for
         refusal = refusal or ("let the stick go first" if deflected else "")
         if refusal:
             self.say(f"{title} refused: {refusal}")
@@ -214,7 +216,7 @@ class Operator:
 
     def _tell_drone(self, word: str) -> None:
         if word == "engage" and self._stopped:
-            self.say("drone: not engaged: the e-stop is not cleared")
+            self.say("drone: not engaged: STOP is not cleared")
         else:
             self._actions.append(Told(f"{DRONE}{word}"))
 

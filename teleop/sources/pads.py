@@ -3,7 +3,7 @@
 The guess for a pad nobody described: the left stick (X, Y) is pan and tilt, the right one (Rx and Ry, or Z and Rz,
 whichever rests in its middle) roll and focus; a joystick's twist (Rz without a Z) is roll. The puck of a multi-axis
 controller turns as the head is to turn. HID counts Y downwards, and up is to be up. Button 1, a joystick's trigger and
-the first under a thumb, is the e-stop, which does no harm when pressed unasked; 2 clears it, 3 records, 4 recentres, 5
+the first under a thumb, is STOP, which does no harm when pressed unasked; 2 clears it, 3 records, 4 recentres, 5
 and 6 (the shoulders) are slower and faster. The hat recalls presets 1 to 4 and, held, stores them.
 """
 
@@ -83,6 +83,20 @@ def fits(device: DeviceSection, info: DeviceInfo) -> bool:
         and device.product in (None, info.product_id)
         and (device.name is None or fnmatch(info.name.casefold(), device.name.casefold()))
     )
+
+
+def stops(control: ControlSection) -> bool:
+    """Whether it is a STOP, in one of its directions maybe."""
+    parts = [control, *(getattr(control, direction) for direction in DIRECTIONS)]
+    return any(Command.STOP in (part.press, part.hold) for part in parts if part is not None)
+
+
+def may_stop(section: InputSection) -> bool:
+    """Whether the device that is plugged in for it may have a STOP: by what is written, else that is the device's."""
+    if not section.pad and not section.controls:
+        return True
+    controls = {**(load_pad(section.pad).controls if section.pad else {}), **section.controls}
+    return any(stops(control) for control in controls.values() if control is not None)
 
 
 def choose(section: InputSection, info: DeviceInfo, names: Collection[str]) -> Chosen:

@@ -16,6 +16,7 @@ class Phase(Enum):
     POST = auto()  # and until the camera has answered
     MOVE = auto()
     FINISH = auto()  # until the journal says so
+    STOPPED = auto()  # the axes are halted, and no frame has been begun
     OVER = auto()
 
 
@@ -32,6 +33,8 @@ class Event(Enum):
     STAY = auto()
     LAST = auto()
     WRITTEN = auto()
+    STOP = auto()
+    RESTART = auto()
 
 
 TRANSITIONS: Mapping[tuple[Phase, Event], Phase] = {
@@ -52,4 +55,10 @@ TRANSITIONS: Mapping[tuple[Phase, Event], Phase] = {
     (Phase.POST, Event.LAST): Phase.FINISH,
     (Phase.MOVE, Event.ARRIVED): Phase.SETTLE,
     (Phase.FINISH, Event.WRITTEN): Phase.OVER,
+    # A frame whose shutter was pressed is seen to its end; all else stops at once, and begins again with the approach.
+    **{
+        (phase, Event.STOP): Phase.STOPPED
+        for phase in (Phase.APPROACH, Phase.SETTLE, Phase.WAIT, Phase.PAUSED, Phase.PREFOCUS, Phase.POST, Phase.MOVE)
+    },
+    (Phase.STOPPED, Event.RESTART): Phase.APPROACH,
 }

@@ -1,6 +1,6 @@
 """Which key asks what of a sequence that plays, and how the bytes of a terminal become keys.
 
-The space bar pauses here: the move stays on its path, from where it can go on. Where a sequence may be trimmed, the
+The space bar is STOP, as everywhere; `p` pauses, which keeps the move on its path. Where a sequence may be trimmed, the
 keys that move an axis on are those of `teleop live`, and only `<` and `>` go from key to key.
 """
 
@@ -10,12 +10,13 @@ from collections.abc import Iterator, Mapping
 
 from teleop.motion import Axis
 from teleop.sources.inputs import Command, Press
-from teleop.sources.keys import ARROWS, MODIFIED, Act, Step
+from teleop.sources.keys import ARROWS, MODIFIED, STOP, Act, Step
 from teleop.sources.keys import KEYS as LIVE_KEYS
 
 RIGHT, LEFT = ("\x1b[C", "\x1bOC"), ("\x1b[D", "\x1bOD")
 KEYS: Mapping[str, Act] = {
-    " ": Press(Command.PAUSE),
+    STOP: Press(Command.STOP),
+    "c": Press(Command.CLEAR),
     "p": Press(Command.PAUSE),
     "-": Press(Command.SLOWER),
     "+": Press(Command.FASTER),
@@ -40,6 +41,9 @@ TRIM_KEYS: Mapping[str, Act] = {
     "z": Press(Command.RECENTER),
     "w": Press(Command.KEEP),
 }
+_RUN = (Command.STOP, Command.CLEAR, Command.PAUSE, Command.GO, Command.QUIT)
+RUN_KEYS = {key: act for key, act in KEYS.items() if isinstance(act, Press) and act.command in _RUN}
+FLOWN_KEYS = {key: act for key, act in KEYS.items() if key in (STOP, "p", "q")}  # a drone's move has one speed
 
 
 class PlayKeys:

@@ -140,6 +140,15 @@ class Playback:
         self._pace = steady(time, 0.0, now)
         return self.at(now)
 
+    def freeze(self, now: float) -> None:
+        """Stand still from `now` on at the place that was asked for last: the axes have been stopped off the path.
+
+        They are to be brought back to it, at rest, before `resume`.
+        """
+        self._search = self._found = None
+        self.refusal = ""
+        self._pace = steady(self.time(min(now, self._read)), 0.0, now)
+
     def go(self, now: float) -> None:
         """On from where it was held, at once: from rest to rest no speed is too much of a change."""
         self._search = self._found = None

@@ -14,8 +14,9 @@ class Progress:
     """`shot` is how many frames are in the camera, the frames of an earlier process included.
 
     `missed` are slots that passed without a picture, `lost` the frames that have none for it, `doubtful` those of which
-    nobody can say. `late` is how many were shot after their slot's tick, `latest` by how much at most, in s. `refused`
-    is how often the camera would not, `unsettled` how many frames were shot before the axes were measured to be still.
+    nobody can say, `stopped` those that were exposing when a STOP halted axes that moved. `late` is how many were shot
+    after their slot's tick, `latest` by how much at most, in s. `refused` is how often the camera would not,
+    `unsettled` how many frames were shot before the axes were measured to be still.
     """
 
     slots: Slots
@@ -24,6 +25,7 @@ class Progress:
     missed: int = 0
     lost: list[int] = field(default_factory=list)
     doubtful: list[int] = field(default_factory=list)
+    stopped: list[int] = field(default_factory=list)
     late: int = 0
     latest: float = 0.0
     refused: int = 0

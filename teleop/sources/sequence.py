@@ -14,14 +14,15 @@ from concurrent.futures import Executor
 from enum import Enum, auto
 
 from teleop.loop import KEEP_ALIVE
-from teleop.motion import Act, Action, Axis, Demand, Follow, Limits, Motion, Told
+from teleop.motion import Act, Action, Axis, Demand, Follow, Limits, Motion, State, Told
 from teleop.planner.ease import ease
 from teleop.planner.move import Move
+from teleop.ports import DeviceError
 from teleop.sources.cues import Cue, Wait
 from teleop.sources.playback import Playback
 from teleop.sources.run_status import NextCue, NextKey, RunStatus
 from teleop.sources.sequence_file import Performance
-from teleop.sources.staging import Staging
+from teleop.sources.staging import Staging, Trigger
 
 LASTING = ((Action.RECORD, Action.STOP), (Action.FOCUS, Action.END_FOCUS))  # what begins it, and ends it
 EASE_SHARE = 0.5  # of each axis's velocity, acceleration and jerk: on the way to the start nothing is in a hurry
@@ -33,6 +34,7 @@ class Phase(Enum):
     PREROLL = auto()
     ARMED = auto()  # for the trigger
     PLAYING = auto()
+    REJOINING = auto()  # back to the path, after a STOP
     RETURNING = auto()  # back to one
     OVER = auto()
 
@@ -66,6 +68,9 @@ class SequenceSource:
         self._way = Move({})  # what is eased along
         self._way_begin = self._until = math.inf  # and when the phase is over, unless that is not known
         self._gone = False  # the operator said go
+        self._prepared = 0  # the pass for which the settings have been made
+        self.missed = ""  # why the trigger can no longer come: it went by while the run was stopped
+        self._suspended = False
         self.waiting = False  # for that, in the middle of the move
         self._began = math.inf  # when this pass did
         self.phase = Phase.EASING
@@ -108,6 +113,31 @@ class SequenceSource:
         coming = min(self._move.next_motion(self.playback.time(now)), self._cues[0].at if self._cues else math.inf)
         return self.playback.when(min(coming, self.duration), now)
 
+    @property
+    def travels(self) -> bool:
+        """Whether it is on the move itself, and not on a way to it or from it."""
+        return self.phase is Phase.PLAYING
+
+    def suspend(self, now: float) -> None:
+        """The axes are stopped from `now` on, off the path; the move stands still where it is."""
+        self._suspended = True
+        if self.phase is Phase.PLAYING:
+            self.playback.freeze(now)
+        elif self.number == 1 and self.phase in (Phase.EASING, Phase.PREROLL, Phase.ARMED):
+            self.begin = math.inf
+
+    def resume(self, now: float, motion: Motion) -> None:
+        """On from rest at `motion`: back to the path and along it, or whatever else was stopped, anew."""
+        match self.phase:
+            case Phase.PLAYING | Phase.REJOINING:
+                self._ease_to(Phase.REJOINING, now, motion, self.playback.at(now)[1])
+            case Phase.RETURNING:
+                self._ease(Phase.RETURNING, now, motion, 0.0)
+            case Phase.EASING | Phase.PREROLL | Phase.ARMED:
+                self._ease(Phase.EASING, now, motion, self.playback.opening)
+                if self.number == 1 and self.staging.trigger is None:
+                    self.begin = self._after_preroll(self._until)
+
     def place(self, time: float) -> tuple[int, float] | None:
         """Which pass it is in, and where in the move, at a time of the pass that is played; None while none is."""
         if self.phase is not Phase.PLAYING or time < self._began - _INSTANT:
@@ -128,6 +158,8 @@ class SequenceSource:
                 return f"starts in {left:4.1f} s"
             case Phase.ARMED:
                 return f"waits for {self.staging.trigger.said(now)}" if self.staging.trigger else ""
+            case Phase.REJOINING:
+                return f"back to the path {left:4.1f} s"
             case Phase.RETURNING:
                 return f"back to one {left:4.1f} s"
         elapsed = self.playback.time(now)
@@ -142,7 +174,7 @@ class SequenceSource:
 
     def status(self, now: float) -> RunStatus:
         """What a view shows of it at `now`; for the control thread."""
-        playing, over = self.phase is Phase.PLAYING, self.phase in (Phase.RETURNING, Phase.OVER)
+        playing, over = self.phase in (Phase.PLAYING, Phase.REJOINING), self.phase in (Phase.RETURNING, Phase.OVER)
         elapsed = min(max(0.0, self.playback.time(now)), self.duration) if playing else self.duration if over else None
         speed = self.playback.chosen
         from_here = elapsed if elapsed is not None else self.staging.start_at
@@ -182,18 +214,33 @@ class SequenceSource:
         trigger, due = self.staging.trigger, []
         if self.phase is Phase.EASING and now > self._until - _INSTANT:
             self.phase, self._until = Phase.PREROLL, self._after_preroll(self._until)
-            due += self._settings
+            due += self._settings if self._prepared < self.number else ()
+            self._prepared = self.number
         if self.phase is Phase.PREROLL and now > self._until - _INSTANT:
             if trigger is None or (self.number > 1 and (self.staging.endless or not trigger.again)):
                 self._begin(self._until)
             else:
-                trigger.arm(now)
+                self._arm(trigger, now)
                 self.phase, self._gone = Phase.ARMED, False
-        if self.phase is Phase.ARMED and trigger is not None and (trigger.fired(now) or self._gone):
+        if self.phase is Phase.ARMED and trigger and (self._gone or (not self.missed and trigger.fired(now))):
             self._begin(now)
+        if self.phase is Phase.REJOINING and now > self._until - _INSTANT:
+            self.phase = Phase.PLAYING
+            if not self.waiting:
+                self.playback.resume(now)
         if self.phase is Phase.RETURNING and now > self._until - _INSTANT:
             self.phase = Phase.OVER
         return due
+
+    def _arm(self, trigger: Trigger, now: float) -> None:
+        """Raises DeviceError where it can no longer come, unless it went by while the run was stopped."""
+        try:
+            trigger.arm(now)
+            self.missed = ""
+        except DeviceError as error:
+            if not self._suspended:
+                raise
+            self.missed = str(error)
 
     def _begin(self, now: float) -> None:
         self.phase, self._cues = Phase.PLAYING, list(self._score)
@@ -216,7 +263,10 @@ class SequenceSource:
 
     def _ease(self, phase: Phase, now: float, motion: Motion, time: float) -> None:
         """To where the move is at its own `time`, from rest where the axes are."""
-        targets = {axis: state.position for axis, state in self._move.at(time).items()}
+        self._ease_to(phase, now, motion, {axis: State(row[0]) for axis, row in self._move.at(time).items()})
+
+    def _ease_to(self, phase: Phase, now: float, motion: Motion, place: Motion) -> None:
+        targets = {axis: state.position for axis, state in place.items()}
         self._way = ease({axis: motion[axis] for axis in targets}, targets, self._limits, EASE_SHARE)
         self.phase, self._way_begin, self._until = phase, now, now + whole_ticks(self._way.duration)
 

@@ -104,7 +104,29 @@ class SticksSource:
 
     def __init__(self, sticks: Sticks, velocity: Callable[[Axis, float], float]) -> None:
         self._sticks, self._velocity = sticks, velocity
+        self._suspended = math.inf  # when the axes were halted, on the loop's clock
         self.begin = math.inf  # when the recording's time is zero, on the loop's clock
+
+    pauses = busy = quits = False  # it has no path to pause on, and begins nothing
+
+    @property
+    def resumable(self) -> bool:
+        """A drone's sticks, held for longer, fly it somewhere else."""
+        return not any(axis in STICKS for axis in self._sticks.axes)
+
+    def pause(self, now: float) -> bool | None:  # noqa: ARG002 - see `pauses`
+        return False
+
+    def suspend(self, now: float) -> None:
+        """The recording stands still."""
+        self._suspended = now
+
+    def linger(self, now: float) -> Sequence[Act]:  # noqa: ARG002 - it does nothing but move
+        return ()
+
+    def resume(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - sticks do not mind where the axes are
+        self.begin += now - self._suspended
+        self._suspended = math.inf
 
     def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - sticks do not mind where the axes are
         self.begin = now
@@ -124,5 +146,6 @@ class SticksSource:
         return demand, ()
 
     def next_change(self, now: float) -> float:
+        now = min(now, self._suspended)
         row = bisect.bisect_right(self._sticks.times, now - self.begin + 1e-9)
         return self.begin + self._sticks.times[row] if row < len(self._sticks.times) else math.inf

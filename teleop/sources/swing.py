@@ -48,6 +48,21 @@ class Swing:
         self._side = 1.0 if room[0] >= self._reach else -1.0
         self.begin = now + REST
 
+    resumable, pauses, busy, quits = True, False, False, False  # a pause would spoil the measurement: it begins anew
+
+    def pause(self, now: float) -> bool | None:  # noqa: ARG002 - see `pauses`
+        return False
+
+    def suspend(self, now: float) -> None:  # noqa: ARG002 - what was measured so far is not used
+        self.begin = math.inf
+
+    def linger(self, now: float) -> Sequence[Act]:  # noqa: ARG002 - it does nothing but move
+        return ()
+
+    def resume(self, now: float, motion: Motion) -> None:
+        """From the first swing, where the axis rests now."""
+        self.start(now, motion)
+
     def read(self, now: float) -> tuple[Demand, Sequence[Act]]:
         place, velocity, acceleration = self._at(now - self.begin)
         wish: Wish = Follow(self._rest + self._side * place, self._side * velocity, self._side * acceleration)

@@ -59,13 +59,15 @@ class TimelapseSource:
         self.begin = math.inf  # when the first frame of this run is due
         self._lead = max(LEAD, self._phases.prefocus)
         self._stillness = Stillness(self._phases.below)
-        self._asked_to_pause = False
+        self._asked_to_pause = progress.pausing  # an earlier run may have been paused
+        self._halted = self._unbegun = False  # `unbegun`: since before the first frame was due
         self._last: Note | None = None
         self._note: Note | None = None
         self._outcome: Outcome | None = None
         self._since = math.inf  # when this phase began
         self._pressed = math.inf
         self._acts: list[Act] = []
+        self._released = False  # the focus of a frame whose shutter was not pressed has to be let go
         self._turns: Mapping[Phase, Callable[[float], None]] = {
             Phase.APPROACH: self._travel,
             Phase.MOVE: self._travel,
@@ -76,20 +78,27 @@ class TimelapseSource:
             Phase.EXPOSE: self._expose,
             Phase.POST: self._post,
             Phase.FINISH: self._finish,
+            Phase.STOPPED: lambda _now: None,
             Phase.OVER: lambda _now: None,
         }
 
     def start(self, now: float, motion: Motion) -> None:
+        self._set_out(now, motion, self._timelapse.delay if self.frame == 0 else 0.0)
+        self.begin = self.slot
+
+    def _set_out(self, now: float, motion: Motion, later: float = 0.0) -> None:
+        """Approach the frame that is next, from rest at `motion`; it is shot in the first slot that can be met.
+
+        Where no slot has been given, that is `later` s from now or when it can be.
+        """
         self._carriage.approach(now, motion, self.frame)
         ready = self._carriage.arrival + self._phases.settle + self._lead + self._carriage.run_up
         if self.slot == -math.inf:
-            later = self._timelapse.delay if self.frame == 0 else 0.0
             self.slot = math.ceil(max(ready, now + later) * _GRID - _INSTANT) / _GRID
         interval = self._slots.interval(self.frame)
         missed = max(0, math.ceil((ready - self.slot) / interval - _INSTANT))
         self.progress.missed += missed
         self.slot += missed * interval
-        self.begin = self.slot
         self._carriage.begin(self.slot, self._due)
         self._since = now
 
@@ -102,6 +111,53 @@ class TimelapseSource:
             self._turns[self.phase](now)
         self.progress.due = self._carriage.when(self._due, now)
         return {axis: Follow(*state) for axis, state in self._carriage.at(now).items()}, self._acts
+
+    resumable = pauses = quits = True
+
+    @property
+    def busy(self) -> bool:
+        """While the axes are halted: whether a picture is being taken."""
+        return self._halted and self.phase in (Phase.EXPOSE, Phase.POST, Phase.FINISH)
+
+    def pause(self, now: float) -> bool | None:  # noqa: ARG002 - between two frames, whenever that is
+        self._asked_to_pause = self.progress.pausing = True
+        return True
+
+    def suspend(self, now: float) -> None:
+        """No shutter is pressed from `now` on. A frame that was begun and not pressed is as if it had not been."""
+        self._halted, self._unbegun = True, self._unbegun or self.begin > now
+        self.progress.due = math.inf
+        if self.phase is Phase.PREFOCUS:
+            self._ledger.unshot(self.frame)
+        if self.phase is Phase.EXPOSE and self._carriage.next_motion(now) <= now:
+            self.progress.stopped.append(self.frame)
+        if (self.phase, Event.STOP) in TRANSITIONS and self.phase is not Phase.POST:
+            self._released = self.phase is Phase.PREFOCUS and bool(self._phases.prefocus)
+            self._happened(Event.STOP, now)
+
+    def linger(self, now: float) -> Sequence[Act]:
+        """What ends the frame whose shutter was pressed before the axes were halted."""
+        self._acts = [Exposure(self.frame, Step.RELEASE)] if self._released else []
+        self._released = False
+        before = None
+        while (self.phase, self.frame) != before:
+            before = self.phase, self.frame
+            if self.phase is not Phase.WAIT:
+                self._turns[self.phase](now)
+        return self._acts
+
+    def resume(self, now: float, motion: Motion) -> None:
+        """With the frame that is next, from rest at `motion`; meanwhile no slot has passed."""
+        self._halted = self._asked_to_pause = self.progress.pausing = False
+        if self.phase is Phase.OVER:
+            return
+        if self.phase is Phase.WAIT:  # of a frame that got no picture while the axes were halted
+            self._happened(Event.STOP, now)
+        self._happened(Event.RESTART, now)
+        self.slot = -math.inf
+        self._set_out(now, motion)
+        if self._unbegun:
+            self.begin, self._unbegun = self.slot, False
 
     def next_change(self, now: float) -> float:
         if self.phase is Phase.OVER:
@@ -160,10 +216,14 @@ class TimelapseSource:
 
     def _look_at_keys(self, now: float) -> None:
         presses = self._keys.read(now).presses if self._keys is not None else ()
-        if any(press.command is Command.QUIT for press in presses):
-            raise Interrupted("q pressed")
-        if sum(press.command is Command.PAUSE for press in presses) % 2:
-            self._asked_to_pause = not self._asked_to_pause
+        for press in presses:
+            match press.command:
+                case Command.QUIT:
+                    raise Interrupted("q pressed")
+                case Command.PAUSE:
+                    self._asked_to_pause = not self._asked_to_pause
+                case Command.GO:
+                    self._asked_to_pause = False
         self.progress.pausing = self._asked_to_pause
 
     def _travel(self, now: float) -> None:
@@ -239,6 +299,9 @@ class TimelapseSource:
 
     def _go_on(self, now: float) -> None:
         if self._was_last(now):
+            return
+        if self._halted:
+            self._happened(Event.STOP, now)
             return
         spare = self._carriage.when(self._due, now) - now - self._lead - self._phases.settle
         stepped = self._carriage.step(now, self.frame, spare)

@@ -18,7 +18,7 @@ from teleop.sources.arming import Arming
 from teleop.sources.driving import Driving
 from teleop.sources.handling import SticksSection
 from teleop.sources.inputs import Input, Press
-from teleop.sources.recall import Recall
+from teleop.sources.recall import Recall, at_rest
 from teleop.sources.status import Log, Said
 
 RELEASE = 2.0  # s in which an offset goes back to 0, or as soon as its limits allow
@@ -32,6 +32,7 @@ class Trimming:
 
     def __init__(self, limits: Mapping[Axis, Limits], inputs: Sequence[Input], sticks: SticksSection) -> None:
         self._hands = [Arming(device) for device in inputs]
+        self._limits = limits
         self._sticks, self._range = sticks, sticks.start_range - 1
         self._log, self._now = Log(), 0.0
         self._driving = Driving(limits, self._hands, sticks, self.say)
@@ -70,6 +71,17 @@ class Trimming:
         wishes = self._driving.wishes(self._now, self._seconds, self.offsets, self.share)
         self.offsets = self._live.step(wishes if allowed else {}, ticks)
         return trimmed(motion, self.offsets)
+
+    def halt(self) -> None:
+        """The axes are stopped, offsets and all: every offset is where its own fastest stop would end, at rest.
+
+        What the hands had asked for is over, and each has to be seen centered again.
+        """
+        self._driving.let_go()
+        for hand in self._hands:
+            hand.distrust()
+        self._live.reset({axis: at_rest(state, self._limits[axis]) for axis, state in self.offsets.items()})
+        self.offsets = self._live.motion
 
     def release(self, name: str) -> None:
         """Take every offset back to 0, as this hand asks; a stick ends that."""

@@ -20,7 +20,7 @@ MOVING = re.compile(r"\+\d+\.(?!00)\d\d")  # an angle that is not 0
 LEFT_THE_SCREEN = "\x1b[?1049l"
 
 
-def test_a_session_by_keys_from_jog_to_e_stop_to_quit(tmp_path: Path) -> None:
+def test_a_session_by_keys_from_jog_to_stop_to_quit(tmp_path: Path) -> None:
     with terminal("live", "--presets", str(tmp_path / "presets.yaml"), folder=tmp_path) as term:
         term.wait_for("keys  ready")
         term.wait_for("joystick: not plugged in")
@@ -30,11 +30,11 @@ def test_a_session_by_keys_from_jog_to_e_stop_to_quit(tmp_path: Path) -> None:
         term.type("s4")
         term.wait_for("preset 4 stored")
         term.type("z ")
-        term.wait_for("E-STOP by keys")
+        term.wait_for("STOP by keys")
         term.type("4")
-        term.wait_for("preset 4 refused: the e-stop is not cleared")
+        term.wait_for("preset 4 refused: STOP is not cleared")
         term.type("dengage\r")
-        term.wait_for("drone: not engaged: the e-stop is not cleared")
+        term.wait_for("drone: not engaged: STOP is not cleared")
         term.type("cdengage\r")
         term.wait_for("drone engage: this rig has no drone")
         term.type("4")
@@ -54,7 +54,7 @@ def test_a_signal_in_mid_pan_gives_the_terminal_back(tmp_path: Path, number: sig
     rig.write_text((folder("profiles") / "sim.yaml").read_text().replace("velocity: 120", "velocity: 1"))
     with terminal("live", "--rig", str(rig), folder=tmp_path) as term:
         term.wait_for("keys  ready")
-        term.type("L" * 9)
+        term.type("L")
         wait_until(lambda: MOVING.search(term.shown), "a pan on the screen")
         term.process.send_signal(number)
         code, _ = term.end()
@@ -79,7 +79,7 @@ def test_a_window_that_is_closed_in_mid_pan_is_a_stop_that_comes_to_rest(tmp_pat
     rig.write_text((folder("profiles") / "sim.yaml").read_text().replace("velocity: 120", "velocity: 10"))
     with terminal("live", "--json", "--rig", str(rig), "--take", str(take), folder=tmp_path) as term:
         term.wait_for_keys()
-        term.type("L" * 9)
+        term.type("+L")
         wait_until(lambda: take.exists() and take.stat().st_size > 6000, "a second of the pan in the take")
         term.hang_up()
         code, out = term.end()
@@ -116,7 +116,7 @@ def test_recorded_sticks_on_a_terminal_end_by_themselves_and_keys_can_stop_them(
     with terminal("live", "--sticks", str(tmp_path / "sticks.csv"), folder=tmp_path) as term:
         term.wait_for("keys  ready")
         term.type(" ")
-        term.wait_for("E-STOP by keys")
+        term.wait_for("STOP by keys")
         term.type("q")
         assert term.end()[0] == 0
 
@@ -142,3 +142,18 @@ def test_a_bad_presets_file_is_refused_before_anything_opens(tmp_path: Path) -> 
         assert term.end()[0] == 2
         assert "presets.yaml:2:7: presets.1.pna is not known here; did you mean pan?" in term.shown
         assert term.restored
+
+
+def test_a_burst_of_a_held_key_is_no_sum_and_a_run_that_ends_stopped_says_so(tmp_path: Path) -> None:
+    take, rig = tmp_path / "take.mcap", tmp_path / "slow.yaml"
+    rig.write_text((folder("profiles") / "sim.yaml").read_text().replace("velocity: 120", "velocity: 5"))
+    with terminal("live", "--json", "--rig", str(rig), "--take", str(take), folder=tmp_path) as term:
+        term.wait_for_keys()
+        term.type("++" + "\x1b[1;2C" * 15)
+        wait_until(lambda: take.exists() and take.stat().st_size > 6000, "a second of it in the take")
+        term.type(" q")
+        code, out = term.end()
+    report = json.loads(out)
+    assert (code, report["result"]) == (0, "done")
+    assert report["reasons"] == ["ended while stopped: STOP by keys"]
+    assert read_take(take).state(Axis.PAN, -1).position <= 10

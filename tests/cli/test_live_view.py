@@ -25,7 +25,7 @@ LIMITS = {
 STATUS = Status(
     hands=[
         Hand("Xbox pad", [Axis.PAN], "", ""),
-        Hand("dial", [], "press its enable button", ""),
+        Hand("dial", [], "hold its enable button", ""),
         Hand("old stick", [], "old stick: unplugged", "old stick: unplugged"),
         Hand("keys", [], "", ""),
     ],
@@ -94,7 +94,7 @@ def test_it_shows_each_thing_that_an_operator_asks_for(monkeypatch: pytest.Monke
     text = "\n".join(screen(STATUS, monkeypatch))
     for each in (
         "Simulated rig", "-45.00", "-44.50", "-0.50", "██│", "+146.00", "+0.250", "[35%]", "Xbox pad  moves pan",
-        "dial  press its enable button", "old stick: unplugged", "not told to record", "follow lock", "gimbal",
+        "dial  hold its enable button", "old stick: unplugged", "not told to record", "follow lock", "gimbal",
         "jog 1 deg (shift 10, ctrl 0.1)", "1 wide   3",
         "7 s ago  old stick: unplugged: tilt stopped", "Ctrl-C",
     ):  # fmt: skip

@@ -274,7 +274,7 @@ def test_lost_acknowledgements_are_asked_for_again_and_then_end_the_run(tmp_path
         (battery_runs_low, "the battery is at 20 %: 25 % is too low to begin with"),
         (lambda scene: scene.drone.hide("rc"), "does not say where its RC's mode switch is"),
         (lambda scene: scene.drone.hide("battery"), "does not say how full its battery is"),
-        (lambda scene: scene.keys.press(Command.STOP), "the e-stop is not cleared"),
+        (lambda scene: scene.keys.press(Command.STOP), "STOP is not cleared"),
     ],
 )
 def test_what_is_not_fit_to_fly_is_not_engaged(spoil: Callable[[Sky], None], said: str, tmp_path: Path) -> None:

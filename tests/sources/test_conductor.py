@@ -72,7 +72,7 @@ class Show:
         return wish.position
 
 
-def test_space_pauses_and_goes_on():
+def test_p_pauses_and_goes_on():
     show = Show()
     show.run(2)
     show.press(PAUSE)

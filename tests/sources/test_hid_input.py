@@ -145,7 +145,7 @@ def test_after_an_unplugging_the_same_is_wanted_then_its_like_then_what_was_plug
 def test_a_spare_of_another_model_that_is_plugged_in_afterwards_takes_its_place_and_is_centred_first() -> None:
     pad, spare = f310(), f310(ids=(0x046D, 0xC219), name="Spare", path=b"/dev/hidraw1")
     backend = FakeBackend(pad)
-    with in_hand(backend, {"device": "any", "enable": "Button 5"}) as hand:
+    with in_hand(backend, {"device": "any", "enable": "Button 9"}) as hand:
         hand.settle(pad)
         backend.unplug(pad)
         hand.until_trouble("Logitech Dual Action: unplugged")
@@ -384,12 +384,29 @@ def test_two_inputs_do_not_share_a_device_and_the_first_has_the_choice() -> None
 
 def test_an_enable_button_is_off_when_nothing_is_known() -> None:
     pad = f310()
-    with in_hand(FakeBackend(pad), {"pad": "logitech-gamepad", "enable": "Button 5"}) as hand:
+    with in_hand(FakeBackend(pad), {"pad": "logitech-gamepad", "enable": "Button 9"}) as hand:
         assert hand.read().enabled is False
         hand.settle(pad)
         assert hand.read().enabled is False
-        pad.told(bytes.fromhex("7f7f7f7f08010000"))
+        pad.told(bytes.fromhex("7f7f7f7f08100000"))
         hand.until(lambda held: held.enabled)
+
+
+@pytest.mark.parametrize(
+    ("enable", "said"),
+    [
+        ("Button 99", "enable: it has no Button 99; it has Button 1, Button 2, Button 3, Button 4, Button 5, Button 6"),
+        ("Button 5", "enable: Button 5 already is slower; take another"),
+        ("Hat switch up", "enable: Hat switch up already is recall; take another"),
+    ],
+)
+def test_an_enable_that_the_device_has_not_or_that_does_something_else_is_refused(enable: str, said: str) -> None:
+    pad = f310()
+    with in_hand(FakeBackend(pad), {"device": "any", "enable": enable}) as hand:
+        pad.told(REST)
+        hand.until(lambda held: said in held.trouble)
+        pad.told(bytes.fromhex("7f7f7f7f48000000"))  # Button 3: its stop counts all the same
+        assert [press.command for press in hand.read().presses] == [Command.STOP]
 
 
 def test_a_reader_that_fails_is_trouble_and_not_silence() -> None:

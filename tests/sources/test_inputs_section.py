@@ -43,6 +43,7 @@ inputs:
     controls:
       X: {axis: tilt, invert: true, dead_zone: 0.1, expo: 0.5, range: [0, 255], speed: 0.5}
       Button 2: null
+      Button 5: null
       Button 7: {press: tell, words: gimbal follow lock}
       Hat switch:
         up: {press: recall, number: 1, hold: store}
@@ -222,3 +223,35 @@ def test_a_drone_is_told_by_holding_and_flown_by_what_is_let_go(tmp_path: Path, 
     except DocumentError as error:
         found = error.problems
     assert [problem in each for each in found] == ([True] if problem else [])
+
+
+@pytest.mark.parametrize(
+    ("inputs", "said"),
+    [
+        ("{pad: dualshock4, enable: Button 5}", "inputs[0].enable Button 5 already is slower"),
+        ("{enable: Button 1, controls: {Button 1: {press: stop}}}", "inputs[0].enable Button 1 already is stop"),
+        ("{enable: X, controls: {X: {axis: pan}}}", "inputs[0].enable X already is pan"),
+        (
+            "{enable: Button 2, controls: {X: {axis: pan, fine: 0.1, fine_button: Button 2}}}",
+            "inputs[0].enable Button 2 already is the fine button of X",
+        ),
+        (
+            "{enable: Hat switch up, controls: {Hat switch: {up: {press: record}}}}",
+            "inputs[0].enable Hat switch up already is record",
+        ),
+        (
+            "{controls: {Button 2: {press: enable}}}",
+            "inputs[0].controls.Button 2 is a press, and enable is a button to",
+        ),
+    ],
+)
+def test_an_enable_is_one_thing_and_a_button_that_does_something_else_is_refused(
+    tmp_path: Path, inputs: str, said: str
+) -> None:
+    (problem,) = problems(tmp_path, f"inputs: [{inputs}]\n")
+    assert said in problem
+
+
+def test_a_button_of_a_pad_is_free_to_enable_once_it_is_left_out(tmp_path: Path) -> None:
+    profile = rig(tmp_path, "inputs: [{pad: dualshock4, enable: Button 5, controls: {Button 5: null}}]\n")
+    assert profile.inputs[0].enable == "Button 5"

@@ -1,4 +1,4 @@
-"""Keys: every command has one, no sequence swallows the e-stop, and whatever a terminal sends is survived."""
+"""Keys: every command has one, no sequence swallows a STOP, and whatever a terminal sends is survived."""
 
 from __future__ import annotations
 

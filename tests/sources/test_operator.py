@@ -69,7 +69,7 @@ def test_an_enable_button_must_be_pressed_after_the_stick_was_centred(tmp_path: 
     desk.pad.hold(pan=1.0)
     desk.run(0.5)
     assert desk.rests  # it has been held since before: it may be stuck
-    assert "press its enable button" in desk.messages[0]
+    assert "hold its enable button" in desk.messages[0]
     desk.pad.enabled = False
     desk.tick()
     desk.pad.enabled = True
@@ -215,13 +215,13 @@ def test_a_stop_counts_from_any_input_in_any_state(tmp_path: Path, trouble: str)
     second.press(Command.STOP)
     desk.tick()
     assert desk.demand == {axis: Halt() for axis in LIMITS}
-    assert desk.messages[0] == "E-STOP by second: nothing moves until it is cleared"
+    assert desk.messages[0] == "STOP by second: nothing moves until it is cleared"
 
 
-# --- the e-stop
+# --- STOP
 
 
-def test_the_e_stop_latches_until_it_is_cleared_and_then_wants_centred_sticks(desk: Desk) -> None:
+def test_a_stop_latches_until_it_is_cleared_and_then_wants_centred_sticks(desk: Desk) -> None:
     desk.pad.hold(pan=1.0)
     desk.run(1)
     desk.press(Command.STOP)
@@ -250,14 +250,14 @@ def test_a_stop_and_a_clear_in_the_same_tick_is_a_stop(desk: Desk) -> None:
     assert desk.status.stopped
 
 
-def test_the_e_stop_ends_a_recall_and_a_jog_for_good(desk: Desk) -> None:
+def test_a_stop_ends_a_recall_and_a_jog_for_good(desk: Desk) -> None:
     at_preset_1(desk, pan=50)
     desk.press(Command.RECALL, 1)
     desk.run(1)
     desk.press(Command.STOP)
     desk.run(1)
     desk.press(Command.RECALL, 1)
-    assert desk.messages[0] == "preset 1 refused: the e-stop is not cleared"
+    assert desk.messages[0] == "preset 1 refused: STOP is not cleared"
     desk.pad.turn(FOCUS, 0.5)
     desk.press(Command.CLEAR)
     desk.run(1)
@@ -410,7 +410,7 @@ def test_a_recall_stops_with_the_input_that_asked_for_it(tmp_path: Path) -> None
     desk.run(1)
     assert desk.rests
     assert desk.motion[PAN].position < 59
-    assert desk.messages[0] == "preset 1 ended: pad: press its enable button"
+    assert desk.messages[0] == "preset 1 ended: pad: hold its enable button"
 
 
 def test_an_input_that_may_move_nothing_may_recall_nothing(tmp_path: Path) -> None:
@@ -421,8 +421,8 @@ def test_an_input_that_may_move_nothing_may_recall_nothing(tmp_path: Path) -> No
     desk.run(1)
     assert desk.rests
     assert desk.messages[:2] == [
-        "recentre refused: press its enable button",
-        "preset 1 refused: press its enable button",
+        "recentre refused: hold its enable button",
+        "preset 1 refused: hold its enable button",
     ]
 
 
@@ -474,10 +474,10 @@ def test_a_continuous_axis_goes_to_the_nearest_turn(tmp_path: Path) -> None:
 # --- steps
 
 
-def test_steps_add_up_and_are_reached_exactly(desk: Desk) -> None:
+def test_steps_one_after_the_other_add_up_and_are_reached_exactly(desk: Desk) -> None:
     for _ in range(3):
         desk.pad.turn(PAN, 1.0)
-        desk.tick(3)
+        desk.run(0.5)
     desk.pad.turn(FOCUS, 0.05)
     desk.run(1.5)
     assert desk.motion[PAN] == State(3.0)
@@ -485,10 +485,11 @@ def test_steps_add_up_and_are_reached_exactly(desk: Desk) -> None:
     assert desk.demand == {}
 
 
-def test_steps_end_at_the_soft_limit_and_the_way_back_is_free_at_once(desk: Desk) -> None:
-    for _ in range(5):
+def test_steps_end_at_the_soft_limit_and_the_way_back_is_free_at_once(tmp_path: Path) -> None:
+    desk = Desk(tmp_path / "presets.yaml", start_range=3)
+    for _ in range(3):
         desk.pad.turn(FOCUS, 0.5)
-        desk.tick()
+        desk.run(0.8)
     assert desk.messages[0] == "focus is at its soft limit"
     desk.run(5)
     assert desk.motion[FOCUS] == State(1.0)
@@ -497,7 +498,8 @@ def test_steps_end_at_the_soft_limit_and_the_way_back_is_free_at_once(desk: Desk
     assert desk.motion[FOCUS] == State(0.9)
 
 
-def test_a_stick_ends_the_steps_of_its_axis_alone(desk: Desk) -> None:
+def test_a_stick_ends_the_steps_of_its_axis_alone(tmp_path: Path) -> None:
+    desk = Desk(tmp_path / "presets.yaml", start_range=3)
     desk.pad.turn(PAN, 90.0)
     desk.pad.turn(FOCUS, 0.8)
     desk.run(0.3)
@@ -525,7 +527,7 @@ def test_steps_of_an_untrusted_input_are_lost_not_kept(tmp_path: Path) -> None:
     desk.pad.enabled = True
     desk.run(1)
     assert desk.motion[PAN] == State(0)
-    assert desk.messages == ["pad moves nothing: press its enable button"]
+    assert desk.messages == ["pad moves nothing: hold its enable button"]
 
 
 def test_a_slider_takes_its_axis_only_once_it_is_moved(desk: Desk) -> None:

@@ -60,7 +60,7 @@ def test_the_e_stop_halts_it_in_its_centre_and_forbids_engaging(desk: Desk) -> N
     desk.run(1)
     assert desk.motion[PITCH].position == pytest.approx(0)
     desk.press(Command.ENGAGE)
-    assert desk.messages[0] == "drone: not engaged: the e-stop is not cleared"
+    assert desk.messages[0] == "drone: not engaged: STOP is not cleared"
     desk.press(Command.DISENGAGE)
     assert desk.actions == [Told("drone disengage")]
 

@@ -5,6 +5,7 @@ from teleop.sources.inputs import Command, Press
 from teleop.sources.keys import Step
 from teleop.sources.play_keys import TRIM_KEYS, PlayKeys
 
+STOP, CLEAR = Press(Command.STOP), Press(Command.CLEAR)
 PAUSE, FASTER, SLOWER = Press(Command.PAUSE), Press(Command.FASTER), Press(Command.SLOWER)
 NEXT, PREVIOUS, GO, QUIT = Press(Command.NEXT), Press(Command.PREVIOUS), Press(Command.GO), Press(Command.QUIT)
 
@@ -12,7 +13,7 @@ NEXT, PREVIOUS, GO, QUIT = Press(Command.NEXT), Press(Command.PREVIOUS), Press(C
 def test_keys_whole_and_in_pieces():
     reader = PlayKeys()
     assert list(reader.feed("q\ng\r")) == [QUIT, GO, GO, GO]
-    assert list(reader.feed("x +\x1b[C<")) == [PAUSE, FASTER, NEXT, PREVIOUS]
+    assert list(reader.feed(" xcp+\x1b[C<")) == [STOP, CLEAR, PAUSE, FASTER, NEXT, PREVIOUS]
     assert list(reader.feed("\x1b[")) == []
     assert reader.is_waiting
     assert list(reader.feed("D-")) == [PREVIOUS, SLOWER]
@@ -37,4 +38,4 @@ def test_with_a_trim_arrows_and_letters_move_an_axis_on_and_the_rest_stays():
         Step(Axis.ROLL, 1.0),
     ]
     asked = [Press(each) for each in (Command.RECENTER, Command.KEEP, Command.RANGE)]
-    assert list(reader.feed("zwv >q")) == [*asked, PAUSE, NEXT, QUIT]
+    assert list(reader.feed("zwv >q")) == [*asked, STOP, NEXT, QUIT]

@@ -1,5 +1,7 @@
 """A hand on a running sequence: whatever both do the sum is legal; an offset is held, let go, as safe as any hand."""
 
+import math
+
 import pytest
 from at_once import AtOnce
 from hands import FakeInput
@@ -10,13 +12,13 @@ from teleop.motion import Axis, Follow, Halt, Limits, State, Tick
 from teleop.planner.keyframes import Key, plan
 from teleop.planner.live import Live
 from teleop.planner.trim import sequence_limits, trim_limits
-from teleop.ports import Interrupted
 from teleop.sources.conductor import Conductor
 from teleop.sources.handling import SticksSection
 from teleop.sources.inputs import Command
 from teleop.sources.sequence import Phase, SequenceSource
 from teleop.sources.sequence_file import Performance
 from teleop.sources.staging import Staging
+from teleop.sources.stop_guard import Relay, StopGuard
 from teleop.sources.trimming import Trimming
 
 PAN, TILT = Axis.PAN, Axis.TILT
@@ -48,6 +50,15 @@ class Set:
         self.live = Live(LIMITS, DT)
         self.live.reset(here)
         self.conductor.start(self.now, here)
+
+    def guard(self) -> StopGuard:
+        """The same under a guard, which from then on is to be used in its place."""
+        relays = [Relay(self.pad), Relay(self.keys)]
+        trimming = Trimming(trim_limits(MOVE, LIMITS, SHARE), relays, FAST)
+        self.trimming, self.conductor = trimming, Conductor(self.sequence, relays[1], trimming)
+        guard = StopGuard(self.conductor, relays)
+        guard.start(self.now, self.live.motion)
+        return guard
 
     def _keep(self) -> str:
         self.kept.append(dict(self.trimming.offsets))
@@ -185,16 +196,52 @@ def test_on_the_way_to_the_start_and_after_the_end_nothing_is_trimmed():
     assert scene.conductor.next_change(scene.now) == float("inf")
 
 
-def test_an_e_stop_halts_everything_at_once_and_ends_the_run():
+def test_a_stop_halts_sequence_and_trim_and_both_are_met_again_afterwards():
     scene = Set()
-    scene.until(Phase.PLAYING)
-    scene.run(1)
+    guard = scene.guard()
+    taken = []
+
+    def run(seconds: float) -> None:
+        for _ in range(round(seconds / DT)):
+            scene.now += DT
+            demand, _ = guard.read(scene.now)
+            before, after = scene.live.motion, scene.live.step(demand)
+            for axis, limits in LIMITS.items():
+                assert abs(after[axis].velocity) <= limits.velocity + 1e-6
+                assert abs(after[axis].acceleration) <= limits.acceleration + 1e-6
+                assert abs(after[axis].acceleration - before[axis].acceleration) / DT <= limits.jerk + 1e-6
+            guard.write(Tick(scene.now, after, demand, (), {}))
+            taken.append((demand, after))
+
+    run(5)
+    assert scene.sequence.phase is Phase.PLAYING
+    scene.pad.hold(pan=0.6)
+    run(1)
     scene.pad.press(Command.STOP)
-    scene.now += DT
-    demand, _ = scene.conductor.read(scene.now)
-    assert demand == {PAN: Halt(), TILT: Halt()}
-    with pytest.raises(Interrupted, match="E-STOP by pad"):
-        scene.conductor.write(Tick(scene.now, {}, demand, (), {}))
+    run(DT)
+    assert taken[-1][0] == {PAN: Halt(), TILT: Halt()}
+    run(2)
+    offset = scene.offset()
+    assert offset.velocity == 0
+    assert offset.position > 1
+    there = taken[-1][1]
+    scene.keys.turn(PAN, 5.0)  # what is asked for meanwhile moves nothing, then or later
+    run(1)
+    scene.keys.press(Command.CLEAR)
+    run(1)
+    assert taken[-1][1] == there
+    scene.keys.press(Command.GO)
+    run(DT)
+    scene.pad.hold(pan=0.9)  # and a stick that was held over all along moves nothing before it was let go
+    while scene.sequence.phase is not Phase.PLAYING:
+        run(DT)
+    run(0.5)
+    assert scene.offset() == offset
+    bare = scene.sequence.playback.at(scene.now)[1][PAN].position
+    assert taken[-1][1][PAN].position == pytest.approx(bare + offset.position, abs=1e-6)
+    while not math.isinf(guard.next_change(scene.now)):
+        run(DT)
+    assert taken[-1][1][PAN].position == pytest.approx(-30 + offset.position, abs=1e-5)
 
 
 def test_a_pads_buttons_change_the_trims_speed_and_the_keys_that_of_the_move():

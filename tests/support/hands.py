@@ -33,6 +33,8 @@ class FakeInput:
         self.trouble = ""
         self.positions: dict[Axis, float] = {}
         self.notes: list[str] = []  # said once
+        self.stop: str | None = None
+        self.click: dict[Axis, float] = {}
         self._presses: list[Press] = []
         self._steps: dict[Axis, float] = {}
 
@@ -50,7 +52,10 @@ class FakeInput:
         steps, self._steps = self._steps, {}
         notes, self.notes = self.notes, []
         held = dict(self.deflections)
-        return Held(held, steps, self.dial, presses, self.enabled, self.trouble, dict(self.positions), notes)
+        places = dict(self.positions)
+        return Held(
+            held, steps, self.dial, presses, self.enabled, self.trouble, places, notes, dict(self.click), self.stop
+        )
 
 
 class Desk:

@@ -1,0 +1,46 @@
+"""The STOP of every input, open in a run that moves by itself: a pad beside the camera stops it, whoever started it.
+
+Only what stops a run, and what goes on after it, is read of these devices: their sticks move nothing. One that is
+absent is a warning and no more; plugged in later, it counts from then on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import ExitStack
+
+from teleop.cli.folded import complain
+from teleop.ports import Clock, DeviceError
+from teleop.profile import Profile
+from teleop.sources.hid_backend import Hidapi
+from teleop.sources.hid_input import HidInput, open_inputs
+from teleop.sources.hid_reader import wanted
+from teleop.sources.inputs_section import InputSection
+from teleop.sources.pads import may_stop
+
+
+def open_stop_inputs(stack: ExitStack, profile: Profile, clock: Clock) -> Sequence[HidInput]:
+    """The profile's devices that have a STOP, open until the stack is left; without any, the joystick that is there.
+
+    A profile's device that is absent is named on stderr. Raises DocumentError for a pad that cannot be used.
+    """
+    sections = [each for each in profile.inputs or [InputSection()] if may_stop(each)]
+    if not sections:
+        return []
+    try:
+        backend = Hidapi()
+        found = backend.enumerate()
+    except (DeviceError, OSError) as error:
+        if profile.inputs:
+            _warn(f"{error}, so no input can be read: their STOP does not count")
+        return []
+    absent = [each for each in sections if not wanted(each.device, found, None)]
+    if absent and not profile.inputs:
+        return []
+    for each in absent:
+        _warn(f"{each.name or each.device}: not plugged in, so its STOP does not count")
+    return stack.enter_context(open_inputs(sections, clock.now, backend, stop_only=True))
+
+
+def _warn(text: str) -> None:
+    complain(f"teleop: warning: {text}")
