@@ -28,7 +28,7 @@ RESUMES = (Hint("space", "STOP"), Hint("p", "go on"), Hint("q", "end"), ENDS)
 class ShootView(Display):
     """A sink that only shows. `folder` is where the journal is written, `progress` how far the shoot is.
 
-    `note` is what holds it, and how to go on, "" for nothing.
+    `also` adds what holds it, a STOP or a pause, to what is shown.
     """
 
     def __init__(
