@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 import shutil
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 
 from rich.text import Text
@@ -29,7 +28,7 @@ RESUMES = (Hint("space", "STOP"), Hint("p", "go on"), Hint("q", "end"), ENDS)
 class ShootView(Display):
     """A sink that only shows. `folder` is where the journal is written, `progress` how far the shoot is.
 
-    `note` is what holds it, and how to go on, "" for nothing.
+    `also` adds what holds it, a STOP or a pause, to what is shown.
     """
 
     def __init__(
@@ -41,10 +40,10 @@ class ShootView(Display):
         silent: bool,
         keys: bool,
         take: Callable[[], str] = lambda: "",
-        note: Callable[[], str] = lambda: "",
+        also: Callable[[RunStatus], RunStatus] = lambda status: status,
     ) -> None:
         def status(now: float) -> RunStatus:
-            return replace(shoot_status(progress, now, keys), note=note())
+            return also(shoot_status(progress, now, keys))
 
         super().__init__(title, limits, status, silent, take, "teleop shoot")
         self._folder, self._progress = folder, progress
