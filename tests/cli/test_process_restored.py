@@ -195,7 +195,10 @@ def test_signals_that_come_while_the_main_thread_is_held_up_are_counted_all_the_
             signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
             presses = threading.Thread(target=lambda: [(time.sleep(0.01), three()) for _ in range(3)])
             presses.start()
-            threading.Event().wait()
+            try:
+                threading.Event().wait()
+            finally:
+                presses.join()  # none of them may come when the handlers are put back
 
     with pytest.raises(LeaveAtOnce, match="SIGINT"):
         hung()
