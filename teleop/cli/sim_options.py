@@ -35,12 +35,15 @@ class DroneSim:
     key_file: Annotated[
         Path | None,
         Parameter(
+            metavar="FILE",
             group=DRONE,
             help="File with the app's key, 64 hexadecimal digits: after activation everything is encrypted.",
             show_default=False,
         ),
     ] = None
-    answer_delay: Annotated[float, Parameter(group=DRONE, help="Seconds by which acknowledgements come late.")] = 0.0
+    answer_delay: Annotated[
+        float, Parameter(metavar="SECONDS", group=DRONE, help="Seconds by which acknowledgements come late.")
+    ] = 0.0
     immediate_control: Annotated[
         bool, flag(DRONE, "Confirm obtain and release at once; a real drone answers 3 or 4 first.")
     ] = False
@@ -48,10 +51,10 @@ class DroneSim:
         bool, flag(DRONE, "Neither broadcast nor take push frequencies before activation.")
     ] = False
     virtual_rc_timeout: Annotated[
-        float, Parameter(group=DRONE, help="Seconds without sticks after which virtual RC ends.")
+        float, Parameter(metavar="SECONDS", group=DRONE, help="Seconds without sticks after which virtual RC ends.")
     ] = VIRTUAL_RC_TIMEOUT
     movement_timeout: Annotated[
-        float, Parameter(group=DRONE, help="Seconds for which a movement command is obeyed.")
+        float, Parameter(metavar="SECONDS", group=DRONE, help="Seconds for which a movement command is obeyed.")
     ] = MOVEMENT_TIMEOUT
     mirror_rc: Annotated[
         bool, flag(DRONE, "Broadcast the virtual RC's channels as the RC's while virtual RC is on.")
@@ -84,6 +87,7 @@ class GimbalSim:
     speed_signs: Annotated[
         str,
         Parameter(
+            metavar="AXIS=SIGN",
             group=GIMBAL,
             help="Axes whose speed has another sign than their angle: yaw=-1 or yaw=-1,roll=-1.",
             show_default=False,
@@ -91,7 +95,9 @@ class GimbalSim:
     ] = ""
     report_signs: Annotated[
         str,
-        Parameter(group=GIMBAL, help="The same for the angles that it reports.", show_default=False),
+        Parameter(
+            metavar="AXIS=SIGN", group=GIMBAL, help="The same for the angles that it reports.", show_default=False
+        ),
     ] = ""
     legacy_replies: Annotated[
         bool, flag(GIMBAL, "Reply without set and id, to 0x02 without the type byte too, as old firmware does.")
@@ -100,7 +106,9 @@ class GimbalSim:
         Literal["yaw-roll-pitch", "yaw-pitch-roll"],
         Parameter(group=GIMBAL, help="The order of the angles in a legacy reply."),
     ] = "yaw-roll-pitch"
-    push_rate: Annotated[float, Parameter(group=GIMBAL, help="Pushes a second, once they are on.")] = PUSH_RATE
+    push_rate: Annotated[float, Parameter(metavar="HZ", group=GIMBAL, help="Pushes a second, once they are on.")] = (
+        PUSH_RATE
+    )
     push_reply_bit: Annotated[bool, flag(GIMBAL, "Push with the reply bit set.")] = False
     short_push: Annotated[bool, flag(GIMBAL, "Push 25 bytes: flags, yaw, roll, pitch.")] = False
     ignore_speed: Annotated[
@@ -111,10 +119,17 @@ class GimbalSim:
     ] = "calibrated"
     ignore_zero_focus: Annotated[bool, flag(GIMBAL, "Let the focus motor ignore position 0.")] = False
     roll_error: Annotated[
-        float, Parameter(group=GIMBAL, help="Degrees from level at which roll is left after speed control.")
+        float,
+        Parameter(
+            metavar="DEGREES", group=GIMBAL, help="Degrees from level at which roll is left after speed control."
+        ),
     ] = 0.0
-    pitch_max: Annotated[int, Parameter(group=GIMBAL, help="The upper limit of pitch to report; an RS 5: 155.")] = 145
-    reaction: Annotated[float, Parameter(group=GIMBAL, help="Seconds from a command to the motion.")] = 0.0
+    pitch_max: Annotated[
+        int, Parameter(metavar="DEGREES", group=GIMBAL, help="The upper limit of pitch to report; an RS 5: 155.")
+    ] = 145
+    reaction: Annotated[
+        float, Parameter(metavar="SECONDS", group=GIMBAL, help="Seconds from a command to the motion.")
+    ] = 0.0
     foreign_traffic: Annotated[
         bool, flag(GIMBAL, "Send on ids 0x530, 0x531 and 0x426 400 times a second, as gimbals do.")
     ] = False
