@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from teleop.planner.move import Move
+    from teleop.planner.trajectory import Move
 
 
 def plan(sequence: str | Path, rig: str | Path = "sim") -> Move:
@@ -18,11 +18,11 @@ def plan(sequence: str | Path, rig: str | Path = "sim") -> Move:
 
     `Move.at(t)` is the state of every axis t seconds after the first keyframe's zero, `Move.duration` its length in s;
     of a timelapse it is the rehearsal, at the speed of its clip.
-    Raises `teleop.document.DocumentError` with a line for everything wrong, UnplayableError where the rig cannot do it.
+    Raises `teleop.config.document.DocumentError` with a line for each mistake, UnplayableError where the rig cannot.
     """
-    from teleop.profile import load_profile  # numpy and the solver take 0.3 s to load, which no other command needs
-    from teleop.sources.sequence_file import load_performance
-    from teleop.sources.timelapse_file import load_timelapse
+    from teleop.config.profile import load_profile
+    from teleop.sequence.compile import load_performance
+    from teleop.timelapse.compile import load_timelapse
 
     profile = load_profile(str(rig))
     if timelapse := load_timelapse(str(sequence), profile.limits, profile.name):

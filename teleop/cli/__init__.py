@@ -16,10 +16,10 @@ from cyclopts import App, CycloptsError, Group
 
 import teleop
 from teleop.cli.examples import examples
-from teleop.cli.leaving import process
+from teleop.cli.signals import process
 from teleop.cli.staging_options import joined
-from teleop.document import DocumentError, UnplayableError
-from teleop.ports import LeaveAtOnce, TeleopError, UsageError
+from teleop.config.document import DocumentError, UnplayableError
+from teleop.core.errors import LeaveAtOnce, TeleopError, UsageError
 
 MOST_SAID = 50  # problems of a file: nobody mends more at a time
 DONE, FAILED, BAD_USAGE, INTERRUPTED = 0, 1, 2, 130
@@ -31,21 +31,26 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "preview": ("teleop.cli.preview:preview", "Draw a sequence as a page, a picture or a table."),
     "list": ("teleop.cli.shipped_files:list_shipped", "List the moves, rigs and pads that come with it."),
     "copy": ("teleop.cli.shipped_files:copy", "Copy a shipped move, rig or pad to a file of yours."),
-    "take": ("teleop.cli.take:app", "List, judge, export and repair recorded runs."),
+    "take": ("teleop.cli.take.commands:app", "List, judge, export and repair recorded runs."),
     "calibrate": ("teleop.cli.calibrate:app", "Measure what a profile has to know about a gimbal."),
     "devices": ("teleop.cli.devices:devices", "List CAN interfaces, serial ports and HID devices."),
-    "doctor": ("teleop.cli.doctor:doctor", "Say what this machine can do, and what is in the way."),
-    "send": ("teleop.cli.send:send", "Send one command to a gimbal, camera, focus motor or drone."),
+    "doctor": ("teleop.cli.doctor.command:doctor", "Say what this machine can do, and what is in the way."),
+    "send": ("teleop.cli.send.gimbal:send", "Send one command to a gimbal, camera, focus motor or drone."),
     "monitor": ("teleop.cli.monitor:monitor", "Show what host and device say to each other on a link."),
     "sim": ("teleop.cli.sim:sim", "Simulate a rig's devices on a real bus."),
     "schema": ("teleop.cli.schema:schema", "Print the JSON Schema of a kind of file, for editors."),
-    "decode": ("teleop.cli.decode:app", "Bytes of a protocol as JSON lines."),
-    "encode": ("teleop.cli.encode:app", "JSON lines as bytes of a protocol."),
+    "decode": ("teleop.cli.codec.decode:app", "Bytes of a protocol as JSON lines."),
+    "encode": ("teleop.cli.codec.encode:app", "JSON lines as bytes of a protocol."),
 }
 """Where each command is, imported when it is used, and its line of help; in the order in which people need them."""
 
 # These have examples of their own, and so has send, whose help is made in send_help.
-_GROUPS = ("teleop.cli.take:app", "teleop.cli.calibrate:app", "teleop.cli.decode:app", "teleop.cli.encode:app")
+_GROUPS = (
+    "teleop.cli.take.commands:app",
+    "teleop.cli.calibrate:app",
+    "teleop.cli.codec.decode:app",
+    "teleop.cli.codec.encode:app",
+)
 _ABOUT = (teleop.__doc__ or "").partition("\n")[0]  # its first line: the rest is for programs
 app = App(
     name="teleop",

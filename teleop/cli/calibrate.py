@@ -15,30 +15,31 @@ from typing import TYPE_CHECKING
 
 from cyclopts import App
 
+from teleop.app.calibration_move import CalibrationMove
 from teleop.cli.calibrate_signs import signs
-from teleop.cli.display import Display
 from teleop.cli.examples import examples
-from teleop.cli.folded import complain, tell
-from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.perform import EXIT_CODES
 from teleop.cli.play import Fast, the_clock
+from teleop.cli.running import EXIT_CODES
+from teleop.cli.screens.folded import complain, tell
+from teleop.cli.screens.run_view import RunView
+from teleop.cli.signals import signals_to
 from teleop.cli.stop_inputs import open_stop_inputs
-from teleop.motion import Axis
-from teleop.ports import Clock, DeviceError, UsageError
-from teleop.profile import Profile
-from teleop.profile_sinks import Angle, GainsSection, GimbalSection
-from teleop.rig import open_rig
-from teleop.sinks.link_notes import LinkNotes
-from teleop.sources.keyboard import Keyboard, terminal
-from teleop.sources.play_keys import RUN_KEYS, PlayKeys
-from teleop.sources.run_status import Hint
-from teleop.sources.stop_guard import Relay, StopGuard
-from teleop.sources.swing import Swing
-from teleop.supervisor import Result, Supervisor
+from teleop.config.profile import Profile
+from teleop.config.sinks_section import Angle, GainsSection, GimbalSection
+from teleop.core.axes import Axis
+from teleop.core.errors import DeviceError, UsageError
+from teleop.core.interfaces import Clock
+from teleop.core.run_state import Result, RunStateMachine
+from teleop.core.run_status import Hint
+from teleop.devices.link_notes import LinkNotes
+from teleop.devices.rig import open_rig
+from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
+from teleop.manual.stop_guard import Relay, StopGuard
 
 if TYPE_CHECKING:
-    from teleop.sinks.delay import Delay, Traces
+    from teleop.monitors.delay_estimate import Delay, Traces
 
 REACH = 6.0  # deg: enough for a grid of 0.1 deg, and little enough to be made anywhere
 SWINGS = 6  # the first and the last are eased in and out, the others are measured
@@ -65,16 +66,16 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
     moved = Axis(axis)
     profile, mode = _undelayed(options.profile().in_use([moved]), moved)
     clock = the_clock(fast, profile)
-    swing = Swing(moved, profile.limits[moved], REACH, SWINGS)
+    swing = CalibrationMove(moved, profile.limits[moved], REACH, SWINGS)
     title = f"measuring the delay of {axis}, mode {mode}"
-    from teleop.sinks.delay import Traces  # numpy takes 0.1 s to load
+    from teleop.monitors.delay_estimate import Traces
 
     traces = Traces(moved)
     warnings: list[str] = []
     with ExitStack() as stack:
         guard, keys = _guarded(stack, swing, profile, clock, fast)
         hints = HINTS if keys else ()
-        display = Display(
+        display = RunView(
             title,
             {moved: profile.limits[moved]},
             lambda now: guard.over(replace(swing.status(now), hints=hints)),
@@ -98,7 +99,7 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
 
 
 def _guarded(
-    stack: ExitStack, swing: Swing, profile: Profile, clock: Clock, fast: bool
+    stack: ExitStack, swing: CalibrationMove, profile: Profile, clock: Clock, fast: bool
 ) -> tuple[StopGuard, Sequence[Keyboard]]:
     """The test move under every STOP that there is, and the keys of the terminal, which are to be entered."""
     descriptor = None if fast else terminal()
@@ -117,9 +118,9 @@ def _undelayed(profile: Profile, axis: Axis) -> tuple[Profile, str]:
     raise UsageError(f"--axis {axis}: no gimbal of {profile.name} moves it")
 
 
-def _delays(swing: Swing, traces: Traces) -> list[Delay]:
+def _delays(swing: CalibrationMove, traces: Traces) -> list[Delay]:
     """One for each swing but the first and the last. Raises DeviceError when the axis did something else altogether."""
-    from teleop.sinks.delay import estimate
+    from teleop.monitors.delay_estimate import estimate
 
     begins = [swing.begin + number * swing.period for number in range(1, SWINGS - 1)]
     each = [estimate(traces.commanded, traces.measured, begin, begin + swing.period) for begin in begins]
@@ -151,7 +152,7 @@ def _say(axis: str, mode: str, delays: list[Delay], as_json: bool) -> None:
     print(f"    delay: {written:g}")
 
 
-def _stopped(ended: Supervisor, as_json: bool) -> int:
+def _stopped(ended: RunStateMachine, as_json: bool) -> int:
     if as_json:
         print(json.dumps({"result": ended.result.name.lower(), "reasons": ended.reasons}))
     else:

@@ -10,21 +10,21 @@ import json
 import sys
 from collections.abc import Mapping, Sequence
 
-from teleop.cli.leaving import signals_to
+from teleop.app.sign_probe import REACH, SignProbe, Signs
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.perform import EXIT_CODES
 from teleop.cli.play import Fast, the_clock
-from teleop.loop import PERIOD, Loop
-from teleop.motion import Axis
+from teleop.cli.running import EXIT_CODES
+from teleop.cli.signals import signals_to
+from teleop.config.profile import Profile
+from teleop.config.sinks_section import Angle, GimbalSection
+from teleop.config.wiring import Wiring
+from teleop.core.axes import Axis
+from teleop.core.control_loop import PERIOD, ControlLoop
+from teleop.core.errors import UsageError
+from teleop.core.run_state import Result
+from teleop.devices.gimbal.position import Angles
+from teleop.devices.rig import open_rig
 from teleop.planner.live import Live
-from teleop.ports import UsageError
-from teleop.profile import Profile
-from teleop.profile_sinks import Angle, GimbalSection
-from teleop.rig import open_rig
-from teleop.sinks.gimbal import Angles
-from teleop.sinks.sign_probe import REACH, SignProbe, Signs
-from teleop.sinks.wiring import Wiring
-from teleop.supervisor import Result
 
 WAYS: Mapping[Axis, str] = {Axis.PAN: "right", Axis.TILT: "up", Axis.ROLL: "clockwise"}  # teleop.motion.Axis
 
@@ -46,7 +46,7 @@ def signs(*, axis: Angle | None = None, fast: Fast = False, options: Options = D
         connection = rig.connections[section.link]
         probe = SignProbe(connection, axes, section.wiring, limits, full)
         reporter = Angles(connection, Wiring(section.axes), section.legacy_angles)
-        loop = Loop(clock, Live(limits, PERIOD), limits, [probe], [probe], [reporter])
+        loop = ControlLoop(clock, Live(limits, PERIOD), limits, [probe], [probe], [reporter])
         if not options.json:
             print(f"measuring the signs of {', '.join(axes)}: {REACH:g} deg to one side and back", file=sys.stderr)
         with signals_to(loop.interrupt, loop.release_at_once):

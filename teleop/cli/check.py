@@ -10,16 +10,16 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from teleop.cli.flying import is_flown
-from teleop.cli.folded import tell
+from teleop.cli.drone_run import is_flown
 from teleop.cli.options import DEFAULTS, MOVES, Options, warn
+from teleop.cli.screens.folded import tell
 from teleop.cli.shipped_files import named
-from teleop.cli.timelapse_words import facts, summary
-from teleop.motion import Limits
-from teleop.planner.move import Peaks
-from teleop.profile import Profile
-from teleop.sources.playback import fastest
-from teleop.sources.sequence_file import Performance
+from teleop.cli.timelapse_summary import facts, summary
+from teleop.config.profile import Profile
+from teleop.core.axes import Limits
+from teleop.planner.trajectory import Peaks
+from teleop.sequence.compile import CompiledSequence
+from teleop.sequence.playback import fastest
 
 
 def check(
@@ -64,8 +64,8 @@ def _share(peaks: Peaks, limits: Limits) -> Mapping[str, float | None]:
     }
 
 
-def _print(performance: Performance, profile: Profile, asked: Mapping[str, Mapping[str, Any]]) -> None:
-    from teleop.cli.tables import print_table
+def _print(performance: CompiledSequence, profile: Profile, asked: Mapping[str, Mapping[str, Any]]) -> None:
+    from teleop.cli.screens.tables import print_table
 
     rows = []
     for axis, shares in asked.items():

@@ -11,15 +11,15 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from teleop.clock import SystemClock
-from teleop.hid.descriptor import parse_descriptor
-from teleop.motion import Axis
-from teleop.ports import DeviceError, UsageError
-from teleop.sources.hid_backend import DeviceInfo, Hidapi, HidBackend, HidDevice, described
-from teleop.sources.hid_reader import wanted
-from teleop.sources.hid_state import HidState
-from teleop.sources.inputs_section import DeviceSection
-from teleop.sources.learn import Found, Kind, Learned, Question, Watch, other_way, questions, still
+from teleop.config.inputs_section import DeviceSection
+from teleop.core.axes import Axis
+from teleop.core.clock import SystemClock
+from teleop.core.errors import DeviceError, UsageError
+from teleop.inputs.hid.backend import DeviceInfo, Hidapi, HidBackend, HidDevice, described
+from teleop.inputs.hid.descriptor.parser import parse_descriptor
+from teleop.inputs.hid.learn import Found, Kind, Learned, Question, Watch, other_way, questions, still
+from teleop.inputs.hid.reader import wanted
+from teleop.inputs.hid.state import HidState
 
 QUIET = 0.5  # s without a movement: everything has been let go
 HELD = 2.0  # s: what is away from its rest for longer was put there, and is not merely held

@@ -13,28 +13,30 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.display import Display, timed
-from teleop.cli.flying import Aboard, Understood, ask_to_fly, is_flown, refuse_offsets
-from teleop.cli.hands import open_devices
-from teleop.cli.live_view import LiveView
+from teleop.app.absent_devices import open_present
+from teleop.cli.drone_run import Aboard, Understood, ask_to_fly, is_flown, refuse_offsets
+from teleop.cli.open_inputs import open_devices
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.perform import camera_answers, commands, perform
 from teleop.cli.play import Fast, Take, the_clock
-from teleop.cli.presence import open_present
+from teleop.cli.running import camera_answers, commands, perform
+from teleop.cli.screens.live_view import LiveView
+from teleop.cli.screens.run_view import RunView, timed
+from teleop.cli.screens.take_summary import take_words
 from teleop.cli.stop_inputs import open_stop_inputs
-from teleop.cli.take_words import take_words
-from teleop.motion import Action, Axis
-from teleop.ports import Clock, Sink, UsageError
-from teleop.profile import Profile
-from teleop.rig import Rig, open_rig
-from teleop.sinks.recorder import recording
-from teleop.sinks.tally import Tally
-from teleop.sources.keyboard import Keyboard, terminal
-from teleop.sources.operator import Operator
-from teleop.sources.presets import default_file, read_presets
-from teleop.sources.shaping import shape
-from teleop.sources.sticks import Sticks, SticksSource, read_sticks
-from teleop.sources.stop_guard import Relay, StopGuard
+from teleop.config.presets import default_file, read_presets
+from teleop.config.profile import Profile
+from teleop.core.axes import Axis
+from teleop.core.errors import UsageError
+from teleop.core.events import Action
+from teleop.core.interfaces import Clock, Sink
+from teleop.devices.rig import Rig, open_rig
+from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.recorded_sticks import Sticks, SticksSource, read_sticks
+from teleop.inputs.stick_shaping import shape
+from teleop.manual.operator import Operator
+from teleop.manual.stop_guard import Relay, StopGuard
+from teleop.monitors.tracking_error import TrackingErrorMonitor
+from teleop.recording.writer import recording
 
 NOBODY = "live: there is no joystick, and no terminal for its keys: plug one in, run it on a terminal, or give --sticks"
 
@@ -71,14 +73,14 @@ def live(
     clock = the_clock(fast, profile)
     if replay and recorded and keyboard is None:
         ask_to_fly(title, axes, i_understand)
-        tally = Tally(lambda: replay.begin)
+        tally = TrackingErrorMonitor(lambda: replay.begin)
         limits = {axis: profile.limits[axis] for axis in axes}
         shown = timed(lambda: replay.begin, recorded.times[-1], "replaying sticks")
         status = aboard.status if is_flown(axes) else None
         with ExitStack() as stack:
             devices = [] if fast else open_stop_inputs(stack, profile, clock)
             guard = StopGuard(replay, [Relay(each) for each in devices])
-            display = Display(
+            display = RunView(
                 title, limits, lambda now: guard.over(shown(now)), silent=options.json, command="teleop live"
             )
             guard.say = display.say
@@ -116,7 +118,7 @@ def live(
             *(operator, *commands(rig, axes, operator.say, operator.confirmed), camera_answers(rig, operator.say)),
             *([] if keyboard is None else [keyboard]),
         ]
-        tally = Tally(lambda: operator.begin)
+        tally = TrackingErrorMonitor(lambda: operator.begin)
         return perform(
             *(rig, axes, [operator], tally, view, options.json, recorder, watchers), stopped=lambda: operator.reason
         )

@@ -22,20 +22,20 @@ from typing import Annotated
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from teleop.cli.drone_options import Model, cipher_of
-from teleop.cli.leaving import signals_to
+from teleop.cli.codec.drone_options import Model, cipher_of
+from teleop.cli.codec.format_message import line
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.told import line
-from teleop.clock import SystemClock
+from teleop.cli.signals import signals_to
+from teleop.config.document import DocumentError
+from teleop.config.profile import Profile
+from teleop.core.clock import SystemClock
+from teleop.dji.drone.onboard_sdk import MODELS
 from teleop.dji.frame import Damage, Frame, FrameReader
-from teleop.dji.onboard import MODELS
-from teleop.dji.r_sdk import R_SDK
-from teleop.dji.record import MakeCipher, Transcriber
+from teleop.dji.gimbal.r_sdk import R_SDK
+from teleop.dji.json_record import MakeCipher, Transcriber
 from teleop.dji.registry import Registry
-from teleop.document import DocumentError
 from teleop.links import FAR_END, Listener, open_listener, parse
 from teleop.links.can import GIMBAL_ID, HOST_ID
-from teleop.profile import Profile
 
 PERIOD = 0.002  # s between looks at the bus, and so the precision of the times
 _MOST_NAMED = 5  # foreign ids in the summary

@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from teleop.cli.completing import offered
-from teleop.cli.folded import complain, tell
-from teleop.document import DocumentError, UnplayableError
-from teleop.files import is_stdout
-from teleop.profile import Profile, load_profile
-from teleop.sinks.recorder import ENDING
+from teleop.cli.completion import offered
+from teleop.cli.screens.folded import complain, tell
+from teleop.config.document import DocumentError, UnplayableError
+from teleop.config.files import is_stdout
+from teleop.config.profile import Profile, load_profile
+from teleop.recording.writer import ENDING
 
 if TYPE_CHECKING:
-    from teleop.sources.sequence_file import Performance
-    from teleop.sources.timelapse_file import Timelapse
+    from teleop.sequence.compile import CompiledSequence
+    from teleop.timelapse.compile import Timelapse
 
 MOVES, RIGS = offered("sequences", ".yaml", ".yml", ENDING), offered("profiles", ".yaml", ".yml")
 
@@ -58,22 +58,22 @@ class Options:
             links[name] = url
         return load_profile(self.rig, links)
 
-    def compiled(self, file: str, share: float = 1.0) -> tuple[Profile, Performance, Timelapse | None]:
+    def compiled(self, file: str, share: float = 1.0) -> tuple[Profile, CompiledSequence, Timelapse | None]:
         """The sequence or take called `file`, compiled for the rig, its warnings said.
 
         `share` is what it may have of the rig's velocity, acceleration and jerk. Of a timelapse, which is handed out
         too, it is the rehearsal, whose warnings are left to whoever rehearses. Raises DocumentError, and with --json
         prints it.
         """
-        from teleop.sources.sequence_file import load_performance  # the planner's solver takes 0.3 s to load
-        from teleop.sources.timelapse_file import load_timelapse
+        from teleop.sequence.compile import load_performance
+        from teleop.timelapse.compile import load_timelapse
 
         timelapse = None
         try:
             profile = self.profile()
             limits = {axis: of_axis.scaled(share) for axis, of_axis in profile.limits.items()}
             if is_take(file):
-                from teleop.takes.repeat import take_performance
+                from teleop.recording.replay import take_performance
 
                 performance = take_performance(Path(file), limits, profile.name)
             elif timelapse := load_timelapse(file, limits, profile.name):
@@ -91,7 +91,7 @@ class Options:
         return profile, performance, timelapse
 
 
-def warn(compiled: Performance | Timelapse) -> None:
+def warn(compiled: CompiledSequence | Timelapse) -> None:
     """Say what is merely to be known about it."""
     for warning in compiled.warnings:
         print(warning, file=sys.stderr)

@@ -9,27 +9,28 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.attended import attended
-from teleop.cli.flying import Understood, ask_to_fly, is_flown
+from teleop.cli.drone_run import Understood, ask_to_fly, is_flown
+from teleop.cli.operator_check import attended
 from teleop.cli.options import DEFAULTS, MOVES, Options, is_take, warn
 from teleop.cli.sequence_run import SequenceRun
 from teleop.cli.shipped_files import named
 from teleop.cli.shoot_options import NOTHING_ASKED, ShootOptions
 from teleop.cli.staging_options import NO_STAGING, StagingOptions
 from teleop.cli.trim_options import NO_TRIM, TrimOptions
-from teleop.clock import SystemClock, VirtualClock
-from teleop.document import DocumentError
+from teleop.config.document import DocumentError
+from teleop.config.profile import Profile
+from teleop.core.axes import Axis
+from teleop.core.clock import SystemClock, VirtualClock
+from teleop.core.errors import UsageError
+from teleop.core.events import Action
+from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.playback_keymap import FLOWN_KEYS, KEYS, TRIM_KEYS, PlayKeys
 from teleop.links import parse
-from teleop.motion import Action, Axis
-from teleop.planner.findings import PlanError
-from teleop.planner.trim import sequence_limits
-from teleop.planner.warp import NoRunUp
-from teleop.ports import UsageError
-from teleop.profile import Profile
-from teleop.sources.keyboard import Keyboard, terminal
-from teleop.sources.play_keys import FLOWN_KEYS, KEYS, TRIM_KEYS, PlayKeys
-from teleop.sources.sequence import SequenceSource
-from teleop.sources.trimmed_file import TrimmedFile
+from teleop.planner.keyframes.findings import PlanError
+from teleop.planner.offset_limits import sequence_limits
+from teleop.planner.time_scaling import NoRunUp
+from teleop.sequence.source import SequenceSource
+from teleop.sequence.trim_export import TrimmedFile
 
 Fast = Annotated[
     bool,
@@ -86,7 +87,7 @@ def play(
     performance = attended(file, performance, waits, fast)
     trimmed = None if trim.trim_out is None else _trimmed(file, trim.trim_out, axes, profile)
     if is_take(file):
-        from teleop.takes.repeat import followable
+        from teleop.recording.replay import followable
 
         profile = followable(profile)
     clock = the_clock(fast, profile)

@@ -16,13 +16,13 @@ from cyclopts import Parameter
 
 from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json, warn
 from teleop.cli.shipped_files import named
-from teleop.files import replacing
-from teleop.ports import UsageError
-from teleop.profile import Profile
-from teleop.sources.frame_rates import exact_rate
-from teleop.sources.sequence_file import Performance
+from teleop.config.files import replacing
+from teleop.config.frame_rates import exact_rate
+from teleop.config.profile import Profile
+from teleop.core.errors import UsageError
+from teleop.sequence.compile import CompiledSequence
 
-Write = Callable[[Performance, Profile, BinaryIO], None]
+Write = Callable[[CompiledSequence, Profile, BinaryIO], None]
 
 
 def preview(
@@ -77,8 +77,8 @@ def _writes(output: Path | None, csv: Path | None, rate: float) -> Mapping[Path,
 
 
 def _page(_ending: str) -> Write:
-    def write(performance: Performance, profile: Profile, stream: BinaryIO) -> None:
-        from teleop.preview.page import page
+    def write(performance: CompiledSequence, profile: Profile, stream: BinaryIO) -> None:
+        from teleop.plots.page import page
 
         stream.write(page(performance, profile).encode())
 
@@ -86,8 +86,8 @@ def _page(_ending: str) -> Write:
 
 
 def _drawing(ending: str) -> Write:
-    def write(performance: Performance, profile: Profile, stream: BinaryIO) -> None:
-        from teleop.preview.drawing import draw
+    def write(performance: CompiledSequence, profile: Profile, stream: BinaryIO) -> None:
+        from teleop.plots.drawing import draw
 
         draw(performance, profile, stream, ending.removeprefix("."))
 
@@ -98,19 +98,19 @@ _KINDS: Mapping[str, Callable[[str], Write]] = {".html": _page, ".svg": _drawing
 
 
 def _table(rate: float) -> Write:
-    def write(performance: Performance, _profile: Profile, stream: BinaryIO) -> None:
+    def write(performance: CompiledSequence, _profile: Profile, stream: BinaryIO) -> None:
         for text in _progress(performance, rate):
             stream.write(text.encode())
 
     return write
 
 
-def _progress(performance: Performance, rate: float) -> Iterator[str]:
+def _progress(performance: CompiledSequence, rate: float) -> Iterator[str]:
     """The table's text, with a bar on a terminal: a day takes a minute."""
     from rich.console import Console
     from rich.progress import Progress
 
-    from teleop.preview.table import header, lines
+    from teleop.plots.table import header, lines
 
     move, console = performance.move, Console(stderr=True)
     yield header(list(move.tracks))

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from teleop.schema import schema as schema_of
+from teleop.app.json_schema import schema as schema_of
 
 
 def schema(

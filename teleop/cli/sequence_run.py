@@ -8,31 +8,31 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
-from teleop.cli.display import Display
-from teleop.cli.flying import Aboard, is_flown
-from teleop.cli.hands import open_devices
-from teleop.cli.passes import PassesReport
-from teleop.cli.perform import EXIT_CODES, Extra, commands, perform
-from teleop.cli.run_rows import NO_KEYS, RUN_HINTS
+from teleop.cli.drone_run import Aboard, is_flown
+from teleop.cli.open_inputs import open_devices
+from teleop.cli.running import EXIT_CODES, Extra, commands, perform
+from teleop.cli.screens.repeatability_table import PassesReport
+from teleop.cli.screens.run_rows import NO_KEYS, RUN_HINTS
+from teleop.cli.screens.run_view import RunView
+from teleop.cli.screens.take_summary import take_words
 from teleop.cli.stop_inputs import open_stop_inputs
-from teleop.cli.take_words import take_words
 from teleop.cli.trim_options import TrimReport
-from teleop.motion import Axis
-from teleop.planner.trim import trim_limits
-from teleop.ports import Clock, Sink
-from teleop.profile import Profile
-from teleop.rig import Rig, open_rig
-from teleop.sinks.recorder import recording
-from teleop.sinks.repeatability import Repeatability
-from teleop.sinks.tally import Tally
-from teleop.sources.conductor import Conductor
-from teleop.sources.keyboard import Keyboard
-from teleop.sources.sequence import SequenceSource
-from teleop.sources.sequence_file import Performance
-from teleop.sources.stop_guard import Relay, StopGuard, Together
-from teleop.sources.trimmed_file import TrimmedFile
-from teleop.sources.trimming import Trimming
-from teleop.supervisor import Result
+from teleop.config.profile import Profile
+from teleop.core.axes import Axis
+from teleop.core.interfaces import Clock, Sink
+from teleop.core.run_state import Result
+from teleop.devices.rig import Rig, open_rig
+from teleop.inputs.keyboard import Keyboard
+from teleop.manual.live_offset import LiveOffset
+from teleop.manual.stop_guard import Relay, StopGuard, Together
+from teleop.monitors.repeatability import Repeatability
+from teleop.monitors.tracking_error import TrackingErrorMonitor
+from teleop.planner.offset_limits import trim_limits
+from teleop.recording.writer import recording
+from teleop.sequence.compile import CompiledSequence
+from teleop.sequence.playback_controls import PlaybackControls
+from teleop.sequence.source import SequenceSource
+from teleop.sequence.trim_export import TrimmedFile
 
 NOBODY = "play --trim: there is no joystick, and no terminal for its keys: plug one in, or run it on a terminal"
 
@@ -42,7 +42,7 @@ class SequenceRun:
     """`left` is the share of the rig's limits that the source keeps to: less than 1 leaves the rest to a trim."""
 
     profile: Profile
-    performance: Performance
+    performance: CompiledSequence
     source: SequenceSource
     clock: Clock
     keys: Keyboard | None
@@ -71,9 +71,9 @@ class SequenceRun:
             status_of = source.status if conductor is None else conductor.status
             keys = NO_KEYS if self.keys is None else RUN_HINTS
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
-            display = Display(title, limits, shown, self.as_json, take_words(recorder), hints=keys)
+            display = RunView(title, limits, shown, self.as_json, take_words(recorder), hints=keys)
             aboard.board(rig, axes, display.say, by_script=True)
-            tally, sources = Tally(lambda: source.begin), [guard or source]
+            tally, sources = TrackingErrorMonitor(lambda: source.begin), [guard or source]
             stopped = (lambda: guard.reason) if guard else (lambda: "")
             if guard:
                 guard.say = display.say
@@ -83,25 +83,25 @@ class SequenceRun:
 
     def _conductor(
         self, stack: ExitStack, axes: Sequence[Axis], extras: list[Extra]
-    ) -> tuple[Conductor, StopGuard] | tuple[None, None]:
+    ) -> tuple[PlaybackControls, StopGuard] | tuple[None, None]:
         """What its inputs do to it, if there are any, and their STOP; with a trim also what is reported of that."""
         if self.left == 1.0:
             opened = [] if self.patient else open_stop_inputs(stack, self.profile, self.clock)
             relays = [Relay(each) for each in (*opened, *([] if self.keys is None else [self.keys]))]
             if not relays:
                 return None, None
-            conductor = Conductor(self.source, Together(relays))
+            conductor = PlaybackControls(self.source, Together(relays))
             return conductor, StopGuard(conductor, relays)
         devices, note = open_devices(stack, self.profile, self.clock, self.keys is not None, NOBODY)
         keys = None if self.keys is None else Relay(self.keys)
         relays = [*map(Relay, devices), *([] if keys is None else [keys])]
         limits = {axis: self.profile.limits[axis] for axis in axes}
-        trimming = Trimming(trim_limits(self.performance.move, limits, self.left), relays, self.profile.sticks)
+        trimming = LiveOffset(trim_limits(self.performance.move, limits, self.left), relays, self.profile.sticks)
         if note:
             trimming.say(note)
         report = TrimReport(trimming, self.trimmed)
         extras.append(report)
-        conductor = Conductor(self.source, keys, trimming, report.keep)
+        conductor = PlaybackControls(self.source, keys, trimming, report.keep)
         return conductor, StopGuard(conductor, relays)
 
     def _watchers(

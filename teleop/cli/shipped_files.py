@@ -12,10 +12,10 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from teleop.document import DocumentError
-from teleop.phrases import nearest
-from teleop.ports import DeviceError, UsageError
-from teleop.shipped import described, folder, is_bare
+from teleop.config.document import DocumentError
+from teleop.config.messages import nearest
+from teleop.config.resources import described, folder, is_bare
+from teleop.core.errors import DeviceError, UsageError
 
 Kind = Literal["moves", "rigs", "pads"]
 FOLDERS: Mapping[Kind, str] = {"moves": "sequences", "rigs": "profiles", "pads": "profiles/pads"}

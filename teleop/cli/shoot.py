@@ -7,26 +7,26 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
-from teleop.cli.display import error_table
-from teleop.cli.folded import complain, tell
+from teleop.app.shoot_runner import Ended, Shooting, camera_link
 from teleop.cli.options import Options
-from teleop.cli.perform import EXIT_CODES, print_links, print_take, undisturbed
+from teleop.cli.running import EXIT_CODES, print_links, print_take, undisturbed
+from teleop.cli.screens.folded import complain, tell
+from teleop.cli.screens.run_view import error_table
+from teleop.cli.screens.shoot_view import ShootView, free
+from teleop.cli.screens.take_summary import take_words
 from teleop.cli.shoot_options import ShootOptions
-from teleop.cli.shoot_view import ShootView, free
 from teleop.cli.stop_inputs import open_stop_inputs
-from teleop.cli.take_words import take_words
-from teleop.cli.timelapse_words import clock, summary
-from teleop.clock import VirtualClock
-from teleop.journal import ENDING, Journal, Shoot, open_journal
-from teleop.ports import Clock, Sink
-from teleop.profile import Profile
-from teleop.shooting import Ended, Shooting, camera_link
-from teleop.sinks.recorder import recording
-from teleop.sinks.tally import Tally
-from teleop.sources.keyboard import Keyboard, terminal
-from teleop.sources.play_keys import RUN_KEYS, PlayKeys
-from teleop.sources.timelapse_file import Timelapse
-from teleop.supervisor import Result
+from teleop.cli.timelapse_summary import clock, summary
+from teleop.config.profile import Profile
+from teleop.core.clock import VirtualClock
+from teleop.core.interfaces import Clock, Sink
+from teleop.core.run_state import Result
+from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
+from teleop.monitors.tracking_error import TrackingErrorMonitor
+from teleop.recording.writer import recording
+from teleop.timelapse.compile import Timelapse
+from teleop.timelapse.journal import ENDING, Journal, Shoot, open_journal
 
 
 def shoot(
@@ -74,7 +74,7 @@ def shoot(
             take_words(recorder),
             shooting.shown,
         )
-        tally = Tally(lambda: shooting.begin)
+        tally = TrackingErrorMonitor(lambda: shooting.begin)
         watchers += [tally, view]
         if not options.json:
             complain(f"{summary(timelapse)}; journal {path}")
@@ -93,7 +93,7 @@ def shoot(
     return EXIT_CODES[ended.result]
 
 
-def _print(ended: Ended, shooting: Shooting, journal: Journal, tally: Tally) -> None:
+def _print(ended: Ended, shooting: Shooting, journal: Journal, tally: TrackingErrorMonitor) -> None:
     progress = shooting.progress
     for reason in ended.reasons:
         complain(f"teleop: stopped: {reason}")
@@ -135,7 +135,7 @@ def _numbers(frames: list[int]) -> str:
     return shown if len(frames) <= 20 else f"{shown} and {len(frames) - 20} more"
 
 
-def _report(ended: Ended, shooting: Shooting, journal: Journal, tally: Tally) -> Mapping[str, object]:
+def _report(ended: Ended, shooting: Shooting, journal: Journal, tally: TrackingErrorMonitor) -> Mapping[str, object]:
     progress = shooting.progress
     return {
         "result": ended.result.name.lower(),

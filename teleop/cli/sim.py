@@ -7,17 +7,17 @@ import sys
 import threading
 from collections.abc import Callable, Mapping
 
-from teleop.cli.leaving import signals_to
 from teleop.cli.options import DEFAULTS, Options
-from teleop.cli.refusal_lines import RefusalLines
+from teleop.cli.screens.refusal_lines import RefusalLines
+from teleop.cli.signals import signals_to
 from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, DroneSim, GimbalSim
-from teleop.clock import SystemClock
-from teleop.document import DocumentError
+from teleop.config.document import DocumentError
+from teleop.core.clock import SystemClock
 from teleop.links import ClosableLink, open_link, parse
 from teleop.links.can import CanLink
-from teleop.sim.drone import SimulatedDrone
-from teleop.sim.foreign import ForeignTraffic
-from teleop.sim.gimbal import SimulatedGimbal
+from teleop.sim.drone.device import SimulatedDrone
+from teleop.sim.gimbal.device import SimulatedGimbal
+from teleop.sim.gimbal.foreign_traffic import ForeignTraffic
 
 PERIOD = 0.002  # s between looks at the bus: a real gimbal answers within 5 ms
 STATUS = 1.0  # s between status lines

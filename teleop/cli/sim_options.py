@@ -8,13 +8,13 @@ from typing import Annotated, Literal
 
 from cyclopts import Group, Parameter
 
-from teleop.cli.drone_options import cipher_of
-from teleop.dji.encryption import Cipher
-from teleop.ports import UsageError
-from teleop.sim.drone import SimulatedDrone
-from teleop.sim.drone_settings import MOVEMENT_TIMEOUT, VIRTUAL_RC_TIMEOUT, DroneSettings
-from teleop.sim.firmware import Firmware
-from teleop.sim.gimbal import PUSH_RATE, SimulatedGimbal
+from teleop.cli.codec.drone_options import cipher_of
+from teleop.core.errors import UsageError
+from teleop.dji.drone.encryption import Cipher
+from teleop.sim.drone.device import SimulatedDrone
+from teleop.sim.drone.settings import MOVEMENT_TIMEOUT, VIRTUAL_RC_TIMEOUT, DroneSettings
+from teleop.sim.gimbal.device import PUSH_RATE, SimulatedGimbal
+from teleop.sim.gimbal.firmware import Firmware
 
 DRONE = Group("Drone", sort_key=1)
 GIMBAL = Group("Gimbal", sort_key=2)

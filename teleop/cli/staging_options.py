@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from teleop.cli.options import whole
-from teleop.clock import VirtualClock
-from teleop.ports import Clock, UsageError
-from teleop.sources.times import seconds
+from teleop.config.quantities import seconds
+from teleop.core.clock import VirtualClock
+from teleop.core.errors import UsageError
+from teleop.core.interfaces import Clock
 
 if TYPE_CHECKING:
-    from teleop.sources.sequence_file import Performance
-    from teleop.sources.staging import Staging, Trigger
+    from teleop.sequence.compile import CompiledSequence
+    from teleop.sequence.cycle import Cycle, Trigger
 
 KEY = "key"  # as in key3, the third keyframe
 _TRIGGER = re.compile(r"--trigger[ =](time|timecode|osc)")
@@ -62,12 +63,12 @@ class StagingOptions:
         ),
     ] = None
 
-    def staging(self, performance: Performance, clock: Clock, keys: bool) -> Staging:
+    def staging(self, performance: CompiledSequence, clock: Clock, keys: bool) -> Cycle:
         """The staging asked for; raises UsageError for what this performance has not.
 
         `clock` is the run's, and `keys` whether there is a terminal.
         """
-        from teleop.sources.staging import Staging
+        from teleop.sequence.cycle import Cycle
 
         if self.passes is not None and (self.loop or self.passes < 1):
             raise UsageError("--passes: goes without --loop" if self.loop else "--passes: must be at least 1")
@@ -75,9 +76,9 @@ class StagingOptions:
         preroll = performance.preroll if self.preroll is None else _time("preroll", self.preroll, performance.fps)
         passes = math.inf if self.loop else self.passes or 1
         trigger = None if self.trigger is None else _trigger(self.trigger, clock, keys)
-        return Staging(preroll, self._start_at(performance), passes, self.passes is not None, back, trigger)
+        return Cycle(preroll, self._start_at(performance), passes, self.passes is not None, back, trigger)
 
-    def _start_at(self, performance: Performance) -> float:
+    def _start_at(self, performance: CompiledSequence) -> float:
         text = self.start_at
         if text is None:
             return 0.0
@@ -88,7 +89,7 @@ class StagingOptions:
 
 
 def _trigger(text: str, clock: Clock, keys: bool) -> Trigger:
-    from teleop.sources.triggers import KeyTrigger, read_trigger
+    from teleop.sequence.triggers.table import KeyTrigger, read_trigger
 
     if isinstance(clock, VirtualClock):
         raise UsageError(f"--trigger {text}: comes in real time; leave out --fast")

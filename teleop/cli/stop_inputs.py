@@ -9,14 +9,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import ExitStack
 
-from teleop.cli.folded import complain
-from teleop.ports import Clock, DeviceError
-from teleop.profile import Profile
-from teleop.sources.hid_backend import Hidapi
-from teleop.sources.hid_input import HidInput, open_inputs
-from teleop.sources.hid_reader import wanted
-from teleop.sources.inputs_section import InputSection
-from teleop.sources.pads import may_stop
+from teleop.cli.screens.folded import complain
+from teleop.config.inputs_section import InputSection
+from teleop.config.profile import Profile
+from teleop.core.errors import DeviceError
+from teleop.core.interfaces import Clock
+from teleop.inputs.hid.backend import Hidapi
+from teleop.inputs.hid.device import HidInput, open_inputs
+from teleop.inputs.hid.pads import may_stop
+from teleop.inputs.hid.reader import wanted
 
 
 def open_stop_inputs(stack: ExitStack, profile: Profile, clock: Clock) -> Sequence[HidInput]:

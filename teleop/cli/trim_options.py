@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.display import UNITS
-from teleop.ports import TeleopError, UsageError
+from teleop.cli.screens.run_view import UNITS
+from teleop.core.errors import TeleopError, UsageError
 
 if TYPE_CHECKING:
-    from teleop.motion import Tick
-    from teleop.sources.trimmed_file import TrimmedFile
-    from teleop.sources.trimming import Trimming
+    from teleop.core.events import Tick
+    from teleop.manual.live_offset import LiveOffset
+    from teleop.sequence.trim_export import TrimmedFile
 
 SHARE = "25%"
 
@@ -62,7 +62,7 @@ class TrimReport:
     "" as long as that has not happened.
     """
 
-    def __init__(self, trimming: Trimming, file: TrimmedFile | None) -> None:
+    def __init__(self, trimming: LiveOffset, file: TrimmedFile | None) -> None:
         self._trimming, self._file = trimming, file
         self._writer = ThreadPoolExecutor(1, thread_name_prefix="trim")
         self._written: Future[None] | None = None

@@ -19,7 +19,7 @@ from zlib import crc32
 
 import crcmod
 
-from teleop.ports import TeleopError
+from teleop.core.errors import TeleopError
 
 START: Final = 0xAA
 HEADER_SIZE: Final = 12  # bytes, its CRC-16 included

@@ -18,8 +18,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any, ClassVar, NamedTuple, get_args, get_origin, get_type_hints
 
-from teleop.dji.tlv import Ids, OptionalByte, Tlv
-from teleop.dji.wire import Bits, Flag, Number, Reserved
+from teleop.dji.fields import Bits, Flag, Number, Reserved
+from teleop.dji.gimbal.tlv import Ids, OptionalByte, Tlv
 
 
 class Field(NamedTuple):

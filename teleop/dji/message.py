@@ -19,9 +19,9 @@ from difflib import get_close_matches
 from enum import IntEnum
 from typing import Annotated, Any, ClassVar, Self, TypeVar, dataclass_transform
 
+from teleop.core.errors import TeleopError
+from teleop.dji.fields import U8
 from teleop.dji.layout import Field, Layout
-from teleop.dji.wire import U8
-from teleop.ports import TeleopError
 
 COMMAND = 0x03  # cmd_type of a command that wants a reply; what all known programs send
 STREAM = 0x00  # cmd_type of what is sent many times a second and never answered

@@ -10,8 +10,8 @@ from collections import Counter
 from collections.abc import Callable
 from typing import Final, Protocol
 
+from teleop.core.interfaces import Link
 from teleop.links.url import LinkAddress, LinkUrlError, parse
-from teleop.ports import Link
 
 __all__ = [
     "FAR_END",

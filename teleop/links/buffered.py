@@ -13,10 +13,10 @@ from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterator
 
+from teleop.core.errors import LinkError
 from teleop.links.faults import link_failed
 from teleop.links.outbox import Outbox, StalledError, Traffic
 from teleop.links.url import LinkAddress
-from teleop.ports import LinkError
 
 
 class BufferedLink(ABC):

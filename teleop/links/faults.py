@@ -11,8 +11,8 @@ import errno
 import os
 from collections.abc import Mapping
 
+from teleop.core.errors import LinkError
 from teleop.links.url import LinkAddress
-from teleop.ports import LinkError
 
 _ANY = ""
 _NO_PORT = "no port {channel}: is the adapter plugged in? `teleop devices` lists the ports"

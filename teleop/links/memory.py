@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from teleop.ports import LinkError
+from teleop.core.errors import LinkError
 
 
 class MemoryLink:

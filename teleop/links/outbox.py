@@ -24,7 +24,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from enum import Enum, auto
 
-from teleop.ports import LinkError
+from teleop.core.errors import LinkError
 
 PATIENCE = 0.25  # s for which a bus may be full or off before the link counts as lost
 CAPACITY = 1024  # bytes held back: one frame of the greatest length (1023), or some forty commands

@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Protocol
 
+from teleop.core.errors import LinkError
 from teleop.links.url import LinkAddress
-from teleop.ports import LinkError
 
 PATIENCE = 3.0  # s in which an adapter has to answer
 ANSWER = 0.2  # s for the answer to one command

@@ -12,7 +12,7 @@ import difflib
 from dataclasses import dataclass
 from typing import Literal
 
-from teleop.ports import UsageError
+from teleop.core.errors import UsageError
 
 R_SDK_BITRATE = 1_000_000  # bit/s: DJI R SDK Protocol V2.5, section 3.1, figure 37
 

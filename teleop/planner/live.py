@@ -17,17 +17,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from teleop.motion import STICKS, Axis, Cruise, Demand, Follow, Goto, Limits, Motion, State
-from teleop.planner.drive import INSET, Drive
-from teleop.planner.recall import Recall, plan_recalls
-from teleop.planner.solver import PositionSolver, VelocitySolver, new_state
-from teleop.planner.stop import inevitable_velocity
+from teleop.core.axes import STICKS, Axis, Limits, Motion, State
+from teleop.core.guard_stop import inevitable_velocity
+from teleop.core.setpoints import Demand, PositionTarget, StateTarget, VelocityTarget
+from teleop.planner.axis_planner import INSET, AxisPlanner
+from teleop.planner.point_to_point import Recall, plan_recalls
+from teleop.planner.ruckig_solver import PositionSolver, VelocitySolver, new_state
 from teleop.planner.tracking import Tracker
 
 SLOWEST = 1e-3  # share of V with which a soft limit is approached at least: Ruckig needs more than 0
 RESIDUE = 1e-10  # unit/s and unit/s2 left by rounding when Ruckig's plan has come to rest
-STILL = Cruise(0.0)  # what a halt is, and an axis of which nothing is asked
-HOME = Goto(0.0)  # what they are of an axis with a spring
+STILL = VelocityTarget(0.0)  # what a halt is, and an axis of which nothing is asked
+HOME = PositionTarget(0.0)  # what they are of an axis with a spring
 
 
 class Live:
@@ -39,12 +40,12 @@ class Live:
     def __init__(self, limits: Mapping[Axis, Limits], dt: float) -> None:
         self._limits = dict(limits)
         self._dt = dt
-        self._drives: list[Drive] = []
+        self._drives: list[AxisPlanner] = []
         self._position = PositionSolver()
         self._velocity = [VelocitySolver(max(1, count)) for count in range(len(limits) + 1)]  # by number of axes
         self._recalls: dict[Axis, Recall] = {}
         self._tracker = Tracker()
-        self._carried: list[Drive] = []  # whose states the velocity solver of so many axes knows
+        self._carried: list[AxisPlanner] = []  # whose states the velocity solver of so many axes knows
         self._before: Motion = {}
         self._after: Motion = {}
 
@@ -54,7 +55,7 @@ class Live:
         Raises KeyError for an axis without limits.
         """
         drives = {drive.axis: drive for drive in self._drives}
-        drives |= {axis: Drive(axis, self._limits[axis], state) for axis, state in motion.items()}
+        drives |= {axis: AxisPlanner(axis, self._limits[axis], state) for axis, state in motion.items()}
         self._drives = list(drives.values())
         for axis in motion:
             self._recalls.pop(axis, None)
@@ -81,23 +82,23 @@ class Live:
         One with a spring comes to rest in its centre.
         """
         seconds, asked = self._dt * dt_steps, demand.get
-        sticks: list[Drive] = []
+        sticks: list[AxisPlanner] = []
         velocities: list[float] = []
         limits: list[tuple[float, float]] = []
-        presets: list[tuple[Drive, Goto]] = []
+        presets: list[tuple[AxisPlanner, PositionTarget]] = []
         for drive in self._drives:
             wish = asked(drive.axis)
-            if not isinstance(wish, Cruise):
-                if isinstance(wish, Follow):
+            if not isinstance(wish, VelocityTarget):
+                if isinstance(wish, StateTarget):
                     state = self._tracker.step(drive, wish, seconds)
                     if state is None or drive.outside:
                         self._commit(drive, state, seconds)
                     else:
                         drive.state = state
                     continue
-                if drive.axis in STICKS and not isinstance(wish, Goto):
+                if drive.axis in STICKS and not isinstance(wish, PositionTarget):
                     wish = HOME
-                if isinstance(wish, Goto):
+                if isinstance(wish, PositionTarget):
                     presets.append((drive, wish))
                     continue
                 wish = STILL
@@ -119,7 +120,7 @@ class Live:
         self._before, self._after = self._after, motion
         return motion
 
-    def _commit(self, drive: Drive, state: State | None, seconds: float) -> None:
+    def _commit(self, drive: AxisPlanner, state: State | None, seconds: float) -> None:
         """Take a proposed state, or the guard stop in its place."""
         if state is None:
             state = drive.guard_stop(seconds)
@@ -128,8 +129,8 @@ class Live:
             drive.narrow()
 
     def _cruise(
-        self, drives: list[Drive], velocities: list[float], limits: list[tuple[float, float]], seconds: float
-    ) -> list[Drive]:
+        self, drives: list[AxisPlanner], velocities: list[float], limits: list[tuple[float, float]], seconds: float
+    ) -> list[AxisPlanner]:
         """Each of `drives` a step towards its velocity, as far as its soft limits let it.
 
         Returns them if all went where the solver took them, so that it need not be told next time; else none.
@@ -158,7 +159,7 @@ class Live:
                 carried = []
         return carried
 
-    def _approach_limit(self, drive: Drive, side: int, wanted: float, seconds: float) -> State | None:
+    def _approach_limit(self, drive: AxisPlanner, side: int, wanted: float, seconds: float) -> State | None:
         """Onto the soft limit on `side` (1 upper, -1 lower: planned in a mirror), to rest there; None if not legal."""
         position, velocity, acceleration = (side * x for x in drive.state)
         target = (drive.high if side > 0 else -drive.low) - INSET
@@ -177,10 +178,10 @@ class Live:
         state = State(side * position, side * velocity, side * acceleration)
         return None if drive.trips(state) else state
 
-    def _recall(self, presets: list[tuple[Drive, Goto]], seconds: float) -> None:
+    def _recall(self, presets: list[tuple[AxisPlanner, PositionTarget]], seconds: float) -> None:
         """Go on with the recalls still wanted, plan those just asked for, drop the others."""
         going: dict[Axis, Recall] = {}
-        asked: list[tuple[Drive, Goto]] = []
+        asked: list[tuple[AxisPlanner, PositionTarget]] = []
         for drive, wish in presets:
             recall = self._recalls.get(drive.axis)
             if recall is not None and recall.goes_on(wish, seconds):

@@ -14,10 +14,11 @@ from __future__ import annotations
 
 from ruckig import Trajectory
 
-from teleop.motion import Follow, State
-from teleop.planner.drive import ROUNDED, Drive
-from teleop.planner.solver import PositionSolver, new_state
-from teleop.planner.stop import inevitable_velocity
+from teleop.core.axes import State
+from teleop.core.guard_stop import inevitable_velocity
+from teleop.core.setpoints import StateTarget
+from teleop.planner.axis_planner import ROUNDED, AxisPlanner
+from teleop.planner.ruckig_solver import PositionSolver, new_state
 
 NEAR = 20  # ticks within which a reference is expected to keep its acceleration
 CATCHABLE = 0.999  # share of V: a faster reference is chased at V
@@ -58,7 +59,7 @@ class Tracker:
     def __init__(self) -> None:
         self._solver = PositionSolver()
 
-    def step(self, drive: Drive, wish: Follow, seconds: float) -> State | None:
+    def step(self, drive: AxisPlanner, wish: StateTarget, seconds: float) -> State | None:
         """The legal state after `seconds`: the reference itself where a step ends on it, else on the way to it.
 
         None when no way is found.
@@ -81,7 +82,7 @@ class Tracker:
         state = self._rendezvous(drive, goal, seconds)
         return None if state is None or drive.trips(state) else state
 
-    def _rendezvous(self, drive: Drive, goal: State, seconds: float) -> State | None:
+    def _rendezvous(self, drive: AxisPlanner, goal: State, seconds: float) -> State | None:
         """Towards where the reference will be: with its acceleration when near, with its velocity when far."""
         fastest = drive.limits.velocity
         acceleration, jerk = drive.guard
@@ -99,7 +100,7 @@ class Tracker:
             return state
         return self._wait(drive, min(max(goal.position + speed * (duration - seconds), low), high), seconds)
 
-    def _meet(self, drive: Drive, goal: State, seconds: float) -> tuple[State | None, float]:
+    def _meet(self, drive: AxisPlanner, goal: State, seconds: float) -> tuple[State | None, float]:
         """The next state on the fastest way to come to rest relative to the reference, and how long that takes.
 
         In the frame that moves with it the reference stands still, and the limits are shifted.
@@ -125,7 +126,7 @@ class Tracker:
         (p,), (v,), (a,) = answer.at_time(seconds)
         return State(goal.position + p, goal.velocity + v, goal.acceleration + a), answer.duration
 
-    def _wait(self, drive: Drive, position: float, seconds: float) -> State | None:
+    def _wait(self, drive: AxisPlanner, position: float, seconds: float) -> State | None:
         """Towards rest at `position`, for a reference that is or goes beyond it."""
         if drive.state == State(position):
             return drive.state
@@ -137,7 +138,7 @@ class Tracker:
         (p,), (v,), (a,) = answer.at_time(seconds)
         return State(p, v, a)
 
-    def _solve(self, drive: Drive, goal: State, seconds: float | None) -> Trajectory | None:
+    def _solve(self, drive: AxisPlanner, goal: State, seconds: float | None) -> Trajectory | None:
         acceleration, jerk = drive.guard
         return self._solver.solve(
             [drive.state], [goal], [drive.velocity], [acceleration], [jerk], minimum_duration=seconds

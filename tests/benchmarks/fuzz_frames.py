@@ -14,14 +14,14 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from teleop.dji.encryption import Cipher
+from teleop.dji.drone.encryption import Cipher
+from teleop.dji.drone.onboard_sdk import A3, M100
+from teleop.dji.drone.session import OnboardSession
 from teleop.dji.frame import Damage, Frame, FrameReader
-from teleop.dji.onboard import A3, M100
-from teleop.dji.onboard_session import OnboardSession
-from teleop.dji.r_sdk import R_SDK
-from teleop.dji.record import Transcriber, restore
+from teleop.dji.gimbal.r_sdk import R_SDK
+from teleop.dji.gimbal.session import Session
+from teleop.dji.json_record import Transcriber, restore
 from teleop.dji.registry import Registry
-from teleop.dji.session import Session
 
 CIPHER = Cipher(bytes(32))
 

@@ -13,7 +13,8 @@ import random
 import sys
 from dataclasses import replace
 
-from teleop.motion import Axis, Cruise, Follow, Goto, Halt, Limits, State, Wish
+from teleop.core.axes import Axis, Limits, State
+from teleop.core.setpoints import PositionTarget, Setpoint, StateTarget, Stop, VelocityTarget
 from teleop.planner.live import Live
 
 LIMITS = {
@@ -32,18 +33,18 @@ def place(rng: random.Random, limits: Limits) -> float:
     return rng.uniform(low - (high - low) / 10, high + (high - low) / 10)
 
 
-def wish(rng: random.Random, limits: Limits) -> Wish | None:
+def wish(rng: random.Random, limits: Limits) -> Setpoint | None:
     velocity = rng.choice([0.0, limits.velocity, -limits.velocity, rng.uniform(-1.2, 1.2) * limits.velocity])
     kind = rng.choices(["stick", "gentle stick", "preset", "reference", "halt", "none"], [3, 3, 3, 2, 1, 1])[0]
     if kind == "stick":
-        return Cruise(velocity)
+        return VelocityTarget(velocity)
     if kind == "gentle stick":
-        return Cruise(velocity, rng.uniform(0, 1.2) * limits.acceleration, rng.uniform(0, 1.2) * limits.jerk)
+        return VelocityTarget(velocity, rng.uniform(0, 1.2) * limits.acceleration, rng.uniform(0, 1.2) * limits.jerk)
     if kind == "preset":
-        return Goto(place(rng, limits), rng.choice([None, rng.uniform(0, 8)]))
+        return PositionTarget(place(rng, limits), rng.choice([None, rng.uniform(0, 8)]))
     if kind == "reference":
-        return Follow(place(rng, limits), velocity, rng.uniform(-1, 1) * limits.acceleration)
-    return Halt() if kind == "halt" else None
+        return StateTarget(place(rng, limits), velocity, rng.uniform(-1, 1) * limits.acceleration)
+    return Stop() if kind == "halt" else None
 
 
 def narrowed(rng: random.Random, limits: Limits) -> Limits:
@@ -56,11 +57,11 @@ def narrowed(rng: random.Random, limits: Limits) -> Limits:
     )
 
 
-def noisy(rng: random.Random, wanted: Wish) -> Wish:
+def noisy(rng: random.Random, wanted: Setpoint) -> Setpoint:
     """What a stick with 3 % noise, or a reference that moves on, asks for a tick later."""
-    if isinstance(wanted, Cruise):
+    if isinstance(wanted, VelocityTarget):
         return wanted._replace(velocity=wanted.velocity * (1 + rng.gauss(0, 0.03)))
-    if isinstance(wanted, Follow):
+    if isinstance(wanted, StateTarget):
         return wanted._replace(position=wanted.position + wanted.velocity * DT)
     return wanted
 

@@ -17,9 +17,9 @@ from itertools import pairwise
 import numpy as np
 from ruckig import InputParameter, Ruckig, Trajectory
 
-from teleop.motion import Axis, Limits
-from teleop.planner.findings import Infeasible
-from teleop.planner.keyframes import Key, plan
+from teleop.core.axes import Axis, Limits
+from teleop.planner.keyframes.findings import Infeasible
+from teleop.planner.keyframes.planner import Key, plan
 
 LIMITS = Limits(-170, 170, 60, 120, 600)
 HEADROOM = 0.95

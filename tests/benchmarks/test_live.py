@@ -22,12 +22,12 @@ from fake_hid import BrokenDevice, FakeDevice
 from live_bench import REST, RIGHT, Bench, Hand, bench, percentile, rss
 from waiting import wait_until
 
-from teleop.cli.doctor_timing import sleep_late
-from teleop.clock import SystemClock, VirtualClock
-from teleop.loop import PERIOD
-from teleop.motion import Tick
+from teleop.cli.doctor.timing import sleep_late
+from teleop.core.clock import SystemClock, VirtualClock
+from teleop.core.control_loop import PERIOD
+from teleop.core.events import Tick
 
-_BARE = "import sys; from teleop.cli.doctor_timing import sleep_late; print(*sleep_late(int(sys.argv[1])))"
+_BARE = "import sys; from teleop.cli.doctor.timing import sleep_late; print(*sleep_late(int(sys.argv[1])))"
 
 
 @pytest.fixture

@@ -17,8 +17,9 @@ import numpy as np
 import pytest
 from ruckig import ControlInterface, InputParameter, OutputParameter, Ruckig, Synchronization
 
-from teleop.motion import Axis, Cruise, Demand, Follow, Limits, State
-from teleop.planner.keyframes import Key, plan
+from teleop.core.axes import Axis, Limits, State
+from teleop.core.setpoints import Demand, StateTarget, VelocityTarget
+from teleop.planner.keyframes.planner import Key, plan
 from teleop.planner.live import Live
 
 AXES = (Axis.PAN, Axis.TILT, Axis.ROLL, Axis.FOCUS)
@@ -63,7 +64,9 @@ def live_near() -> Scene:
     rng = random.Random(2)
     demands: list[Demand] = []
     for sign in (1, -1) * 6:
-        demands += [{a: Cruise(sign * rng.uniform(0.4, 0.5) * LIMITS[a].velocity) for a in AXES} for _ in range(150)]
+        demands += [
+            {a: VelocityTarget(sign * rng.uniform(0.4, 0.5) * LIMITS[a].velocity) for a in AXES} for _ in range(150)
+        ]
     return live.step, cycle(demands)
 
 
@@ -74,7 +77,7 @@ def tracking() -> Scene:
     live = Live(LIMITS, DT)
     live.reset(move.start)
     demands: list[Demand] = [
-        {axis: Follow(*state) for axis, state in move.at(tick * DT).items()} for tick in range(1, 1001)
+        {axis: StateTarget(*state) for axis, state in move.at(tick * DT).items()} for tick in range(1, 1001)
     ]
     return live.step, cycle(demands)
 
@@ -90,7 +93,7 @@ def _reach(axis: Axis) -> float:
 
 def _noisy_sticks(draw: Callable[[random.Random, float], float]) -> list[Demand]:
     rng = random.Random(3)
-    return [{a: Cruise(draw(rng, LIMITS[a].velocity)) for a in AXES} for _ in range(2003)]
+    return [{a: VelocityTarget(draw(rng, LIMITS[a].velocity)) for a in AXES} for _ in range(2003)]
 
 
 def keys(count: int) -> dict[Axis, list[Key]]:

@@ -16,9 +16,9 @@ import crcmod
 
 from teleop.dji import frame
 from teleop.dji.frame import Frame, FrameReader, pieces
-from teleop.dji.gimbal import Position, Push
-from teleop.dji.r_sdk import R_SDK
-from teleop.dji.session import Session
+from teleop.dji.gimbal.messages import Position, Push
+from teleop.dji.gimbal.r_sdk import R_SDK
+from teleop.dji.gimbal.session import Session
 
 ROUNDS, CALLS = 300, 100
 

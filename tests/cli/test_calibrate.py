@@ -12,13 +12,14 @@ import pytest
 from command import running, teleop
 from waiting import DEADLINE
 
+from teleop.app.calibration_move import SHARE, CalibrationMove
 from teleop.cli import run
-from teleop.clock import VirtualClock
-from teleop.motion import Axis, Follow, Limits, State
-from teleop.ports import UsageError
-from teleop.profile import load_profile
-from teleop.sim.gimbal import SimulatedGimbal
-from teleop.sources.swing import SHARE, Swing
+from teleop.config.profile import load_profile
+from teleop.core.axes import Axis, Limits, State
+from teleop.core.clock import VirtualClock
+from teleop.core.errors import UsageError
+from teleop.core.setpoints import StateTarget
+from teleop.sim.gimbal.device import SimulatedGimbal
 
 PROFILE = """\
 name: Late
@@ -59,7 +60,7 @@ def test_a_known_lateness_is_found_to_5_ms(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     """The profile's own delay and gains, which would hide it, do not count meanwhile."""
-    monkeypatch.setattr("teleop.rig.SimulatedGimbal", partial(SimulatedGimbal, **gimbal))
+    monkeypatch.setattr("teleop.devices.rig.SimulatedGimbal", partial(SimulatedGimbal, **gimbal))
     assert run(["calibrate", "delay", "--rig", profile(tmp_path, mode), "--axis", axis, "--fast", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert (found["axis"], found["mode"]) == (axis, mode)
@@ -89,7 +90,7 @@ def test_it_says_what_to_write_and_the_profile_takes_it(tmp_path: Path) -> None:
 def test_a_gimbal_that_does_something_else_has_no_delay(
     mode: str, gimbal: dict[str, object], said: str, tmp_path: Path, monkeypatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("teleop.rig.SimulatedGimbal", partial(SimulatedGimbal, **gimbal))
+    monkeypatch.setattr("teleop.devices.rig.SimulatedGimbal", partial(SimulatedGimbal, **gimbal))
     assert run(["calibrate", "delay", "--rig", profile(tmp_path, mode), "--fast"]) == 1
     captured = capsys.readouterr()
     assert captured.out == ""
@@ -126,14 +127,14 @@ def test_a_signal_stops_it_as_it_stops_any_run(tmp_path: Path) -> None:
     ("velocity", "acceleration", "jerk"), [(60, 240, 1200), (2, 240, 1200), (60, 3, 1200), (60, 240, 4)]
 )
 def test_the_test_move_stays_within_its_share_of_the_limits(velocity: float, acceleration: float, jerk: float) -> None:
-    swing = Swing(Axis.PAN, Limits(-180, 180, velocity, acceleration, jerk), 6.0, 6)
+    swing = CalibrationMove(Axis.PAN, Limits(-180, 180, velocity, acceleration, jerk), 6.0, 6)
     clock = VirtualClock()
     swing.start(0.0, {Axis.PAN: State(179.0)})
-    states: list[Follow] = []
+    states: list[StateTarget] = []
     while swing.next_change(clock.now()) <= clock.now():
         clock.sleep_until(clock.now() + 0.01)
         wish = swing.read(clock.now())[0][Axis.PAN]
-        assert isinstance(wish, Follow)
+        assert isinstance(wish, StateTarget)
         states.append(wish)
     assert max(s.position for s in states) == pytest.approx(179.0)
     assert min(s.position for s in states) == pytest.approx(173.0, abs=0.01)
@@ -146,4 +147,4 @@ def test_the_test_move_stays_within_its_share_of_the_limits(velocity: float, acc
 
 def test_an_axis_that_is_too_slow_for_it_is_refused() -> None:
     with pytest.raises(UsageError, match="pan: its limits are too low for a test move of 6 deg"):
-        Swing(Axis.PAN, Limits(-180, 180, 0.1, 240, 1200), 6.0, 6)
+        CalibrationMove(Axis.PAN, Limits(-180, 180, 0.1, 240, 1200), 6.0, 6)

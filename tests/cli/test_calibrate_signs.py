@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 
 from teleop.cli import run
-from teleop.dji import gimbal
+from teleop.config.profile import load_profile
+from teleop.config.sinks_section import GimbalSection
+from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.message import Message
-from teleop.profile import load_profile
-from teleop.profile_sinks import GimbalSection
-from teleop.sim.gimbal import SimulatedGimbal
+from teleop.sim.gimbal.device import SimulatedGimbal
 
 PROFILE = """\
 name: Signs
@@ -76,7 +76,7 @@ def test_what_it_prints_makes_speeds_and_reports_agree_with_positions(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr("teleop.rig.SimulatedGimbal", lambda **settings: Turned(speed, report, **settings))
+    monkeypatch.setattr("teleop.devices.rig.SimulatedGimbal", lambda **settings: Turned(speed, report, **settings))
     path = rig(tmp_path, mode, claimed)
     assert run(["calibrate", "signs", "--rig", str(path), "--fast"]) == 0
     assert Turned.last.farthest < 0.8
@@ -97,7 +97,7 @@ def test_signs_of_the_firmware_noise_and_lag_do_not_matter_and_json_has_it_all(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     late = partial(SimulatedGimbal, signs=(-1, 1, -1), boot=BOOT, lag=0.2, reaction=0.1)
-    monkeypatch.setattr("teleop.rig.SimulatedGimbal", late)
+    monkeypatch.setattr("teleop.devices.rig.SimulatedGimbal", late)
     assert run(["calibrate", "signs", "--rig", str(rig(tmp_path, "speed")), "--fast", "--axis", "tilt", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["result"] == "done"
@@ -108,7 +108,9 @@ def test_signs_of_the_firmware_noise_and_lag_do_not_matter_and_json_has_it_all(
 def test_an_axis_without_room_does_not_move(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("teleop.rig.SimulatedGimbal", lambda **settings: Turned((1, 1, 1), (1, 1, 1), **settings))
+    monkeypatch.setattr(
+        "teleop.devices.rig.SimulatedGimbal", lambda **settings: Turned((1, 1, 1), (1, 1, 1), **settings)
+    )
     assert run(["calibrate", "signs", "--rig", str(rig(tmp_path, "speed", roll=2.8)), "--fast"]) == 1
     assert "roll has no room for a test move of 0.5 deg: move it further in" in capsys.readouterr().err
     assert Turned.last.farthest == 0.0
@@ -122,7 +124,7 @@ def test_an_axis_that_is_held_is_said_and_speed_control_is_given_back(
         made.hold(0.0, roll=True)
         return made
 
-    monkeypatch.setattr("teleop.rig.SimulatedGimbal", held)
+    monkeypatch.setattr("teleop.devices.rig.SimulatedGimbal", held)
     assert run(["calibrate", "signs", "--rig", str(rig(tmp_path, "speed")), "--fast"]) == 1
     assert "roll did not move by a position command" in capsys.readouterr().err
     assert not Turned.last.controlled
@@ -131,7 +133,9 @@ def test_an_axis_that_is_held_is_said_and_speed_control_is_given_back(
 def test_a_gimbal_that_ignores_speeds_has_no_sign_of_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("teleop.rig.SimulatedGimbal", lambda **settings: Turned((0, 0, 0), (1, 1, 1), **settings))
+    monkeypatch.setattr(
+        "teleop.devices.rig.SimulatedGimbal", lambda **settings: Turned((0, 0, 0), (1, 1, 1), **settings)
+    )
     assert run(["calibrate", "signs", "--rig", str(rig(tmp_path, "position")), "--fast", "--axis", "pan"]) == 0
     said = capsys.readouterr().out
     assert "pan: speed commands go nowhere" in said

@@ -11,10 +11,10 @@ from command import teleop
 from fake_hid import FakeBackend, FakeDevice, real
 
 from teleop.cli.learn import learn
-from teleop.motion import Axis
-from teleop.ports import DeviceError, UsageError
-from teleop.profile import load_profile
-from teleop.shipped import folder
+from teleop.config.profile import load_profile
+from teleop.config.resources import folder
+from teleop.core.axes import Axis
+from teleop.core.errors import DeviceError, UsageError
 
 REST = "7f7f7f7f08000000"
 HAND: Mapping[str, Sequence[str]] = {

@@ -12,9 +12,9 @@ from command import teleop
 from terminal import terminal
 from waiting import wait_until
 
-from teleop.motion import Axis
-from teleop.shipped import folder
-from teleop.takes.take import read_take
+from teleop.config.resources import folder
+from teleop.core.axes import Axis
+from teleop.recording.reader import read_take
 
 MOVING = re.compile(r"\+\d+\.(?!00)\d\d")  # an angle that is not 0
 LEFT_THE_SCREEN = "\x1b[?1049l"

@@ -17,14 +17,15 @@ from network import own_network
 from waiting import DEADLINE, wait_until
 
 from teleop.cli import run
+from teleop.cli.codec.format_message import in_units, line
 from teleop.cli.monitor import Tap, Watch
-from teleop.cli.told import in_units, line
-from teleop.dji import focus, gimbal
 from teleop.dji.frame import Frame, pieces
+from teleop.dji.gimbal import focus
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.r_sdk import R_SDK
+from teleop.dji.gimbal.session import Session
+from teleop.dji.json_record import restore
 from teleop.dji.message import Message, Result, ReturnCode
-from teleop.dji.r_sdk import R_SDK
-from teleop.dji.record import restore
-from teleop.dji.session import Session
 from teleop.links import ClosableLink, LinkUrlError, open_link, open_listener
 from teleop.links.can import GIMBAL_ID, HOST_ID
 

@@ -11,13 +11,13 @@ from far_drone import far_drone
 
 from teleop.cli import run
 from teleop.cli.monitor import Tap, Watch
-from teleop.dji import drone
-from teleop.dji.broadcast import Broadcast
-from teleop.dji.drone_words import FlightStatus
-from teleop.dji.movement import Frame, Horizontal, Move, Vertical, Yaw
-from teleop.dji.onboard import M100
-from teleop.dji.onboard_session import OnboardSession
-from teleop.dji.telemetry import Position
+from teleop.dji.drone import messages as drone
+from teleop.dji.drone.broadcast import Broadcast
+from teleop.dji.drone.broadcast_parts import Position
+from teleop.dji.drone.enums import FlightStatus
+from teleop.dji.drone.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.drone.onboard_sdk import M100
+from teleop.dji.drone.session import OnboardSession
 from teleop.links import FAR_END
 
 

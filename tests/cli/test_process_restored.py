@@ -19,10 +19,10 @@ from pathlib import Path
 import pytest
 
 import teleop.cli
-from teleop.cli.leaving import process, signals_to
-from teleop.cli.perform import undisturbed
-from teleop.loop import Loop
-from teleop.ports import LeaveAtOnce
+from teleop.cli.running import undisturbed
+from teleop.cli.signals import process, signals_to
+from teleop.core.control_loop import ControlLoop
+from teleop.core.errors import LeaveAtOnce
 
 MOVE = "keyframes: [{at: 0, pan: 0}, {at: 2, pan: 10}]\n"
 SHOOT = """
@@ -100,7 +100,7 @@ def test_a_run_that_ends_in_an_exception_leaves_it_too(
 ) -> None:
     run(COMMANDS[name], folder)
     before = state()
-    monkeypatch.setattr(Loop, "run", fails(error))
+    monkeypatch.setattr(ControlLoop, "run", fails(error))
     try:
         code = run(COMMANDS[name], folder, 1)
     except ZeroDivisionError:
@@ -114,14 +114,14 @@ def test_a_run_that_a_signal_ends_leaves_it_too(
     number: signal.Signals, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     before = state()
-    turn, turns = Loop._turn, iter(range(1 << 30))
+    turn, turns = ControlLoop._turn, iter(range(1 << 30))
 
-    def turned(self: Loop) -> None:
+    def turned(self: ControlLoop) -> None:
         if next(turns) == 60:
             signal.raise_signal(number)
         turn(self)
 
-    monkeypatch.setattr(Loop, "_turn", turned)
+    monkeypatch.setattr(ControlLoop, "_turn", turned)
     assert run(COMMANDS["play"], folder) == 130
     assert state() == before
 
@@ -153,7 +153,7 @@ def on_a_terminal() -> Iterator[int]:
 
 @pytest.mark.parametrize("error", [None, ZeroDivisionError(), LeaveAtOnce("SIGINT")])
 def test_a_terminal_is_left_as_it_was(error: BaseException | None) -> None:
-    from teleop.sources.keyboard import Keyboard
+    from teleop.inputs.keyboard import Keyboard
 
     with on_a_terminal() as near:
         before, threads = termios.tcgetattr(near), threading.active_count()

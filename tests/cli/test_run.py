@@ -17,7 +17,7 @@ from network import own_network
 from waiting import DEADLINE
 
 from sequences import RIGS
-from teleop.shipped import folder
+from teleop.config.resources import folder
 
 BUS = "gimbal=udp_multicast:239.74.163.2"
 STICKS = "time,pan\n0,0.3\n1,0\n2,0\n"

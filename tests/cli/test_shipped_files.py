@@ -10,12 +10,12 @@ import pytest
 from sequences import RIGS
 from teleop.cli import run
 from teleop.cli.shipped_files import FOLDERS
-from teleop.document import DocumentError
-from teleop.profile import load_profile
-from teleop.shipped import described, folder
-from teleop.sources.pads import load_pad
-from teleop.sources.sequence_file import load_performance
-from teleop.yaml_text import read_document
+from teleop.config.document import DocumentError
+from teleop.config.pad_file import load_pad
+from teleop.config.profile import load_profile
+from teleop.config.resources import described, folder
+from teleop.config.yaml_loader import read_document
+from teleop.sequence.compile import load_performance
 
 EVERYTHING = [(kind, name) for kind, place in FOLDERS.items() for name in described(place)]
 GIMBALS = ["rs2", "rs3-pro", "rs4-pro", "rs5"]

@@ -13,9 +13,9 @@ import pytest
 from command import TELEOP, running, teleop
 from waiting import DEADLINE
 
-from teleop.profile import load_profile
-from teleop.shipped import find
-from teleop.sources.timelapse_file import load_timelapse
+from teleop.config.profile import load_profile
+from teleop.config.resources import find
+from teleop.timelapse.compile import load_timelapse
 
 FILE = """
 title: Dusk

@@ -18,12 +18,12 @@ from onboard_client import ACTIVATE, KEY, OBTAIN, encrypted
 from raw_frames import raw_frame
 from waiting import wait_until
 
-from teleop.cli.refusal_lines import AGAIN, RefusalLines
+from teleop.cli.screens.refusal_lines import AGAIN, RefusalLines
 from teleop.cli.sim_options import DroneSim, GimbalSim
-from teleop.ports import UsageError
-from teleop.sim.drone import SimulatedDrone
-from teleop.sim.foreign import ForeignTraffic
-from teleop.sim.gimbal import SimulatedGimbal
+from teleop.core.errors import UsageError
+from teleop.sim.drone.device import SimulatedDrone
+from teleop.sim.gimbal.device import SimulatedGimbal
+from teleop.sim.gimbal.foreign_traffic import ForeignTraffic
 
 MOVE = b"\x01\x03" + struct.pack("<Bffff", 0x4B, 0, 0, 0, 0)
 

@@ -12,11 +12,11 @@ from fake_hid import FakeBackend, FakeDevice, real
 from waiting import wait_until
 
 from teleop.cli import stop_inputs
-from teleop.clock import SystemClock
-from teleop.ports import DeviceError
-from teleop.profile import Profile, load_profile
-from teleop.shipped import folder
-from teleop.sources.inputs import Command, Held
+from teleop.config.profile import Profile, load_profile
+from teleop.config.resources import folder
+from teleop.core.clock import SystemClock
+from teleop.core.errors import DeviceError
+from teleop.core.operator_input import Command, Held
 
 F310 = real("Logitech F310")
 REST, STOP, SLOWER = (bytes.fromhex(text) for text in ("7f7f7f7f08000000", "7f7f7f7f48000000", "7f7f7f7f08010000"))

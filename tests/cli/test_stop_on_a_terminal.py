@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from terminal import terminal
 
-from teleop.motion import Axis
-from teleop.takes.take import read_take
+from teleop.core.axes import Axis
+from teleop.recording.reader import read_take
 
 MOVE = """
 title: There

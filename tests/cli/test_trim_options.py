@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from teleop.cli.trim_options import TrimReport
-from teleop.files import OutputError
-from teleop.motion import Axis, State, Tick
+from teleop.config.files import OutputError
+from teleop.core.axes import Axis, State
+from teleop.core.events import Tick
 
 TICK = Tick(0.0, {}, {}, (), {})
 

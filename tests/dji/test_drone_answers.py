@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from teleop.dji import drone
+from teleop.dji.drone import messages as drone
+from teleop.dji.drone.onboard_sdk import M100
 from teleop.dji.frame import REPLY, Frame
 from teleop.dji.message import Message
-from teleop.dji.onboard import M100
 
 NAME = b"SDK-v1.0 BETA M100-03.01.01.00"
 

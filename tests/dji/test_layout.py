@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from teleop.dji.fields import I16, U8, U16, Bits, Flag, Reserved
 from teleop.dji.message import FieldError, Message, Opaque, message
-from teleop.dji.wire import I16, U8, U16, Bits, Flag, Reserved
 
 
 @message("test.mixture", 0x7F, 0x01)

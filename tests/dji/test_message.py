@@ -11,15 +11,24 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teleop.dji import broadcast
-from teleop.dji.gimbal import AngleKind, Angles, Calibrate, Parameter, Parameters, Position, SetParameters, Speed
+from teleop.dji.drone import broadcast
+from teleop.dji.drone.onboard_sdk import A3, M100
+from teleop.dji.drone.virtual_rc import Sticks, VirtualRc
+from teleop.dji.fields import Flag, Number, Reserved
+from teleop.dji.float_fields import Text
+from teleop.dji.gimbal.messages import (
+    AngleKind,
+    Angles,
+    Calibrate,
+    Parameter,
+    Parameters,
+    Position,
+    SetParameters,
+    Speed,
+)
+from teleop.dji.gimbal.r_sdk import R_SDK
+from teleop.dji.gimbal.tlv import OptionalByte
 from teleop.dji.message import FieldError, Message, Opaque, Result, ReturnCode
-from teleop.dji.onboard import A3, M100
-from teleop.dji.r_sdk import R_SDK
-from teleop.dji.real import Text
-from teleop.dji.tlv import OptionalByte
-from teleop.dji.virtual_rc import Sticks, VirtualRc
-from teleop.dji.wire import Flag, Number, Reserved
 
 PARTS = [part.cls for part in broadcast.PARTS.values() if isinstance(part, broadcast.Several)]
 CLASSES = [*R_SDK.messages, Result, *dict.fromkeys((*M100.messages, *A3.messages)), *PARTS]

@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 
 from teleop.cli import run
-from teleop.dji import focus, gimbal
+from teleop.dji.gimbal import focus
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.session import Session
 from teleop.dji.message import FieldError, Message
-from teleop.dji.session import Session
 
 LIMITS = gimbal.SetLimits(145, 55, 179, 179, 30, 30)
 TABLE: list[tuple[Message, str, Any, Any]] = [  # the field, and what is just allowed and just not

@@ -8,10 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teleop.dji import camera, gimbal
 from teleop.dji.frame import Frame
+from teleop.dji.gimbal import camera
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.r_sdk import R_SDK
 from teleop.dji.message import FieldError, Message, Opaque, Result, ReturnCode
-from teleop.dji.r_sdk import R_SDK
 from teleop.dji.registry import Decoded
 
 COMMAND, REPLY, AES = 0x03, 0x20, 0x20

@@ -12,10 +12,10 @@ from typing import IO
 import pytest
 from scene import scene
 
-from teleop.sinks import recorder as module
-from teleop.sinks.recorder import Recorder
-from teleop.sinks.take_format import About
-from teleop.supervisor import Result
+from teleop.core.run_state import Result
+from teleop.recording import writer as module
+from teleop.recording.format import About
+from teleop.recording.writer import Recorder
 
 
 class Gone(io.RawIOBase):

@@ -14,12 +14,12 @@ from pathlib import Path
 import pytest
 from sky import READY, VIRTUAL_RC, Sky, sky
 
-from teleop.dji.virtual_rc import NEUTRAL, Sticks
-from teleop.document import DocumentError
-from teleop.sim.controls import Pilot, Switch
-from teleop.sinks.engagement import LAST_NEUTRALS, Stage
-from teleop.sources.inputs import Command
-from teleop.supervisor import Result
+from teleop.config.document import DocumentError
+from teleop.core.operator_input import Command
+from teleop.core.run_state import Result
+from teleop.devices.drone.engagement import LAST_NEUTRALS, Stage
+from teleop.dji.drone.virtual_rc import NEUTRAL, Sticks
+from teleop.sim.drone.controls import Pilot, Switch
 
 BREAKS = 8.0  # s after the start
 FORWARD = 1024 + 330

@@ -11,10 +11,10 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from sky import FLIGHT, VIRTUAL_RC, Sky, sky
 
-from teleop.motion import STICKS
-from teleop.sim.controls import Pilot, Switch
-from teleop.sinks.engagement import Stage
-from teleop.sources.inputs import Command
+from teleop.core.axes import STICKS
+from teleop.core.operator_input import Command
+from teleop.devices.drone.engagement import Stage
+from teleop.sim.drone.controls import Pilot, Switch
 
 
 def impatient(scene: Sky) -> None:

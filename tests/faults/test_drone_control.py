@@ -12,16 +12,16 @@ from pathlib import Path
 import pytest
 from sky import FLIGHT, READY, Sky, sky
 
-from teleop.dji import drone
-from teleop.dji.drone_words import ControlOrder
-from teleop.dji.movement import Move
-from teleop.sim.controls import Pilot
-from teleop.sim.drone_settings import DroneSettings
-from teleop.sinks.authority import AGAIN
-from teleop.sinks.drone import RELEASE_FOR
-from teleop.sinks.engagement import Stage
-from teleop.sources.inputs import Command
-from teleop.supervisor import Result
+from teleop.core.operator_input import Command
+from teleop.core.run_state import Result
+from teleop.devices.drone.control_authority import AGAIN
+from teleop.devices.drone.engagement import Stage
+from teleop.devices.drone.sink import RELEASE_FOR
+from teleop.dji.drone import messages as drone
+from teleop.dji.drone.enums import ControlOrder
+from teleop.dji.drone.movement import Move
+from teleop.sim.drone.controls import Pilot
+from teleop.sim.drone.settings import DroneSettings
 
 CONFIRMED = "drone: control is given back: the drone confirms"
 SILENT = "drone: control was given back, but the drone says that it still has it: take it over with its RC"

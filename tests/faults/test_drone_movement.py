@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 from sky import FLIGHT, READY, Sky, sky
 
-from teleop.dji import drone
-from teleop.dji.drone_words import ControlCode, ControlOrder, TaskKind
-from teleop.dji.movement import Frame, Horizontal, Move, Vertical, Yaw
-from teleop.sim.controls import Pilot, Status, Switch
-from teleop.sources.inputs import Command
-from teleop.supervisor import Result
+from teleop.core.operator_input import Command
+from teleop.core.run_state import Result
+from teleop.dji.drone import messages as drone
+from teleop.dji.drone.enums import ControlCode, ControlOrder, TaskKind
+from teleop.dji.drone.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.sim.drone.controls import Pilot, Status, Switch
 
 BREAKS = 6.0
 

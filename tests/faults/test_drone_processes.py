@@ -15,14 +15,14 @@ from command import running
 from sky import check_enables
 from waiting import wait_until
 
-from teleop.clock import SystemClock
+from teleop.core.clock import SystemClock
+from teleop.dji.drone.session import OnboardSession
+from teleop.dji.drone.virtual_rc import NEUTRAL, Sticks, VirtualRc
 from teleop.dji.message import Message
-from teleop.dji.onboard_session import OnboardSession
-from teleop.dji.virtual_rc import NEUTRAL, Sticks, VirtualRc
 from teleop.links.pty import PtyLink
-from teleop.sim.controls import Pilot
-from teleop.sim.drone import SimulatedDrone
-from teleop.sim.drone_settings import VIRTUAL_RC_TIMEOUT
+from teleop.sim.drone.controls import Pilot
+from teleop.sim.drone.device import SimulatedDrone
+from teleop.sim.drone.settings import VIRTUAL_RC_TIMEOUT
 
 AXES = "stick_roll", "stick_pitch", "stick_throttle", "stick_yaw"
 STICKS = "time,stick_roll,stick_pitch,stick_throttle,stick_yaw\n0,0,0,0,0\n0.5,0,0.5,0,0\n40,0,0,0,0\n"

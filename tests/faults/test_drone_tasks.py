@@ -12,14 +12,14 @@ from pathlib import Path
 import pytest
 from sky import FLIGHT, READY, Sky, sky
 
-from teleop.dji import drone
-from teleop.dji.drone_words import ControlOrder, TaskKind
+from teleop.core.operator_input import Command
+from teleop.core.run_state import Result
+from teleop.devices.drone.engagement import Stage
+from teleop.dji.drone import messages as drone
+from teleop.dji.drone.enums import ControlOrder, TaskKind
+from teleop.dji.drone.movement import Move
 from teleop.dji.message import Opaque
-from teleop.dji.movement import Move
-from teleop.sim.controls import Pilot, Status
-from teleop.sinks.engagement import Stage
-from teleop.sources.inputs import Command
-from teleop.supervisor import Result
+from teleop.sim.drone.controls import Pilot, Status
 
 ORDERED = READY + 1  # s
 

@@ -13,13 +13,13 @@ import pytest
 from fake_hid import FakeBackend, FakeDevice, real
 from scene import PAN, Scene, scene
 
-from teleop.motion import Tick
-from teleop.sources import hid_reader
-from teleop.sources.handling import SticksSection
-from teleop.sources.hid_input import open_inputs
-from teleop.sources.operator import Operator
-from teleop.sources.presets import Presets
-from teleop.supervisor import Result
+from teleop.config.operator_settings import SticksSection
+from teleop.config.presets import Presets
+from teleop.core.events import Tick
+from teleop.core.run_state import Result
+from teleop.inputs.hid import reader as hid_reader
+from teleop.inputs.hid.device import open_inputs
+from teleop.manual.operator import Operator
 
 F310 = bytes.fromhex(real("Logitech F310")["descriptor"])
 REST = bytes.fromhex("7f7f7f7f08000000")

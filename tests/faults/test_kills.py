@@ -19,13 +19,13 @@ from pathlib import Path
 
 from kill_server import FILE, FRAMES, PROFILE, SAID, SOCKET
 
-from teleop.dji import gimbal
-from teleop.dji.camera import CameraCommand, Command
-from teleop.dji.session import Session
-from teleop.motion import Axis
-from teleop.profile import load_profile
-from teleop.sim.gimbal import SimulatedGimbal
-from teleop.sources.timelapse_file import load_timelapse
+from teleop.config.profile import load_profile
+from teleop.core.axes import Axis
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.camera import CameraCommand, Command
+from teleop.dji.gimbal.session import Session
+from teleop.sim.gimbal.device import SimulatedGimbal
+from teleop.timelapse.compile import load_timelapse
 
 KILLS, LANES = 102, 3
 LIFE = 0.05, 0.55  # s from a child's start to its end; the first shutter comes after about 0.2

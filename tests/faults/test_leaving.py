@@ -17,15 +17,15 @@ from scene import Scene, scene
 from sky import FLIGHT, READY, VIRTUAL_RC, sky
 from waiting import wait_until
 
-from teleop.cli.leaving import AT_MOST, PRESSES, signals_to
-from teleop.dji import gimbal
-from teleop.dji.virtual_rc import NEUTRAL, Sticks
-from teleop.loop import AT_ONCE
-from teleop.motion import Cruise
-from teleop.ports import LeaveAtOnce
-from teleop.sim.controls import Pilot
-from teleop.sinks.engagement import LAST_NEUTRALS
-from teleop.supervisor import Run
+from teleop.cli.signals import AT_MOST, PRESSES, signals_to
+from teleop.core.control_loop import AT_ONCE
+from teleop.core.errors import LeaveAtOnce
+from teleop.core.run_state import RunState
+from teleop.core.setpoints import VelocityTarget
+from teleop.devices.drone.engagement import LAST_NEUTRALS
+from teleop.dji.drone.virtual_rc import NEUTRAL, Sticks
+from teleop.dji.gimbal import messages as gimbal
+from teleop.sim.drone.controls import Pilot
 
 BREAKS = 8.0  # s after the start
 MODES = ("position", "speed", "stick")
@@ -37,7 +37,7 @@ def never_rests(scene: Scene) -> None:
     """A planner that goes on as before, and a loop that believes it for ever."""
     planner = scene.loop._planner
     step = planner.step
-    moving = {axis: Cruise(5.0) for axis in scene.loop._limits}
+    moving = {axis: VelocityTarget(5.0) for axis in scene.loop._limits}
     planner.step = lambda demand, steps=1: step(moving, steps)  # type: ignore[method-assign]
     scene.loop._stop_end = scene.loop._stop_limit = 1e9
 
@@ -82,7 +82,7 @@ def test_the_third_signal_releases_and_leaves_at_once(
         stage.clock.sleep_until(left + 1)
         stage.assert_given_back()
         stage.assert_at_rest()
-        assert stage.loop.supervisor.state is not Run.OVER, "it was not waited for"
+        assert stage.loop.supervisor.state is not RunState.OVER, "it was not waited for"
         if mode == "speed":
             last = [each for _, each in stage.of(gimbal.Speed)][-4:]
             assert [each.take_over for each in last] == [True, True, True, False]
@@ -139,13 +139,13 @@ def hangs_with(sleep_until):
 # release that hangs: each as a defect of a real process, which is then sent three signals.
 DEFECTS = {
     "never at rest": """
-import teleop.loop
+import teleop.core.control_loop
 def stop(self, now, steps):
-    demand = {axis: Cruise(36.0) for axis in self._limits}
+    demand = {axis: VelocityTarget(36.0) for axis in self._limits}
     self._motion = self._planner.step(demand, steps)
     self._emit(now, demand, ())
-teleop.loop.Loop._stop = stop
-teleop.loop.Loop._limit_stopping = lambda self, now: None
+teleop.core.control_loop.ControlLoop._stop = stop
+teleop.core.control_loop.ControlLoop._limit_stopping = lambda self, now: None
 """,
     "a sink hangs": """
 def write(self, tick):
@@ -165,14 +165,14 @@ def write(self, tick):
 SpeedSink._ticks, SpeedSink._write, SpeedSink.write = 0, SpeedSink.write, write
 """,
     "another sink's release hangs": """
-from teleop.sinks.tally import Tally
-Tally.release = lambda self, now: threading.Event().wait()
+from teleop.monitors.tracking_error import TrackingErrorMonitor
+TrackingErrorMonitor.release = lambda self, now: threading.Event().wait()
 """,
 }
 PROGRAM = """
 import ctypes, signal, sys, threading
-from teleop.motion import Cruise
-from teleop.sinks.gimbal_speed import SpeedSink
+from teleop.core.setpoints import VelocityTarget
+from teleop.devices.gimbal.speed import SpeedSink
 {defect}
 from teleop.cli import main
 main()

@@ -17,7 +17,7 @@ from far_gimbal import FarGimbal, far_gimbal
 from network import own_network
 from waiting import DEADLINE, wait_until
 
-from teleop.dji import gimbal
+from teleop.dji.gimbal import messages as gimbal
 
 URL = "udp_multicast:239.74.163.2"
 SPEED = 36.0  # deg/s: sticks at 0.3

@@ -11,18 +11,21 @@ import can.interfaces
 import pytest
 from faulty_bus import FaultyBus, register
 
-from teleop.clock import VirtualClock
-from teleop.dji import camera, focus, gimbal
+from teleop.config.profile import load_profile
+from teleop.core.axes import Axis
+from teleop.core.clock import VirtualClock
+from teleop.core.events import Action
+from teleop.core.run_state import Result
+from teleop.core.setpoints import PositionTarget, VelocityTarget
+from teleop.devices.link_notes import LinkNotes
+from teleop.devices.rig import open_rig
 from teleop.dji.frame import Frame, FrameReader
-from teleop.dji.r_sdk import R_SDK
-from teleop.dji.session import Session
+from teleop.dji.gimbal import camera, focus
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.r_sdk import R_SDK
+from teleop.dji.gimbal.session import Session
 from teleop.links import open_link
-from teleop.motion import Action, Axis, Cruise, Goto
-from teleop.profile import load_profile
-from teleop.rig import open_rig
-from teleop.sim.gimbal import SimulatedGimbal
-from teleop.sinks.link_notes import LinkNotes
-from teleop.supervisor import Result
+from teleop.sim.gimbal.device import SimulatedGimbal
 
 QUEUE = 10  # CAN frames, Linux's txqueuelen
 PROFILE = """
@@ -64,9 +67,12 @@ class Moving:
         if not self._recorded and now > self._end - self._seconds + 2:
             self._recorded, acts = True, [Action.RECORD]
         if now >= self._end:
-            return {Axis.PAN: Cruise(0.0), Axis.FOCUS: Cruise(0.0)}, acts
+            return {Axis.PAN: VelocityTarget(0.0), Axis.FOCUS: VelocityTarget(0.0)}, acts
         there = math.sin(now)
-        return {Axis.PAN: Cruise(18.0 * math.copysign(1, there)), Axis.FOCUS: Goto(0.5 + 0.4 * there)}, acts
+        return {
+            Axis.PAN: VelocityTarget(18.0 * math.copysign(1, there)),
+            Axis.FOCUS: PositionTarget(0.5 + 0.4 * there),
+        }, acts
 
     def next_change(self, now: float) -> float:
         return now if now < self._end + 1 else math.inf

@@ -21,17 +21,17 @@ import pytest
 from faulty_bus import driver_fault
 from scene import SLACK, SPEEDS, RealClock, Scene, StallingClock, scene
 
-from teleop.cli.perform import EXIT_CODES
-from teleop.dji import gimbal
-from teleop.dji.session import Session
-from teleop.motion import Cruise
-from teleop.sinks.correction import MAX_ERROR, MAX_INTEGRAL
-from teleop.supervisor import Result, Run
+from teleop.cli.running import EXIT_CODES
+from teleop.core.run_state import Result, RunState
+from teleop.core.setpoints import VelocityTarget
+from teleop.devices.gimbal.pi_correction import MAX_ERROR, MAX_INTEGRAL
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.session import Session
 
 MODES = ("position", "speed", "stick")
 BY_RATE = ("speed", "stick")
 _BUS_OFF = 0x40  # class of an error frame: Linux's can/error.h
-_SPEED_ON = {axis: Cruise(speed) for axis, speed in SPEEDS.items()}
+_SPEED_ON = {axis: VelocityTarget(speed) for axis, speed in SPEEDS.items()}
 
 
 @dataclass(frozen=True)
@@ -339,7 +339,7 @@ def test_ctrl_c_again_and_again_while_it_is_given_back(
             now = stage.clock.now()
             send(message, timeout)
             if (
-                stage.loop.supervisor.state is Run.RELEASING
+                stage.loop.supervisor.state is RunState.RELEASING
                 and (not pressed or now - pressed[0] >= at)
                 and len(pressed) < 3
             ):

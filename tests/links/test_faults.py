@@ -6,10 +6,10 @@ import pytest
 from faulty_bus import FaultyBus, driver_fault, register
 from waiting import collect
 
+from teleop.core.errors import LinkError
 from teleop.links import LinkAddress, LinkUrlError, open_link, parse
 from teleop.links.can import CanLink
 from teleop.links.faults import link_failed, opening_failed
-from teleop.ports import LinkError
 
 FRAME = bytes(range(26))
 

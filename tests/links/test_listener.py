@@ -11,9 +11,9 @@ from network import own_network
 from pty_lines import SlcanBus
 from waiting import wait_until
 
+from teleop.core.errors import LinkError
 from teleop.links import LinkAddress, Listener, open_link, open_listener
 from teleop.links.can import GIMBAL_ID, HOST_ID, CanListener
-from teleop.ports import LinkError
 
 
 @pytest.fixture(params=["virtual", "udp_multicast", "socketcan"])

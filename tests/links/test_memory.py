@@ -1,8 +1,8 @@
 import pytest
 from link_suite import LinkSuite
 
+from teleop.core.errors import LinkError
 from teleop.links.memory import pair
-from teleop.ports import LinkError
 
 
 class TestMemory(LinkSuite):

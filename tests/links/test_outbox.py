@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from teleop.core.errors import LinkError
 from teleop.links.outbox import CAPACITY, PATIENCE, Outbox, Traffic
-from teleop.ports import LinkError
 
 FRAME = bytes(range(26))
 

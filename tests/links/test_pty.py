@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from waiting import wait_until
 
-from teleop.clock import SystemClock
+from teleop.core.clock import SystemClock
 from teleop.links import open_link
 from teleop.links.pty import PtyLink
 

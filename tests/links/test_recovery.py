@@ -8,14 +8,14 @@ import pytest
 from fakes import cruising
 from faulty_bus import FaultyBus, register
 
-from teleop.clock import VirtualClock
+from teleop.config.profile import load_profile
+from teleop.core.axes import Axis
+from teleop.core.clock import VirtualClock
+from teleop.core.run_state import Result, RunState
+from teleop.core.shutdown import RELEASE_PATIENCE
+from teleop.devices.rig import open_rig
 from teleop.links import open_link
-from teleop.motion import Axis
-from teleop.profile import load_profile
-from teleop.releasing import RELEASE_PATIENCE
-from teleop.rig import open_rig
-from teleop.sim.gimbal import SimulatedGimbal
-from teleop.supervisor import Result, Run
+from teleop.sim.gimbal.device import SimulatedGimbal
 
 PROFILE = """
 name: Faulty
@@ -53,7 +53,7 @@ def test_speed_control_is_given_back_when_the_bus_recovers_in_time(
         loop = rig.loop([Axis.PAN], [cruising(Axis.PAN, 20.0, 5.0)])
 
         def pass_bytes(now: float) -> None:
-            if loop.supervisor.state is Run.RELEASING:
+            if loop.supervisor.state is RunState.RELEASING:
                 releasing_since.append(now)
             back = releasing_since and now - releasing_since[0] > outage
             FaultyBus.opened[-1].room = 0 if now > 1.0 and not back else 1 << 30

@@ -5,9 +5,9 @@ from link_suite import LinkSuite, UnpluggedSuite
 from pty_lines import NullModem
 from waiting import wait_until
 
+from teleop.core.errors import LinkError
 from teleop.links import FAR_END, open_link, open_listener, parse
 from teleop.links.serial import SerialLink
-from teleop.ports import LinkError
 
 
 class TestSerial(LinkSuite, UnpluggedSuite):

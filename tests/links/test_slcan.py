@@ -6,10 +6,10 @@ from hypothesis import strategies as st
 from pty_lines import SlcanBus
 from waiting import wait_until
 
+from teleop.core.errors import LinkError
 from teleop.links import LinkAddress, open_link
 from teleop.links.can import Arrival, CanLink
 from teleop.links.slcan import SlcanAdapter, open_slcan
-from teleop.ports import LinkError
 
 FRAME = bytes(range(26))
 

@@ -10,11 +10,11 @@ import pytest
 from pty_lines import SlcanBus
 from waiting import collect
 
+from teleop.core.errors import LinkError
 from teleop.links import LinkAddress, open_link
 from teleop.links.can import Arrival
 from teleop.links.slcan import SlcanAdapter
 from teleop.links.slcan_opening import PATIENCE, go_on_bus
-from teleop.ports import LinkError
 
 ADDRESS = LinkAddress("can", "slcan", "/dev/ttyACM0", 1_000_000)
 

@@ -8,11 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from ruckig import InputParameter, Ruckig, Trajectory
 
-from teleop.motion import Axis, Cruise, Follow, Goto, Halt, Limits, State, Wish
-from teleop.planner.keyframes import Key, plan
+from teleop.core.axes import Axis, Limits, State
+from teleop.core.setpoints import PositionTarget, Setpoint, StateTarget, Stop, VelocityTarget
+from teleop.planner.keyframes.planner import Key, plan
+from teleop.planner.keyframes.ramp import Ramp
+from teleop.planner.keyframes.repeat import Repeat, repeated
 from teleop.planner.live import Live
-from teleop.planner.ramp import Ramp
-from teleop.planner.repeat import Repeat, repeated
 from teleop.planner.tracking import step_is_legal
 
 PAN, TILT, FOCUS = Axis.PAN, Axis.TILT, Axis.FOCUS
@@ -33,8 +34,8 @@ def move():
     )
 
 
-def follow(move, time) -> dict[Axis, Wish]:
-    return {axis: Follow(*state) for axis, state in move.at(time).items()}
+def follow(move, time) -> dict[Axis, Setpoint]:
+    return {axis: StateTarget(*state) for axis, state in move.at(time).items()}
 
 
 @pytest.mark.parametrize("rate", [25, 50, 100, 333, 1000])
@@ -95,9 +96,9 @@ def test_a_move_interrupted_by_the_stick_is_joined_again(move):
     live.reset(move.start)
     off = []
     for tick in range(1, 840):
-        demand: dict[Axis, Wish] = follow(move, tick * DT)
+        demand: dict[Axis, Setpoint] = follow(move, tick * DT)
         if 100 < tick <= 180:
-            demand[PAN] = Cruise(-20.0)
+            demand[PAN] = VelocityTarget(-20.0)
         motion = live.step(demand)
         off.append(abs(motion[PAN].position - move.at(tick * DT)[PAN].position))
         assert motion[TILT] == pytest.approx(move.at(tick * DT)[TILT], abs=1e-6)
@@ -109,7 +110,7 @@ def test_a_move_interrupted_by_the_stick_is_joined_again(move):
 def test_a_reference_beyond_a_soft_limit_is_waited_for_at_the_limit(target):
     live = Live(LIMITS, DT)
     live.reset({PAN: State(0.0)})
-    positions = [live.step({PAN: Follow(target, 0.0, 0.0)})[PAN].position for _ in range(800)]
+    positions = [live.step({PAN: StateTarget(target, 0.0, 0.0)})[PAN].position for _ in range(800)]
     steps = [abs(b) - abs(a) for a, b in pairwise(positions)]
     assert min(steps) >= -1e-9  # never turns back: no oscillation
     assert abs(positions[-1]) == pytest.approx(170)
@@ -119,7 +120,7 @@ def test_a_reference_beyond_a_soft_limit_is_waited_for_at_the_limit(target):
 def test_a_reference_faster_than_the_axis_is_chased_at_its_limit():
     live = Live(LIMITS, DT)
     live.reset({PAN: State(-160.0)})
-    references = [Follow(-160 + 90 * tick * DT, 90.0, 0.0) for tick in range(1, 300)]
+    references = [StateTarget(-160 + 90 * tick * DT, 90.0, 0.0) for tick in range(1, 300)]
     velocities = [live.step({PAN: reference})[PAN].velocity for reference in references]
     assert max(velocities) <= 60 + 1e-6
     assert min(velocities[100:250]) >= 60 - 1e-6
@@ -128,7 +129,7 @@ def test_a_reference_faster_than_the_axis_is_chased_at_its_limit():
 def test_a_jumping_reference_is_caught_without_ringing():
     live = Live(LIMITS, DT)
     live.reset({PAN: State(0.0)})
-    positions = [live.step({PAN: Follow(30 + 10 * tick * DT, 10.0, 0.0)})[PAN].position for tick in range(1, 400)]
+    positions = [live.step({PAN: StateTarget(30 + 10 * tick * DT, 10.0, 0.0)})[PAN].position for tick in range(1, 400)]
     error = [30 + 10 * (i + 1) * DT - p for i, p in enumerate(positions)]
     assert min(error) > -1e-6  # approaches from below and never passes
     assert error[-1] == pytest.approx(0, abs=1e-6)
@@ -139,7 +140,7 @@ def test_from_a_move_to_a_preset_and_back(move):
     live.reset(move.start)
     motion = live.motion
     for tick in range(1, 1000):
-        demand = {axis: Goto(0.5) for axis in LIMITS} if 50 < tick < 300 else follow(move, tick * DT)
+        demand = {axis: PositionTarget(0.5) for axis in LIMITS} if 50 < tick < 300 else follow(move, tick * DT)
         motion = live.step(demand)
     assert motion == move.end
 
@@ -174,7 +175,9 @@ def test_a_move_may_turn_exactly_on_a_soft_limit():
         assert motion[TILT] == pytest.approx(move.at(tick * DT)[TILT], abs=1e-6)
 
 
-@pytest.mark.parametrize("wish", [Halt(), Cruise(40.0), Cruise(-40.0), Goto(40.0), Follow(41.0, 5.0, 0.0)])
+@pytest.mark.parametrize(
+    "wish", [Stop(), VelocityTarget(40.0), VelocityTarget(-40.0), PositionTarget(40.0), StateTarget(41.0, 5.0, 0.0)]
+)
 @pytest.mark.parametrize("at", [170, 190, 195, 197, 198, 199, 200, 201, 205])
 def test_whatever_interrupts_such_a_turn_stays_inside(wish, at):
     move = turning_on_a_limit()
@@ -188,4 +191,4 @@ def test_whatever_interrupts_such_a_turn_stays_inside(wish, at):
         assert abs(state.acceleration) <= 90 + 1e-6
         assert abs(state.acceleration - before.acceleration) / DT <= 480 + 1e-6
         before = state
-    assert before.acceleration == 0 or isinstance(wish, Cruise)
+    assert before.acceleration == 0 or isinstance(wish, VelocityTarget)

@@ -3,7 +3,8 @@
 import pytest
 from sim_bench import Bench
 
-from teleop.dji import camera, focus, gimbal
+from teleop.dji.gimbal import camera, focus
+from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.message import Message, Result, ReturnCode
 
 OK = Result(ReturnCode.OK)

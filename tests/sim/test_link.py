@@ -1,8 +1,8 @@
-from teleop.clock import VirtualClock
-from teleop.dji import gimbal
-from teleop.dji.session import Session
-from teleop.ports import Link
-from teleop.sim.gimbal import SimulatedGimbal
+from teleop.core.clock import VirtualClock
+from teleop.core.interfaces import Link
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.session import Session
+from teleop.sim.gimbal.device import SimulatedGimbal
 from teleop.sim.link import SimLink
 
 

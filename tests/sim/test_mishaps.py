@@ -3,8 +3,8 @@
 import pytest
 from sim_bench import Bench
 
-from teleop.dji import gimbal
-from teleop.dji.words import AngleKind
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.enums import AngleKind
 
 ANGLES = gimbal.Angles(AngleKind.ATTITUDE)
 TURN = gimbal.Speed(30.0, 0.0, 10.0, take_over=True, ignore_focal_length=True)

@@ -14,7 +14,7 @@ import struct
 import pytest
 from raw_frames import raw_frame
 
-from teleop.sim.drone import SimulatedDrone
+from teleop.sim.drone.device import SimulatedDrone
 
 NOSE = 90.0  # deg: the nose points east, so that forward is east and right is south
 TILT, VELOCITY, POSITION = 0 << 6, 1 << 6, 2 << 6

@@ -10,10 +10,10 @@ import pytest
 from onboard_client import ACTIVATE, KEY, OBTAIN, TAKE_OFF, Client, encrypted
 from raw_frames import cut, raw_data, raw_frame
 
-from teleop.dji.encryption import Cipher
-from teleop.sim.controls import Switch
-from teleop.sim.drone import SimulatedDrone
-from teleop.sim.drone_settings import DroneSettings
+from teleop.dji.drone.encryption import Cipher
+from teleop.sim.drone.controls import Switch
+from teleop.sim.drone.device import SimulatedDrone
+from teleop.sim.drone.settings import DroneSettings
 from teleop.sim.refusals import Why
 
 VECTORS = {each["name"]: each for each in json.loads(Path("tests/data/onboard.json").read_text())["vectors"]}

@@ -8,7 +8,7 @@ import pytest
 from onboard_client import ACTIVATE, GO_HOME, LAND, OBTAIN, RELEASE, TAKE_OFF, Client
 from raw_frames import raw_data, raw_frame
 
-from teleop.sim.controls import Switch
+from teleop.sim.drone.controls import Switch
 from teleop.sim.refusals import Why
 
 

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from raw_frames import REPLY, cut, raw_data, raw_frame
 
-from teleop.sim.firmware import Firmware
-from teleop.sim.gimbal import SimulatedGimbal
+from teleop.sim.gimbal.device import SimulatedGimbal
+from teleop.sim.gimbal.firmware import Firmware
 from teleop.sim.refusals import Why
 
 VECTORS = json.loads(Path("tests/data/r-sdk.json").read_text())["vectors"]

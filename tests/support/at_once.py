@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from concurrent.futures import Executor, Future
 
-from teleop.planner.findings import PlanError
+from teleop.planner.keyframes.findings import PlanError
 
 
 class AtOnce(Executor):

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any, Self
 
-from teleop.dji import drone
-from teleop.dji.broadcast import Broadcast
-from teleop.dji.drone_words import ControlCode, ControlOrder
+from teleop.dji.drone import messages as drone
+from teleop.dji.drone.broadcast import Broadcast
+from teleop.dji.drone.enums import ControlCode, ControlOrder
+from teleop.dji.drone.session import OnboardSession
+from teleop.dji.gimbal.session import Received
 from teleop.dji.message import Message
-from teleop.dji.onboard_session import OnboardSession
-from teleop.dji.session import Received
-from teleop.sim.drone import SimulatedDrone
+from teleop.sim.drone.device import SimulatedDrone
 
 LOOK = 0.005  # s between looks
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from waiting import wait_until
 
-from teleop.sources.hid_backend import DeviceInfo
+from teleop.inputs.hid.backend import DeviceInfo
 
 PLUGGED, GAMEPAD, JOYSTICK, KEYBOARD = b"/dev/hidraw0", (1, 5), (1, 4), (1, 6)
 _VECTORS = Path(__file__).parents[1] / "data" / "hid.json"

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-from teleop.clock import VirtualClock
-from teleop.motion import Action, Axis, Cruise, Demand, Motion, Reading, Tick
+from teleop.core.axes import Axis, Motion, Reading
+from teleop.core.clock import VirtualClock
+from teleop.core.events import Action, Tick
+from teleop.core.setpoints import Demand, VelocityTarget
 
 
 class ScriptedSource:
@@ -30,7 +32,7 @@ class ScriptedSource:
 
 
 def cruising(axis: Axis, velocity: float, end: float) -> ScriptedSource:
-    return ScriptedSource(lambda _elapsed: {axis: Cruise(velocity)}, end)
+    return ScriptedSource(lambda _elapsed: {axis: VelocityTarget(velocity)}, end)
 
 
 class RecordingSink:

@@ -8,9 +8,9 @@ from contextlib import contextmanager
 
 from pty_lines import NullModem
 
-from teleop.clock import SystemClock
+from teleop.core.clock import SystemClock
 from teleop.links import open_link
-from teleop.sim.drone import SimulatedDrone
+from teleop.sim.drone.device import SimulatedDrone
 
 BAUD = 230400
 PERIOD = 0.002  # s between its looks at the line

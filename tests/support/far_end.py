@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from teleop.devices.connection import Connection
+from teleop.dji.gimbal.session import Session
 from teleop.dji.message import Message
-from teleop.dji.session import Session
 from teleop.links.memory import pair
-from teleop.sinks.connection import Connection
 
 
 class FarEnd:

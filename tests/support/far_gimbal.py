@@ -8,11 +8,11 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 from teleop.cli.sim import serve
-from teleop.clock import SystemClock
+from teleop.core.clock import SystemClock
+from teleop.dji.gimbal.session import Session
 from teleop.dji.message import Message
-from teleop.dji.session import Session
 from teleop.links import open_link
-from teleop.sim.gimbal import SimulatedGimbal
+from teleop.sim.gimbal.device import SimulatedGimbal
 
 Kind = TypeVar("Kind", bound=Message)
 

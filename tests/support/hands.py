@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from teleop.loop import PERIOD
-from teleop.motion import Act, Axis, Demand, Limits, Motion, State, Tick
+from teleop.config.operator_settings import SticksSection
+from teleop.config.presets import Presets
+from teleop.core.axes import Axis, Limits, Motion, State
+from teleop.core.control_loop import PERIOD
+from teleop.core.events import Tick, TickEvent
+from teleop.core.interfaces import Source
+from teleop.core.operator_input import Command, Held, Press
+from teleop.core.setpoints import Demand
+from teleop.manual.operator import Operator
+from teleop.manual.status import OperatorStatus
 from teleop.planner.live import Live
-from teleop.ports import Source
-from teleop.sources.handling import SticksSection
-from teleop.sources.inputs import Command, Held, Press
-from teleop.sources.operator import Operator
-from teleop.sources.presets import Presets
-from teleop.sources.status import Status
 
 LIMITS = {
     Axis.PAN: Limits(-180, 180, 120, 240, 1200),
@@ -79,7 +81,7 @@ class Desk:
         self.planner.reset(self.motion)
         self.now = 10.0
         self.demand: Demand = {}
-        self.actions: list[Act] = []
+        self.actions: list[TickEvent] = []
         self.history: list[Motion] = []
         self.operator.start(self.now, self.motion)
 
@@ -88,7 +90,7 @@ class Desk:
         return self.inputs[0]
 
     @property
-    def status(self) -> Status:
+    def status(self) -> OperatorStatus:
         return self.operator.status
 
     @property

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from teleop.hid.descriptor import parse_descriptor
-from teleop.hid.report import Control, read_report
+from teleop.inputs.hid.descriptor.parser import parse_descriptor
+from teleop.inputs.hid.descriptor.report import Control, read_report
 
 VECTORS = json.loads((Path(__file__).parents[1] / "data" / "hid.json").read_text())
 KNOWN: list[dict[str, Any]] = VECTORS["devices"] + VECTORS["made"]

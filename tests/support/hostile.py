@@ -6,8 +6,8 @@ Each takes one CAN frame's data and gives what the bus carries instead; `Hostile
 from collections.abc import Callable
 from random import Random
 
+from teleop.core.interfaces import Link
 from teleop.dji.frame import pieces
-from teleop.ports import Link
 
 Trick = Callable[[bytes, Random], list[bytes]]
 

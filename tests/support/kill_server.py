@@ -13,14 +13,14 @@ import sys
 import traceback
 from pathlib import Path
 
-from teleop import rig
-from teleop.clock import SystemClock
-from teleop.journal import Shoot, open_journal
-from teleop.ports import LinkError
-from teleop.profile import Profile, load_profile
-from teleop.shooting import Shooting
-from teleop.sources.timelapse_file import Timelapse, load_timelapse
-from teleop.supervisor import Result
+from teleop.app.shoot_runner import Shooting
+from teleop.config.profile import Profile, load_profile
+from teleop.core.clock import SystemClock
+from teleop.core.errors import LinkError
+from teleop.core.run_state import Result
+from teleop.devices import rig
+from teleop.timelapse.compile import Timelapse, load_timelapse
+from teleop.timelapse.journal import Shoot, open_journal
 
 PROFILE = """
 name: Quick

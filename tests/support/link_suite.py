@@ -7,8 +7,8 @@ import threading
 import pytest
 from waiting import collect, wait_for_loss, wait_until
 
+from teleop.core.errors import LinkError
 from teleop.links import ClosableLink
-from teleop.ports import LinkError
 
 Ends = tuple[ClosableLink, ClosableLink]
 

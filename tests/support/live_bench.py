@@ -11,14 +11,15 @@ from time import monotonic, process_time, sleep
 
 from fake_hid import FakeBackend, FakeDevice, real
 
-from teleop.clock import SystemClock, VirtualClock
-from teleop.loop import PERIOD, Loop
-from teleop.motion import Axis, Tick
-from teleop.profile import load_profile
-from teleop.rig import open_rig
-from teleop.sources.hid_input import open_inputs
-from teleop.sources.operator import Operator
-from teleop.sources.presets import Presets
+from teleop.config.presets import Presets
+from teleop.config.profile import load_profile
+from teleop.core.axes import Axis
+from teleop.core.clock import SystemClock, VirtualClock
+from teleop.core.control_loop import PERIOD, ControlLoop
+from teleop.core.events import Tick
+from teleop.devices.rig import open_rig
+from teleop.inputs.hid.device import open_inputs
+from teleop.manual.operator import Operator
 
 F310 = bytes.fromhex(real("Logitech F310")["descriptor"])
 REST = bytes.fromhex("7f7f7f7f08000000")
@@ -100,7 +101,7 @@ class Watch:
 
 
 class Bench:
-    def __init__(self, loop: Loop, pad: FakeDevice, watch: Watch, clock: WorkingClock) -> None:
+    def __init__(self, loop: ControlLoop, pad: FakeDevice, watch: Watch, clock: WorkingClock) -> None:
         self.loop, self.pad, self.watch, self.clock = loop, pad, watch, clock
 
 

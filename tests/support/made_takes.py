@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from teleop.motion import Act, Axis, Limits, Reading, State, Tick
-from teleop.sinks.take_format import About, TakeWriter
+from teleop.core.axes import Axis, Limits, Reading, State
+from teleop.core.events import Tick, TickEvent
+from teleop.recording.format import About, TakeWriter
 
 PERIOD = 0.01
 LIMITS = Limits(-180, 180, 120, 240, 1200)
@@ -22,7 +23,7 @@ def write_take(
     seconds: float,
     *,
     measured: Mapping[Axis, Path1] | None = None,
-    acts: Mapping[int, Sequence[Act]] | None = None,
+    acts: Mapping[int, Sequence[TickEvent]] | None = None,
     limits: Mapping[Axis, Limits] | None = None,
     closed: bool = True,
     result: str = "done",

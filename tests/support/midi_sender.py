@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import mido
 
-from teleop.sources.timecode import DROP, RATES
+from teleop.sequence.triggers.midi_timecode import DROP, RATES
 
 WHOLE = (24, 25, 30, 30)  # frame numbers in a second
 

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from cryptography.hazmat.primitives.ciphers import Cipher, algorithms, modes
 from raw_frames import cut, raw_data, raw_frame
 
-from teleop.sim.drone import SimulatedDrone
-from teleop.sim.drone_settings import DroneSettings
+from teleop.sim.drone.device import SimulatedDrone
+from teleop.sim.drone.settings import DroneSettings
 
 ACTIVATE = b"\x00\x01" + struct.pack("<III32s", 1030093, 2, 0x03010A00, b"9" * 32)
 OBTAIN, RELEASE = b"\x01\x00\x01", b"\x01\x00\x00"

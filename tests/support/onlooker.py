@@ -9,9 +9,9 @@ from typing import NamedTuple, Self
 
 import can
 
-from teleop.dji import gimbal
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.session import Session
 from teleop.dji.message import Message
-from teleop.dji.session import Session
 from teleop.links.can import GIMBAL_ID
 
 PATIENCE = 60.0  # s: two processes start on an emulated computer before the first frame comes

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from teleop.planner.move import Track
 from teleop.planner.polynomial import HERMITE
+from teleop.planner.trajectory import Track
 
 
 def random_track(pieces: int, seed: int, start: float = 0.0) -> Track:

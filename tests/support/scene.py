@@ -19,18 +19,20 @@ import can.interfaces
 import pytest
 from faulty_bus import FaultyBus, register
 
-from teleop.clock import SystemClock, VirtualClock
-from teleop.dji import gimbal
+from teleop.config.profile import load_profile
+from teleop.core.axes import Axis, Limits
+from teleop.core.clock import SystemClock, VirtualClock
+from teleop.core.control_loop import LEAD, ControlLoop
+from teleop.core.events import Tick
+from teleop.core.interfaces import Link, Sink, Source
+from teleop.core.run_state import RunState, RunStateMachine
+from teleop.core.setpoints import VelocityTarget
+from teleop.devices.rig import Rig, open_rig
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.session import Session
 from teleop.dji.message import Message
-from teleop.dji.session import Session
 from teleop.links import open_link
-from teleop.loop import LEAD, Loop
-from teleop.motion import Axis, Cruise, Limits, Tick
-from teleop.ports import Link, Sink, Source
-from teleop.profile import load_profile
-from teleop.rig import Rig, open_rig
-from teleop.sim.gimbal import SimulatedGimbal
-from teleop.supervisor import Run, Supervisor
+from teleop.sim.gimbal.device import SimulatedGimbal
 
 PAN = Limits(-180, 180, 60, 240, 2400)
 SPEEDS = {Axis.PAN: 40.0, Axis.TILT: -10.0}  # deg/s of the move that is broken
@@ -98,7 +100,9 @@ class Mover:
         if now >= self.begin + BREAKS and self.broken_at == float("inf"):
             self.broken_at = now - LEAD  # the clock's time: a tick is read that long before its moment
             self._breaks(self.broken_at)
-        return ({axis: Cruise(speed) for axis, speed in SPEEDS.items()} if now < self.begin + self._seconds else {}), ()
+        return (
+            {axis: VelocityTarget(speed) for axis, speed in SPEEDS.items()} if now < self.begin + self._seconds else {}
+        ), ()
 
     def next_change(self, now: float) -> float:
         return now if now < self.begin + self._seconds else float("inf")
@@ -123,16 +127,16 @@ class Scene:
         self.rates: list[tuple[float, float, float]] = []  # time, yaw, pitch
         self.mute = self.deaf = False
         self.releasing_at = math.inf
-        self.loop: Loop
-        self._run: Supervisor | None = None
-        self.ended: Supervisor
+        self.loop: ControlLoop
+        self._run: RunStateMachine | None = None
+        self.ended: RunStateMachine
         self.mover: Mover
         self.watcher = Watcher()
         self._session = Session()
         clock.hook = self.pass_time
 
     def pass_time(self, now: float) -> None:
-        if self._run is not None and self._run.state is Run.RELEASING:
+        if self._run is not None and self._run.state is RunState.RELEASING:
             self.releasing_at = min(self.releasing_at, now)
         arrived = self._far.receive()
         if not self.deaf:

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from teleop.document import DocumentError
-from teleop.motion import Axis, Limits
-from teleop.sources.sequence_file import Performance, load_performance
+from teleop.config.document import DocumentError
+from teleop.core.axes import Axis, Limits
+from teleop.sequence.compile import CompiledSequence, load_performance
 
 STICK = Limits(-1, 1, 2, 8, 40)
 LIMITS = {
@@ -21,7 +21,7 @@ RIGS = {"fly-by": "sim-drone"}  # of shipped sequences that the simulated rig ca
 FLYING = {**LIMITS, Axis.STICK_THROTTLE: STICK, Axis.STICK_YAW: STICK}
 
 
-def load(folder: Path, text: str, devices: Collection[str] | None = None) -> Performance:
+def load(folder: Path, text: str, devices: Collection[str] | None = None) -> CompiledSequence:
     file = folder / "shoot.yaml"
     file.write_text(text)
     return load_performance(str(file), FLYING if "stick_" in text else LIMITS, "the rig", devices)

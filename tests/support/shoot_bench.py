@@ -13,19 +13,21 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from teleop import rig
-from teleop.clock import VirtualClock
-from teleop.dji import camera, gimbal
-from teleop.dji.camera import CameraCommand
+from teleop.app.shoot_runner import Ended, Shooting
+from teleop.config.profile import Profile, load_profile
+from teleop.core.axes import Axis
+from teleop.core.clock import VirtualClock
+from teleop.core.events import Tick
+from teleop.core.operator_input import Held, Press
+from teleop.devices import rig
+from teleop.dji.gimbal import camera
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.camera import CameraCommand
+from teleop.dji.gimbal.session import Session
 from teleop.dji.message import Message, ReturnCode
-from teleop.dji.session import Session
-from teleop.journal import Frame, Journal, Shoot, open_journal
-from teleop.motion import Axis, Tick
-from teleop.profile import Profile, load_profile
-from teleop.shooting import Ended, Shooting
-from teleop.sim.gimbal import SimulatedGimbal
-from teleop.sources.inputs import Held, Press
-from teleop.sources.timelapse_file import Timelapse, load_timelapse
+from teleop.sim.gimbal.device import SimulatedGimbal
+from teleop.timelapse.compile import Timelapse, load_timelapse
+from teleop.timelapse.journal import Frame, Journal, Shoot, open_journal
 
 FILE = """
 title: Dusk

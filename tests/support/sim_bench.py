@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from teleop.dji.frame import Frame
+from teleop.dji.gimbal.session import Session
 from teleop.dji.message import REPLY, Message
-from teleop.dji.session import Session
-from teleop.sim.gimbal import SimulatedGimbal
+from teleop.sim.gimbal.device import SimulatedGimbal
 
 
 class Bench:

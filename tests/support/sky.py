@@ -17,22 +17,23 @@ from typing import TypeVar
 from hands import FakeInput
 from scene import StallingClock
 
+from teleop.config.presets import Presets
+from teleop.config.profile import load_profile
+from teleop.core.axes import STICKS, Axis
+from teleop.core.control_loop import ControlLoop
+from teleop.core.errors import LinkError
+from teleop.core.interfaces import Link
+from teleop.core.operator_input import Command
+from teleop.core.run_state import RunStateMachine
+from teleop.devices.drone.sink import DroneSink
+from teleop.devices.rig import Rig, open_rig
+from teleop.dji.drone.movement import Move
+from teleop.dji.drone.session import OnboardSession
+from teleop.dji.drone.virtual_rc import NEUTRAL, Sticks, VirtualRc
 from teleop.dji.message import Message
-from teleop.dji.movement import Move
-from teleop.dji.onboard_session import OnboardSession
-from teleop.dji.virtual_rc import NEUTRAL, Sticks, VirtualRc
-from teleop.loop import Loop
-from teleop.motion import STICKS, Axis
-from teleop.ports import Link, LinkError
-from teleop.profile import load_profile
-from teleop.rig import Rig, open_rig
-from teleop.sim.controls import Pilot
-from teleop.sim.drone import SimulatedDrone
-from teleop.sinks.drone import DroneSink
-from teleop.sources.inputs import Command
-from teleop.sources.operator import Operator
-from teleop.sources.presets import Presets
-from teleop.supervisor import Supervisor
+from teleop.manual.operator import Operator
+from teleop.sim.drone.controls import Pilot
+from teleop.sim.drone.device import SimulatedDrone
 
 AXES = "\n".join(f"  {axis}: {{min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}}" for axis in STICKS)
 PAN = "  pan: {min: null, max: null, velocity: 60, acceleration: 240, jerk: 2400}"
@@ -88,13 +89,13 @@ class Sky:
         self.times: list[tuple[float, str]] = []  # the same, with s after the start
         self.held: list[tuple[float, Mapping[Axis, float]]] = []  # what hands that are there held, by time
         self.pilots: list[tuple[float, Pilot]] = []
-        self.ended: Supervisor
+        self.ended: RunStateMachine
         self.rig: Rig
         self.drone: SimulatedDrone
         self.cable: Cable
         self.operator: Operator
         self.sink: DroneSink
-        self.loop: Loop
+        self.loop: ControlLoop
         self._script: list[tuple[float, Callable[[], object]]] = []
         clock.hook = self._pass
 

@@ -3,7 +3,8 @@
 import time
 from collections.abc import Callable
 
-from teleop.ports import Link, LinkError
+from teleop.core.errors import LinkError
+from teleop.core.interfaces import Link
 
 DEADLINE = 60.0  # s: far beyond any bus and any load here, so that only a real fault reaches it
 

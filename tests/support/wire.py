@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TypeVar
 
+from teleop.devices.rig import Rig
+from teleop.dji.gimbal.session import Session
 from teleop.dji.message import Message
-from teleop.dji.session import Session
-from teleop.rig import Rig
-from teleop.sim.gimbal import SimulatedGimbal
+from teleop.sim.gimbal.device import SimulatedGimbal
 
 Kind = TypeVar("Kind", bound=Message)
 

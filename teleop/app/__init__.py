@@ -1,0 +1,1 @@
+"""What the commands do, as functions: values in, values out."""

@@ -1,0 +1,214 @@
+"""A timelapse on a rig: run after run until it is over, and the journal through all of them.
+
+A run is an ordinary one, that any fault ends smoothly. What ended it for a reason that passes, a link that was lost or
+a computer that stalled, is followed by another run of the same shoot, from the frame that the journal says is next: so
+going on after an hour without a cable is no other code than going on after a power cut.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Literal
+
+from teleop.config.document import DocumentError
+from teleop.config.profile import Profile
+from teleop.config.sinks_section import CameraSection
+from teleop.core.control_loop import ControlLoop, StallError
+from teleop.core.errors import LinkError
+from teleop.core.interfaces import Clock, Sink
+from teleop.core.operator_input import Input
+from teleop.core.run_state import Result
+from teleop.core.run_status import RunStatus
+from teleop.devices.link_notes import LinkNotes
+from teleop.devices.rig import open_rig
+from teleop.devices.shutter import ShutterSink
+from teleop.inputs.keyboard import CLOSED
+from teleop.manual.stop_guard import Relay, StopGuard, Together
+from teleop.timelapse.compile import Timelapse
+from teleop.timelapse.journal import Frame, Journal
+from teleop.timelapse.movers import GlideMover, StepMover
+from teleop.timelapse.progress import Progress
+from teleop.timelapse.source import TimelapseSource
+
+LOOK = 0.1  # s between looks for a signal while waiting, and at the inputs while nothing moves
+RETRY = 2.0  # s between two tries to reach a rig that was lost
+LONGEST_WAIT = 24 * 3600.0  # s of such pauses in a row, after which the shoot ends
+STALLS = 5  # runs in a row that a stalled computer may end without a frame
+InDoubt = Literal["shoot", "skip"]
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a shoot ended: as a run does."""
+
+    result: Result
+    reasons: Sequence[str]
+
+
+def camera_link(profile: Profile) -> str:
+    """The link of the camera to shoot with; raises DocumentError where there is none."""
+    links = [section.link for section in profile.sinks if isinstance(section, CameraSection)]
+    if not links:
+        raise DocumentError([f"{profile.name} has no camera to shoot with: sinks needs {{type: camera, link: ...}}"])
+    return links[0]
+
+
+class Shooting:
+    """One shoot: its journal is open, `say` tells the operator a line, `watchers` look on through every run.
+
+    `keys` and `inputs` can stop it; a STOP that is not cleared outlasts a run.
+    """
+
+    def __init__(
+        self,
+        timelapse: Timelapse,
+        profile: Profile,
+        clock: Clock,
+        journal: Journal,
+        say: Callable[[str], object],
+        watchers: Sequence[Sink] = (),
+        keys: Input | None = None,
+        in_doubt: InDoubt = "shoot",
+        executor: Executor | None = None,
+        inputs: Sequence[Input] = (),
+    ) -> None:
+        self._timelapse, self._profile, self._clock, self._journal = timelapse, profile, clock, journal
+        self._say, self._watchers, self._in_doubt = say, watchers, in_doubt
+        self._executor = executor
+        self._inputs = [*([] if keys is None else [keys]), *inputs]
+        self.guard: StopGuard | None = None
+        self._camera = camera_link(profile)
+        shot = sum(state is Frame.DONE for state in journal.frames.values())
+        self.progress = Progress(timelapse.slots, timelapse.fps, shot, frame=journal.next)
+        self.progress.doubtful += [each for each, state in journal.frames.items() if state is Frame.DOUBTFUL]
+        self.progress.lost += [each for each, state in journal.frames.items() if state is Frame.MISSED]
+        self._begin = math.inf  # when the first frame of the first run was due
+        self._source: TimelapseSource | None = None
+        self.links: Mapping[str, Mapping[str, int]] = {}
+        self._slot = -math.inf  # when the frame that is next is due
+        self._interrupted = ""
+        self._loop: ControlLoop | None = None
+        self._runs = 0
+
+    @property
+    def begin(self) -> float:
+        """When the first frame of the first run is due, on the clock; inf as long as that is not known."""
+        return min(self._begin, self._source.begin) if self._source else math.inf
+
+    def shown(self, status: RunStatus) -> RunStatus:
+        """What a view shows of it: the status, and over it a STOP, or a pause, that holds the axes."""
+        return self.guard.over(status) if self.guard else status
+
+    def run(self) -> Ended:
+        """Shoot until it is over. Raises LinkError where the rig cannot be reached at first."""
+        fruitless, waiting, waited = 0, False, 0.0
+        while True:
+            before = self.progress.shot
+            self._settle_doubt()
+            if self._journal.next >= self._timelapse.frames:
+                return self._finished()
+            ended, faults, reached = self._one_run()
+            fruitless = 0 if self.progress.shot > before else fruitless + 1
+            if ended.result is not Result.FAILED or not self._may_go_on(faults, reached, waiting, fruitless):
+                return ended
+            waiting = isinstance(faults[0], LinkError) or not reached
+            if reached:
+                said = "waiting for the link, then going" if waiting else "going"
+                self._say(f"{ended.reasons[0]}: {said} on at frame {self._journal.next}")
+            waited = waited + RETRY if waiting and not reached else 0.0
+            if waited > LONGEST_WAIT:
+                return ended
+            if not self._rests(RETRY if waiting else 0.0):
+                return Ended(Result.INTERRUPTED, [self._interrupted])
+
+    def _finished(self) -> Ended:
+        """The last frame is behind, and all that was left was to write that down."""
+        note = self._journal.finish()
+        self._journal.catch_up()
+        if note.safe:
+            return Ended(Result.DONE, [])
+        return Ended(Result.FAILED, [self._journal.trouble or f"{self._journal.path}: the disk does not answer"])
+
+    def _one_run(self) -> tuple[Ended, Sequence[BaseException], bool]:
+        """How it ended, what was raised in it, and whether the rig was reached."""
+        timelapse, first = self._timelapse, self._journal.next
+        carriage = GlideMover(timelapse, self._executor) if timelapse.continuous else StepMover(timelapse)
+        relays = [Relay(each) for each in self._inputs]
+        keys = Together(relays) if relays else None
+        source = TimelapseSource(timelapse, carriage, self._journal, first, self.progress, self._slot, keys)
+        self._source = source
+        guard = StopGuard(source, relays, self._say, LOOK, self.guard.stopped_by if self.guard else "")
+        self.guard = guard
+        self._runs += 1
+        try:
+            with open_rig(self._profile, self._clock) as rig:
+                shutter = ShutterSink(rig.connections[self._camera], source.heard)
+                notes = LinkNotes(rig.connections.values(), self._say)
+                watchers = [shutter, source, guard, notes, *self._watchers]
+                self._loop = rig.loop(list(timelapse.limits), [guard], watchers)
+                if self._interrupted:
+                    self._loop.interrupt(self._interrupted)
+                supervisor = self._loop.run()
+                self.links = {name: connection.counts for name, connection in rig.connections.items()}
+        except LinkError as error:
+            if self._runs == 1:
+                raise
+            return Ended(Result.FAILED, [str(error)]), [error], False
+        source.leave()
+        self._journal.catch_up()
+        reached = source.begin < math.inf
+        if reached:
+            self._begin = min(self._begin, source.begin)
+            halted = guard.halted  # then no slot passes
+            self._slot = -math.inf if halted else source.due_at(self._journal.next, self._clock.now())
+        supervisor.reasons += [guard.reason] if guard.reason else []
+        return Ended(supervisor.result, supervisor.reasons), self._loop.faults, reached
+
+    def _may_go_on(self, faults: Sequence[BaseException], reached: bool, waiting: bool, fruitless: int) -> bool:
+        """Whether what ended a run passes by itself: a link's loss where the profile says so, a stall of the computer.
+
+        A rig that is waited for may also be there and not yet answer.
+        """
+        if waiting and not reached:
+            return True
+        if faults and isinstance(faults[0], LinkError):
+            if str(faults[0]) == CLOSED:  # the operator's own end is gone, not the rig's
+                return False
+            return reached and self._profile.timelapse.wait_for_link
+        return bool(faults) and isinstance(faults[0], StallError) and fruitless < STALLS
+
+    def _settle_doubt(self) -> None:
+        """A frame that was begun and not confirmed is shot again, or counts as shot; either way it is named."""
+        frame = self._journal.in_doubt
+        if frame is None:
+            return
+        said = f"frame {frame} is in doubt: its shutter was due just when the shoot stopped"
+        if self._in_doubt == "skip":
+            self._journal.note(frame, Frame.DOUBTFUL)
+            self._journal.catch_up()
+            self.progress.doubtful.append(frame)
+            self._say(f"{said}; it counts as shot")
+        else:
+            self._say(f"{said}; it is shot again, so the camera may have it twice")
+        self.progress.frame = self._journal.next
+
+    def interrupt(self, reason: str) -> None:
+        """Stop smoothly; safe to call from a signal handler, again and again."""
+        self._interrupted = reason
+        if self._loop is not None:
+            self._loop.interrupt(reason)
+
+    def release_at_once(self) -> None:
+        """One attempt to release every device; safe to call from another thread."""
+        if self._loop is not None:
+            self._loop.release_at_once()
+
+    def _rests(self, seconds: float) -> bool:
+        """Wait, but not past a signal; whether there was none."""
+        end = self._clock.now() + seconds
+        while not self._interrupted and self._clock.now() < end:
+            self._clock.sleep_until(min(end, self._clock.now() + LOOK))
+        return not self._interrupted

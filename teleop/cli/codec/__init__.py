@@ -1,0 +1,1 @@
+"""`teleop decode` and `teleop encode`: bytes to JSON lines and back."""

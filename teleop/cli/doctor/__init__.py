@@ -1,0 +1,1 @@
+"""`teleop doctor`: what this machine can do, and what is in the way."""

@@ -1,0 +1,1 @@
+"""`teleop take`: one module per subcommand."""

@@ -1,0 +1,89 @@
+"""`teleop take keyframes FILE -o OUT.yaml`: a recorded run as a sequence file that a person can edit."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from teleop.cli.play import percentage
+from teleop.cli.screens.folded import tell
+from teleop.cli.take.options import Json, Overwrite, TakeFile, place, problems_said, say
+from teleop.config.files import replacing
+from teleop.core.errors import UsageError
+from teleop.plots.style import UNITS
+
+ENDINGS = (".yaml", ".yml")
+
+
+def take_keyframes(
+    file: TakeFile,
+    /,
+    *,
+    output: Annotated[
+        Path, Parameter(name=("--output", "-o"), metavar="FILE", help="The sequence file to write (.yaml).")
+    ],
+    tolerance: Annotated[
+        float,
+        Parameter(
+            metavar="DEGREES",
+            help="How far off it may be at any time: degrees; for focus and sticks per cent of their way.",
+        ),
+    ] = 0.2,
+    measured: Annotated[
+        bool, Parameter(help="Follow where the axes were measured, not commanded.", negative=(), show_default=False)
+    ] = False,
+    speed: Annotated[str, Parameter(metavar="PERCENT", help="The take's own pace, as a percentage.")] = "100%",
+    overwrite: Overwrite = False,
+    as_json: Json = False,
+) -> int:
+    """Fit sparse keyframes to a take, and write them as a sequence file.
+
+    The file is planned and compared with the take at every hundredth of a second before it is written. The way to the
+    start that `play` made is a part of its takes.
+    """
+    if not (math.isfinite(tolerance) and tolerance > 0):
+        raise UsageError(f"--tolerance {tolerance:g}: must be more than 0 degrees")
+    if output.suffix.lower() not in ENDINGS:
+        raise UsageError(f"-o {output}: its ending must be {' or '.join(ENDINGS)}")
+    place("-o", output, overwrite, file)
+    from teleop.recording.reader import read_take
+    from teleop.recording.replay import warnings
+    from teleop.recording.to_keyframes.convert import keyframes
+
+    with problems_said(as_json):
+        rate = percentage("--speed", speed)
+        take = read_take(file)
+        for warning in warnings(take):
+            say(warning)
+        with _busy(f"Fitting {take.duration:.0f} s"):
+            fitted = keyframes(take, tolerance, rate, measured=measured)
+    with replacing(output) as stream:
+        stream.write(fitted.text.encode())
+    if as_json:
+        errors = {axis.value: {"error": round(e.size, 6), "time": e.time} for axis, e in fitted.errors.items()}
+        said = {"ok": True, "written": str(output), "keyframes": len(fitted.frames), "tolerance": tolerance}
+        print(json.dumps({**said, "largest_errors": errors}))
+    else:
+        errors = [f"{axis} {e.size:.3g}{UNITS[axis]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
+        count = len(fitted.frames)
+        tell(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
+    return 0
+
+
+@contextmanager
+def _busy(what: str) -> Iterator[None]:
+    """A sign of life on a terminal: a minute of a restless hand takes about as long to fit."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if not console.is_terminal or console.is_dumb_terminal:
+        yield
+        return
+    with console.status(what, spinner="dots" if console.encoding.startswith("utf") else "line"):
+        yield

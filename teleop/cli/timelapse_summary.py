@@ -1,0 +1,47 @@
+"""A timelapse in a line: how many frames, how long it takes, how long it will be shown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from teleop.config.frame_rates import shown_rate
+
+if TYPE_CHECKING:
+    from teleop.timelapse.compile import Timelapse
+
+
+def summary(timelapse: Timelapse) -> str:
+    """`720 frames, 5 s apart: 59 m 55 s of shooting, 30.00 s of clip at 24 fps`."""
+    slots = timelapse.slots
+    apart = f"{slots.first:g} s" if not slots.change else f"{slots.first:g} to {slots.last:g} s"
+    clip = (
+        f", {timelapse.clip:.2f} s of clip at {shown_rate(timelapse.fps)} fps"
+        if timelapse.clip and timelapse.fps
+        else ""
+    )
+    lead = timelapse.path.lead, slots.frames - timelapse.path.lead - timelapse.moving
+    still = f" ({lead[0]} still, {timelapse.moving} moving, {lead[1]} still)" if any(lead) else ""
+    return f"{slots.frames} frames{still}, {apart} apart: {clock(slots.at(slots.frames - 1))} of shooting{clip}"
+
+
+def facts(timelapse: Timelapse) -> Mapping[str, object]:
+    """The same for programs; times in s."""
+    slots = timelapse.slots
+    return {
+        "frames": slots.frames,
+        "seconds": slots.at(slots.frames - 1),
+        "interval": [slots.first, slots.last],
+        "clip": timelapse.clip,
+        "continuous": timelapse.continuous,
+    }
+
+
+def clock(seconds: float) -> str:
+    """`2 h 03 m`, `4 m 05 s`, `12.5 s`."""
+    if seconds < 60:
+        return f"{seconds:.1f} s"
+    whole = round(seconds)
+    if whole < 3600:
+        return f"{whole // 60} m {whole % 60:02} s"
+    return f"{whole // 3600} h {whole % 3600 // 60:02} m"

@@ -1,0 +1,40 @@
+"""What every section of a YAML file is checked by: known keys only, values taken as they are, nothing converted."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+from teleop.config.messages import shown
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+def _no_truth(value: Any) -> Any:
+    if isinstance(value, bool):
+        raise ValueError(f"must be a number, not {shown(value)}")
+    return value
+
+
+NoTruth = BeforeValidator(_no_truth)
+"""For a Literal of numbers, to which pydantic counts true as 1."""
+
+
+class Section(BaseModel):
+    """A mapping in a file, as an immutable object."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class PositionsSection(Section):
+    """Positions of axes by their names, in the axes' units; None for one that is not given."""
+
+    pan: Finite | None = None
+    tilt: Finite | None = None
+    roll: Finite | None = None
+    focus: Finite | None = None
+    stick_roll: Finite | None = None
+    stick_pitch: Finite | None = None
+    stick_throttle: Finite | None = None
+    stick_yaw: Finite | None = None

@@ -1,0 +1,117 @@
+"""The drone's app id and key: secrets, which stand in the environment or in a file of their own, and nowhere else.
+
+Not on a command line, which every user of the machine can read, nor in a profile, which is shared. Neither repr nor
+error shows any of them, so that no log, take or traceback can; hence checks of our own: pydantic quotes what it
+refuses.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Final
+
+from teleop.config.document import Document, DocumentError
+from teleop.config.yaml_loader import read_document
+from teleop.dji.drone.encryption import Cipher, CipherError, key_from_hex
+from teleop.dji.drone.messages import Activate
+
+APP_ID: Final = "TELEOP_DJI_APP_ID"
+APP_KEY: Final = "TELEOP_DJI_APP_KEY"
+_LARGEST: Final = 0xFFFFFFFF
+_ID: Final = f"must be a whole number, 0..{_LARGEST}"
+_KEY: Final = "must be 64 hexadecimal digits, in quotes"
+
+
+@dataclass(frozen=True)
+class Credentials:
+    """What DJI gave the developer; None where nobody said. `place` is where a missing one could be put."""
+
+    place: str
+    app_id: int | None = field(default=None, repr=False)
+    key: bytes | None = field(default=None, repr=False)
+
+    def activation(self) -> Activate:
+        """The message that activates the drone. Raises DocumentError without an app id."""
+        if self.app_id is None:
+            raise DocumentError(
+                [f"the drone wants the app id that DJI gave you: in {APP_ID}, or app_id in {self.place}"]
+            )
+        return Activate(self.app_id)
+
+    @cached_property
+    def cipher(self) -> Cipher | None:
+        """What encrypts and decrypts, None without a key. Raises CipherError where the library for it is missing."""
+        return None if self.key is None else Cipher(self.key)
+
+
+def default_file(environment: Mapping[str, str] = os.environ) -> Path:
+    """Where the credentials are kept, unless they are in the environment."""
+    config = environment.get("XDG_CONFIG_HOME", "")
+    base = Path(config) if os.path.isabs(config) else Path("~/.config").expanduser()
+    return base / "teleop" / "dji.yaml"
+
+
+def load_credentials(file: Path | None = None, environment: Mapping[str, str] = os.environ) -> Credentials:
+    """Those in `file` if it is given; else of the environment and, for what is not there, of the default file.
+
+    Raises DocumentError for what cannot be used, without saying what it was.
+    """
+    if file is not None:
+        return _read(file)
+    home = default_file(environment)
+    kept = _read(home) if home.is_file() else Credentials(str(home))
+    return Credentials(str(home), _environment_id(environment, kept.app_id), _environment_key(environment, kept.key))
+
+
+def _environment_id(environment: Mapping[str, str], otherwise: int | None) -> int | None:
+    text = environment.get(APP_ID, "").strip()
+    if not text:
+        return otherwise
+    if not (text.isascii() and text.isdigit() and len(text) <= 10 and int(text) <= _LARGEST):
+        raise DocumentError([f"{APP_ID} {_ID}"])
+    return int(text)
+
+
+def _environment_key(environment: Mapping[str, str], otherwise: bytes | None) -> bytes | None:
+    text = environment.get(APP_KEY, "").strip()
+    if not text:
+        return otherwise
+    try:
+        return key_from_hex(text, APP_KEY)
+    except CipherError as error:
+        raise DocumentError([str(error)]) from None
+
+
+def _read(file: Path) -> Credentials:
+    document = read_document(file)
+    if problems := [*document.flawed(), *_problems(document)]:
+        raise DocumentError(problems)
+    key = document.data.get("key")
+    return Credentials(str(file), document.data.get("app_id"), None if key is None else bytes.fromhex(key))
+
+
+def _problems(document: Document) -> Iterator[str]:
+    data = document.data
+    if not isinstance(data, dict):
+        yield document.problem((), "must have app_id: and key:, or one of them")
+        return
+    for name, value in data.items():
+        if name == "app_id":
+            if value is not None and (type(value) is not int or not 0 <= value <= _LARGEST):
+                yield document.problem((name,), _ID)
+        elif name == "key":
+            if value is not None and not _is_key(value):
+                yield document.problem((name,), _KEY)
+        else:
+            yield document.problem((name,), "is not known here; there are app_id and key", key=True)
+
+
+def _is_key(value: object) -> bool:
+    try:
+        return isinstance(value, str) and bool(key_from_hex(value, "key"))
+    except CipherError:
+        return False

@@ -1,0 +1,63 @@
+"""How a rig lies in the hand: the profile's `sticks` and `presets`, with the figures of design page operation.md.
+
+Recorded sticks keep the shape they were recorded with, so for them a dead zone or an expo that is not written is none;
+a hand at a stick wants both. A section therefore knows whether they were given.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, Field, model_validator
+
+from teleop.config.base_model import Section
+from teleop.config.json_types import Time
+from teleop.config.quantities import seconds
+
+DEAD_ZONE = 0.06  # of a stick in a hand, when the profile has none
+EXPO = 0.4
+RANGES = [0.1, 0.35, 1.0]  # slow, medium, fast
+
+Share = Annotated[float, Field(gt=0, le=1)]
+
+
+def _rising(ranges: list[float]) -> list[float]:
+    if ranges != sorted(set(ranges)):
+        raise ValueError(f"must rise, slowest first, not {', '.join(f'{share:g}' for share in ranges)}")
+    return ranges
+
+
+class SticksSection(Section):
+    """How a deflection becomes a velocity.
+
+    `dead_zone` and `expo` shape it (None: not given), `speed` is full stick's share of an axis's velocity, `ranges`
+    are the shares of that on the speed button, `start_range` (from 1) is the one to begin with. Full speed takes
+    `ramp` s to reach and to leave where the axis's own limits allow it; `low_pass` is a time constant in s.
+    """
+
+    dead_zone: Annotated[float, Field(ge=0, le=0.3)] | None = None
+    expo: Annotated[float, Field(ge=0, le=0.75)] | None = None
+    speed: Share = 1.0
+    ranges: Annotated[list[Share], Field(min_length=1), AfterValidator(_rising)] = Field(default_factory=RANGES.copy)
+    start_range: Annotated[int, Field(ge=1)] = 1
+    ramp: Annotated[float, Field(ge=0, le=5)] = 0.3
+    low_pass: Annotated[float, Field(ge=0, le=1)] = 0.05
+
+    @model_validator(mode="after")
+    def _starts_in_range(self) -> SticksSection:
+        if self.start_range > len(self.ranges):
+            raise ValueError(f"start_range must be 1..{len(self.ranges)}, one of the ranges, not {self.start_range}")
+        return self
+
+
+def _positive_time(value: Any) -> float:
+    time = seconds(value, None)
+    if time <= 0:
+        raise ValueError("must be positive")
+    return time
+
+
+class PresetsSection(Section):
+    """`recall`: how long it takes to a preset, as a time is written (`3s`)."""
+
+    recall: Annotated[Time, AfterValidator(_positive_time)] = 3.0

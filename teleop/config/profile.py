@@ -1,0 +1,169 @@
+"""A rig described in YAML, checked whole before any port opens.
+
+pydantic checks each value; the rules of this module check what lies between values (a sink's link exists, every axis
+is moved by exactly one sink). The rules read the plain data, not the checked model, so that they still speak when
+some value is wrong and a file's errors come all at once. Angles are degrees, focus is 0..1; magnitudes are per
+second, per second squared and per second cubed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from teleop.config.base_model import Finite, Section
+from teleop.config.document import Document, DocumentError, Wrong, mapping, number
+from teleop.config.enable_rules import enable_rules
+from teleop.config.inputs_section import InputSection, input_rules
+from teleop.config.operator_settings import PresetsSection, SticksSection
+from teleop.config.resources import find
+from teleop.config.sinks_section import (
+    DRONES,
+    MOVES,
+    FlightSection,
+    GimbalSection,
+    Magnitude,
+    SinkSection,
+    VirtualRcSection,
+    sink_rules,
+)
+from teleop.config.yaml_loader import read_document
+from teleop.core.axes import Axis, Limits
+from teleop.core.events import Action, DeviceCommand, Exposure
+from teleop.links.url import LinkUrlError, parse
+
+AxisName = Annotated[Axis, Field(strict=False)]
+
+
+class AxisSection(Section):
+    """One axis: its soft limits, null for none, and the most it may do."""
+
+    min: Finite | None
+    max: Finite | None
+    velocity: Magnitude
+    acceleration: Magnitude
+    jerk: Magnitude
+
+    def limits(self) -> Limits:
+        low = -math.inf if self.min is None else self.min
+        high = math.inf if self.max is None else self.max
+        return Limits(low, high, self.velocity, self.acceleration, self.jerk)
+
+
+class ShootingSection(Section):
+    """How a timelapse is shot on this rig: `wait_for_link` waits for a lost link and goes on by itself."""
+
+    wait_for_link: bool = False
+
+
+class Profile(Section):
+    """A rig. `links` are URLs by the names that sinks use; sinks are served in their order."""
+
+    name: Annotated[str, Field(min_length=1)]
+    links: dict[str, str]
+    axes: Annotated[dict[AxisName, AxisSection], Field(min_length=1)]
+    sinks: list[Annotated[SinkSection, Field(discriminator="type")]]
+    sticks: SticksSection = SticksSection()
+    presets: PresetsSection = PresetsSection()
+    inputs: list[InputSection] = Field(default_factory=list)
+    timelapse: ShootingSection = ShootingSection()
+
+    @property
+    def drones(self) -> frozenset[str]:
+        """The names of the links that end at a drone."""
+        return frozenset(section.link for section in self.sinks if section.type in DRONES)
+
+    @property
+    def optional(self) -> frozenset[str]:
+        """The names of the links without a gimbal: a live run goes on without what is at their ends."""
+        return frozenset(self.links) - {section.link for section in self.sinks if section.type == "gimbal"}
+
+    def in_use(self, axes: Collection[Axis], acts: Iterable[object] = ()) -> Profile:
+        """The rig with only the links that a run over `axes` needs, one that also performs the `acts`."""
+        acts = list(acts)
+        needed = {section.link for section in self.sinks if _is_used(section, axes, acts)}
+        return self.with_links(needed)
+
+    def with_links(self, names: Collection[str]) -> Profile:
+        """The rig with only these links, and what is at their ends."""
+        links = {name: url for name, url in self.links.items() if name in names}
+        sinks = [section for section in self.sinks if section.link in links]
+        return self.model_copy(update={"links": links, "sinks": sinks})
+
+    @property
+    def encrypted(self) -> frozenset[str]:
+        """Those of them over which the app's key encrypts."""
+        drones = (section for section in self.sinks if isinstance(section, VirtualRcSection | FlightSection))
+        return frozenset(section.link for section in drones if section.encrypted)
+
+    @property
+    def limits(self) -> Mapping[Axis, Limits]:
+        return {axis: section.limits() for axis, section in self.axes.items()}
+
+
+def _is_used(section: SinkSection, axes: Collection[Axis], acts: Iterable[object]) -> bool:
+    moves = section.axes if isinstance(section, GimbalSection) else MOVES[section.type]
+    if any(axis in axes for axis in moves if axis is not None):
+        return True
+    told = [act.words for act in acts if isinstance(act, DeviceCommand)]
+    match section.type:
+        case "camera":
+            return any(isinstance(act, Action | Exposure) for act in acts)
+        case "gimbal":
+            return any(not words.startswith("drone ") for words in told)
+        case "virtual-rc" | "flight":
+            return any(words.startswith("drone ") for words in told)
+    return False
+
+
+def load_profile(name: str, links: Mapping[str, str] | None = None) -> Profile:
+    """The profile called `name`, shipped or at a path, with the URLs of some of its `links` replaced.
+
+    Raises DocumentError with a line for everything wrong with it.
+    """
+    document = read_document(*find(name, "profiles", "rig"))
+    profile = document.check(Profile, _rules(document.data))
+    return _with_links(profile, document, links or {})
+
+
+def _rules(data: Any) -> Iterator[Wrong]:
+    for name, section in mapping(data, "axes").items():
+        yield from _axis_rules(name, section)
+    for name, url in mapping(data, "links").items():
+        if isinstance(url, str) and (wrong := _url_error(url)):
+            yield ("links", name), wrong
+    yield from sink_rules(data)
+    yield from input_rules(data)
+    yield from enable_rules(data)
+
+
+def _axis_rules(name: str, section: Any) -> Iterator[Wrong]:
+    section = mapping(section)
+    low, high = section.get("min"), section.get("max")
+    if "min" in section and "max" in section and (low is None) != (high is None):
+        yield ("axes", name, "min"), "and max must both be numbers, or both null for a continuous axis"
+    if number(low) is not None and number(high) is not None and low >= high:
+        yield ("axes", name, "min"), f"must be less than max ({high:g})"
+
+
+def _url_error(url: str) -> str:
+    try:
+        parse(url)
+    except LinkUrlError as error:
+        return str(error)
+    return ""
+
+
+def _with_links(profile: Profile, document: Document, links: Mapping[str, str]) -> Profile:
+    problems = []
+    for name, url in links.items():
+        if name not in profile.links:
+            problems.append(f"--link {name}: {document.name} has no such link; it has {', '.join(profile.links)}")
+        elif wrong := _url_error(url):
+            problems.append(f"--link {name}: {wrong}")
+    if problems:
+        raise DocumentError(problems)
+    return profile.model_copy(update={"links": {**profile.links, **links}})

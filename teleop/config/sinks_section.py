@@ -1,0 +1,263 @@
+"""The sinks of a profile: what each kind of device is told beside its link, and the rules that lie between them.
+
+A drone's ranges are the protocol's own (Appendix.md, Combinations): too much for a full stick is refused here, in
+the file, and not in the air. How fast it flies has no defaults, because only its pilot knows what is slow enough.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from teleop.config.base_model import NoTruth, Section
+from teleop.config.document import Location, Wrong, mapping, number, sequence
+from teleop.config.wiring import Wiring
+from teleop.core.axes import STICKS, Axis
+from teleop.dji.drone.movement import COMBINATIONS, Combination, Frame, Horizontal, Vertical, Yaw
+from teleop.dji.drone.virtual_rc import CENTRE, DEFLECTION
+from teleop.links.url import LinkUrlError, parse
+
+AXES = frozenset(axis.value for axis in Axis)
+MIN_SPEED_RATE = 5  # Hz: a gimbal forgets a speed after 0.5 s
+DRONES = ("virtual-rc", "flight")
+FLIGHT_MODES: Mapping[str, tuple[Horizontal, Frame]] = {
+    "velocity-body": (Horizontal.VELOCITY, Frame.BODY),
+    "velocity-ground": (Horizontal.VELOCITY, Frame.GROUND),
+    "tilt": (Horizontal.TILT, Frame.BODY),
+    "tilt-ground": (Horizontal.TILT, Frame.GROUND),
+    "offset-body": (Horizontal.POSITION, Frame.BODY),
+    "offset-ground": (Horizontal.POSITION, Frame.GROUND),
+}
+"""What the horizontal sticks are; offsets are for sequences."""
+
+Magnitude = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Share = Annotated[float, Field(gt=0, le=1)]
+Rate = Annotated[Literal[1, 2, 4, 5, 10, 20, 25, 50, 100], NoTruth]  # Hz: whole numbers of the loop's ticks
+Sign = Annotated[Literal[1, -1], NoTruth]
+Angle = Literal["pan", "tilt", "roll"]
+Channel = Annotated[int, Field(ge=CENTRE - DEFLECTION, le=CENTRE + DEFLECTION)]
+LowBattery = Annotated[int, Field(ge=10, le=90)]
+
+MOVES: Mapping[str, Sequence[Axis]] = {
+    "gimbal": (Axis.PAN, Axis.TILT, Axis.ROLL),  # unless its mapping says otherwise
+    "focus": (Axis.FOCUS,),
+    "camera": (),
+    "virtual-rc": STICKS,
+    "flight": STICKS,
+}
+"""The axes that each type of sink can move."""
+
+
+class GainsSection(Section):
+    """How hard the measured error is worked against: deg/s per deg, and deg/s2 per deg; 0 does not."""
+
+    proportional: Annotated[float, Field(ge=0, le=20)] = 3.0
+    integral: Annotated[float, Field(ge=0, le=20)] = 2.0
+
+
+class GimbalSection(Section):
+    """Pan, tilt and roll over the R SDK.
+
+    `delay` is how much later than commanded the gimbal moves, in s. `signs` turns an axis whose firmware counts the
+    other way; `speed_signs` and `report_signs` are for a gimbal that counts its speeds, or the angles that it reports,
+    otherwise than the positions it is sent: both are as `signs` where they are absent. `legacy_angles` is the order of
+    the angles in replies of old firmware. `mapping` says which axis each of the gimbal's angles is; one that is left
+    out is not driven. `gains` are those of the modes speed and stick. `follow` is how far from commanded an axis may
+    stay, in deg. `full_stick` is what full deflection gives with the gimbal's own joystick settings, in deg/s, for mode
+    stick; an axis that is not named there reaches its velocity.
+    """
+
+    type: Literal["gimbal"]
+    link: str
+    mode: Literal["position", "speed", "stick"]
+    rate: Rate
+    delay: Annotated[float, Field(ge=0, le=0.5)] = 0.0
+    gains: GainsSection = GainsSection()
+    follow: Annotated[float, Field(gt=0, le=180)] = 5.0
+    signs: dict[Angle, Sign] = Field(default_factory=dict)
+    speed_signs: dict[Angle, Sign] = Field(default_factory=dict)
+    report_signs: dict[Angle, Sign] = Field(default_factory=dict)
+    legacy_angles: Literal["yaw-roll-pitch", "yaw-pitch-roll"] = "yaw-roll-pitch"
+    mapping: dict[Literal["yaw", "roll", "pitch"], Angle] = Field(
+        default_factory=lambda: {"yaw": "pan", "roll": "roll", "pitch": "tilt"}
+    )
+
+    full_stick: dict[Angle, Magnitude] = Field(default_factory=dict)
+
+    @property
+    def axes(self) -> Sequence[Axis | None]:
+        """The axes of the gimbal's yaw, roll and pitch."""
+        mapped = (self.mapping.get(name) for name in ("yaw", "roll", "pitch"))
+        return [None if axis is None else Axis(axis) for axis in mapped]
+
+    @property
+    def wiring(self) -> Wiring:
+        signs, speed_signs, report_signs = (
+            {Axis(axis): sign for axis, sign in each.items()}
+            for each in (self.signs, self.speed_signs, self.report_signs)
+        )
+        return Wiring(self.axes, signs, speed_signs, report_signs)
+
+    def sign_line(self, axis: Axis) -> str:
+        """What this section needs when `axis` goes the other way than it is sent in this mode."""
+        in_speeds = self.mode != "position"
+        key, written = ("speed_signs", self.speed_signs) if in_speeds else ("report_signs", self.report_signs)
+        now = self.wiring.speed_sign(axis) if in_speeds else self.wiring.report_sign(axis)
+        signs = {**written, axis.value: -now}
+        return f"{key}: {{{', '.join(f'{name}: {sign}' for name, sign in signs.items())}}}"
+
+    def full(self, axis: Axis, velocity: float) -> float:
+        """What full deflection gives an axis whose own velocity is `velocity`, both in deg/s."""
+        return {Axis(name): full for name, full in self.full_stick.items()}.get(axis, velocity)
+
+
+class FocusSection(Section):
+    """The focus motor on the gimbal's bus. `follow` is how far from commanded it may be found for long."""
+
+    type: Literal["focus"]
+    link: str
+    rate: Rate
+    follow: Share = 0.1
+
+
+class CameraSection(Section):
+    """The camera that the gimbal controls: record, stop, shutter."""
+
+    type: Literal["camera"]
+    link: str
+
+
+class VirtualRcSection(Section):
+    """A Matrice 100 flown as by a remote control. `go_home` is what that channel says for going home, if any.
+
+    With `back_to_rc` the drone obeys its RC again when virtual RC ends, and otherwise behaves as without any. At
+    `low_battery` (%) it is given back. `encrypted` is by the app's key (credentials).
+    """
+
+    type: Literal["virtual-rc"]
+    link: str
+    encrypted: bool = False
+    back_to_rc: bool = True
+    rate: Literal[20] = 20  # Hz: docs/protocol-facts.md
+    low_battery: LowBattery = 25
+    go_home: Channel | None = None
+
+
+class FullSection(Section):
+    """What a full stick gives: m/s, deg or m, then m/s, then deg/s or deg."""
+
+    horizontal: Magnitude
+    vertical: Magnitude
+    yaw: Magnitude
+
+
+class FlightSection(Section):
+    """A drone flown by movement commands. `mode` is what its horizontal sticks are, `vertical` and `yaw` the others.
+
+    Modes 1 to 12 of the appendix can be had so; 13 and 14 are thrust, which has no neutral and so no stick.
+
+    Angles, heights and offsets count from where the drone was when it was taken.
+
+    `guidance` is whether Guidance is on board and set up, `indoors` whether it flies there.
+    """
+
+    type: Literal["flight"]
+    link: str
+    encrypted: bool = False
+    mode: Literal["velocity-body", "velocity-ground", "tilt", "tilt-ground", "offset-body", "offset-ground"]
+    vertical: Literal["velocity", "height"] = "velocity"
+    yaw: Literal["rate", "angle"] = "rate"
+    full: FullSection
+    rate: Literal[50] = 50  # Hz: docs/protocol-facts.md
+    guidance: bool = False
+    indoors: bool = False
+    low_battery: LowBattery = 25
+
+    @property
+    def frame(self) -> Frame:
+        return FLIGHT_MODES[self.mode][1]
+
+    @property
+    def combination(self) -> Combination:
+        return _combination(self.mode, self.vertical, self.yaw)
+
+
+SinkSection = GimbalSection | FocusSection | CameraSection | VirtualRcSection | FlightSection
+
+
+def _combination(mode: str, vertical: str, yaw: str) -> Combination:
+    up = Vertical.VELOCITY if vertical == "velocity" else Vertical.POSITION
+    made = Combination(FLIGHT_MODES[mode][0], up, Yaw.RATE if yaw == "rate" else Yaw.ANGLE)
+    if made not in COMBINATIONS:
+        raise ValueError(f"the drone has no mode {made}")
+    return made
+
+
+def sink_rules(data: Any) -> Iterator[Wrong]:
+    """What is wrong with a profile's sinks beyond their single values; `data` is the whole profile, unchecked."""
+    links, axes = mapping(data, "links"), mapping(data, "axes")
+    mover: dict[str, int] = {}
+    for index, sink in enumerate(sequence(data, "sinks")):
+        sink = mapping(sink)
+        kind = sink.get("type")
+        if not isinstance(kind, str) or kind not in MOVES:
+            continue
+        if isinstance(link := sink.get("link"), str) and link not in links:
+            yield ("sinks", index, "link"), f"must be one of the links ({', '.join(links) or 'none'}), not {link!r}"
+        yield from _drone_rules(sink, kind, ("sinks", index), data)
+        rate = number(sink.get("rate"))
+        if sink.get("mode") in ("speed", "stick") and rate is not None and rate < MIN_SPEED_RATE:
+            yield ("sinks", index, "rate"), f"must be at least {MIN_SPEED_RATE}: a gimbal forgets a speed after 0.5 s"
+        for axis, full in mapping(sink, "full_stick").items():
+            velocity = number(mapping(axes, axis).get("velocity"))
+            if velocity is not None and number(full) is not None and velocity > full:
+                yield ("axes", axis, "velocity"), f"must be at most {full:g}, what full stick gives in sinks[{index}]"
+        moves = [axis for axis in mapping(sink, "mapping").values() if isinstance(axis, str)] or MOVES[kind]
+        moved = [axis for axis in moves if axis in axes]
+        if moves and not moved:
+            yield ("sinks", index), f"moves {', '.join(moves)}, and axes has none of them"
+        for axis in moved:
+            if axis in mover:
+                yield ("sinks", index), f"moves {axis}, and so does sinks[{mover[axis]}]"
+            mover[axis] = index
+    for axis in axes:
+        if axis in AXES and axis not in mover:
+            yield ("axes", axis), "has no sink that moves it"
+
+    for axis in STICKS:
+        low, high = (number(mapping(axes, axis).get(end)) for end in ("min", "max"))
+        if axis in axes and not (low is not None and high is not None and -1 <= low < 0 < high <= 1):
+            yield ("axes", axis), "is a stick: its min and max must be within -1 and 1, with its centre 0 between them"
+
+
+def _drone_rules(sink: Mapping[str, Any], kind: str, here: Location, data: Any) -> Iterator[Wrong]:
+    link = sink.get("link")
+    if kind not in DRONES or not isinstance(link, str):
+        return
+    others = [
+        other
+        for each in sequence(data, "sinks")
+        if (other := mapping(each).get("type")) not in DRONES and mapping(each).get("link") == link
+    ]
+    if others:
+        yield (*here, "link"), f"must be the drone's alone, and {others[0]} is on {link} too"
+    if _is_bus(mapping(data, "links").get(link)):
+        yield ("links", link), "must be a serial line, as a drone's is: serial:/dev/ttyUSB0@230400, or sim:"
+    mode, vertical, yaw = sink.get("mode"), sink.get("vertical", "velocity"), sink.get("yaw", "rate")
+    if kind == "flight" and isinstance(mode, str) and mode in FLIGHT_MODES:
+        if vertical not in ("velocity", "height") or yaw not in ("rate", "angle"):
+            return
+        ranges = _combination(mode, vertical, yaw).ranges
+        for name, of in (("horizontal", "x"), ("vertical", "z"), ("yaw", "yaw")):
+            full, most = number(mapping(sink, "full").get(name)), ranges[of].high
+            if full is not None and most is not None and full > most:
+                yield (*here, "full", name), f"must be at most {most:g} {ranges[of].unit} in this mode"
+
+
+def _is_bus(url: Any) -> bool:
+    try:
+        return isinstance(url, str) and parse(url).kind == "can"
+    except LinkUrlError:
+        return False

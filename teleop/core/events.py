@@ -1,0 +1,73 @@
+"""What happens in a tick: actions for devices, and the tick as every sink sees it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import NamedTuple
+
+from teleop.core.axes import Axis, Motion, Reading
+from teleop.core.setpoints import Demand
+
+
+class Action(StrEnum):
+    """Something done once, by whichever sink knows how."""
+
+    RECORD = "record"
+    STOP = "stop"
+    SHUTTER = "shutter"
+    FOCUS = "focus"  # on the centre, until END_FOCUS
+    END_FOCUS = "end_focus"
+
+
+class DeviceCommand(NamedTuple):
+    """A device's own command in plain words, for whichever sink speaks its language: `gimbal follow lock`."""
+
+    words: str
+
+
+class DialInput(NamedTuple):
+    """How fast a dial is turned, -1..1, for a device that has its own use for it; 0 once when it comes to rest."""
+
+    speed: float
+
+
+class ShutterStep(StrEnum):
+    """Of taking one frame of a timelapse, in this order."""
+
+    FOCUS = "prefocus"
+    PRESS = "press"
+    RELEASE = "release"
+
+
+class Exposure(NamedTuple):
+    """A step of taking the frame with this number, counted from 0, for the sink that shoots."""
+
+    frame: int
+    step: ShutterStep
+
+
+class ShutterResult(NamedTuple):
+    """What the camera said to the press for a frame: a return code, 0 for done, None for nothing."""
+
+    frame: int
+    code: int | None
+
+
+TickEvent = Action | DeviceCommand | DialInput | Exposure
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """One turn of the control loop, as every sink and the recorder see it.
+
+    `time` is the loop's clock in seconds, `motion` where each axis in use is commanded to be at that time, `reported`
+    the last reading of each axis that has one.
+    """
+
+    time: float
+    motion: Motion
+    demand: Demand
+    actions: Sequence[TickEvent]
+    reported: Mapping[Axis, Reading]

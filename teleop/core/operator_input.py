@@ -1,0 +1,83 @@
+"""What an operator's hand says: the values that an input device hands to the `Operator`.
+
+An input (a joystick, a dial, the terminal's keys) knows its device and the mapping of its controls; it knows nothing
+of the rig. What it says is already shaped (centre, inversion, dead zone, expo), but not yet scaled: speed range,
+enabling, presets and stops are the operator's, so that they are the same whatever is in the hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import NamedTuple, Protocol
+
+from teleop.core.axes import Axis
+
+
+class Command(StrEnum):
+    """What a button or a key asks for; `Press.number` says which preset, `Press.words` what a device is told."""
+
+    STOP = "stop"  # latched
+    CLEAR = "clear"  # of the STOP
+    ENABLE = "enable"  # for inputs that cannot be held: on, and off again
+    SLOWER = "slower"
+    FASTER = "faster"
+    RANGE = "range"  # the next speed range, after the last the first
+    RECALL = "recall"
+    STORE = "store"
+    DELETE = "delete"
+    RECENTER = "recenter"
+    RECORD = "record"  # on, and off again
+    SHUTTER = "shutter"
+    TELL = "tell"  # a device's own command: `gimbal follow lock`
+    ENGAGE = "engage"  # the drone
+    DISENGAGE = "disengage"
+    QUIT = "quit"
+    PAUSE = "pause"  # of a run, on its path, and on again
+    NEXT = "next"  # keyframe
+    PREVIOUS = "previous"
+    GO = "go"  # for a run that waits for it
+    KEEP = "keep"  # the trim of a sequence, in a file
+
+
+class Press(NamedTuple):
+    command: Command
+    number: int = 0
+    words: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """An input at one tick.
+
+    `deflections` are -1..1 of the axes that it is mapped to, centred ones as 0; `steps` are units by which an axis is
+    to be moved on since the last read (a dial by clicks); `positions` are where sliders say that an axis is to be, 0..1
+    of the way between its soft limits; `dial` is -1..1 for the gimbal's own dial. `enabled` is
+    whether the enable button is held, None for an input that has none. `trouble` says why it cannot be trusted now, ""
+    when it can: unplugged, silent for 0.2 s. What it held before is then no longer true. `notes` are lines that the
+    operator is to read once. `click` is what one step of `steps` is worth, in units; without it they are one step.
+    `stop` is why a STOP of this input does not count now, "" where it does, None for an input that has none.
+    """
+
+    deflections: Mapping[Axis, float] = field(default_factory=dict)
+    steps: Mapping[Axis, float] = field(default_factory=dict)
+    dial: float = 0.0
+    presses: Sequence[Press] = ()
+    enabled: bool | None = None
+    trouble: str = ""
+    positions: Mapping[Axis, float] = field(default_factory=dict)
+    notes: Sequence[str] = ()
+    click: Mapping[Axis, float] = field(default_factory=dict, compare=False)
+    stop: str | None = field(default=None, compare=False)
+
+
+class Input(Protocol):
+    """A device in an operator's hand."""
+
+    @property
+    def name(self) -> str: ...
+
+    def read(self, now: float) -> Held:
+        """What it says at `now` (s, the loop's clock); never waits, and never raises for a device that is gone."""
+        ...

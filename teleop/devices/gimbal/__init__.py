@@ -1,0 +1,1 @@
+"""A DJI gimbal driven by position, speed or joystick commands."""

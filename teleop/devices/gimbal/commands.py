@@ -1,0 +1,109 @@
+"""A gimbal's own commands and its dial, as an operator gives them by hand.
+
+A command that cannot be given is said to the operator and ends nothing: a wrong button is no fault of the run. What
+would move the gimbal by itself is not passed on, because the next command of the stream would take it back. The dial
+is a stream without answers, so its last word is always a zero, and giving the gimbal back says it too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from teleop.core.events import DeviceCommand, DialInput, Tick
+from teleop.devices.connection import Answer, Connection
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.command_table import find, is_taken_back
+from teleop.dji.message import FieldError, Message
+
+FULL_DIAL = 2048  # R SDK V2.5, section 2.3.4.11
+DIAL_PERIOD = 0.02  # s between two words of the dial, at least
+
+
+_DRONE = "drone "  # what its own sink hears; all other words are the gimbal's
+
+
+class Unheard:
+    """Says of what is told to a device that this rig does not have that nobody hears it."""
+
+    def __init__(self, gimbal: bool, drone: bool, say: Callable[[str], object]) -> None:
+        self._gimbal, self._drone, self._say = gimbal, drone, say
+
+    def write(self, tick: Tick) -> None:
+        for act in tick.actions:
+            if isinstance(act, DeviceCommand) and not (self._drone if act.words.startswith(_DRONE) else self._gimbal):
+                self._say(f"{act.words}: this rig has no {'drone' if act.words.startswith(_DRONE) else 'gimbal'}")
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
+        return None
+
+
+class CommandSink:
+    """Gives `DeviceCommand` and `DialInput` to the gimbal on a connection; `say` is for what comes of it.
+
+    `done` is called with the words of each command that the gimbal has confirmed.
+    """
+
+    def __init__(
+        self,
+        connection: Connection,
+        say: Callable[[str], object],
+        done: Callable[[str], object] = lambda _words: None,
+    ) -> None:
+        self._connection, self._say, self._done = connection, say, done
+        self._asked: dict[int, str] = {}  # sequence -> the words
+        self._kinds: set[type[Message]] = set()
+        self._dial = self._sent_dial = 0
+        self._sent_at = -math.inf
+
+    def write(self, tick: Tick) -> None:
+        for act in tick.actions:
+            if isinstance(act, DeviceCommand) and not act.words.startswith(_DRONE):
+                self._tell(act.words, tick.time)
+            elif isinstance(act, DialInput):
+                self._dial = round(max(-1.0, min(1.0, act.speed)) * FULL_DIAL)
+        if self._asked:
+            self._connection.poll(tick.time)  # the gimbal may have no axis in this run, and so nobody else who does
+        if (self._dial or self._sent_dial) and tick.time - self._sent_at > DIAL_PERIOD - 1e-6:
+            self._sent_at = tick.time
+            self._push_dial(self._dial)
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - one step, at once
+        if self._sent_dial:
+            self._push_dial(0)
+        return None
+
+    def _push_dial(self, speed: int) -> None:
+        self._connection.stream(gimbal.Dial(speed))
+        self._sent_dial = speed
+
+    def _tell(self, words: str, now: float) -> None:
+        try:
+            message = find(words.split())
+            message.check()
+        except FieldError as error:
+            self._say(f"{words}: {error}")
+            return
+        if is_taken_back(message):
+            self._say(f"{words} refused: it would fight what is streamed")
+            return
+        if not message.has_reply:
+            self._connection.stream(message)
+            self._say(f"{words}: sent; this command has no reply")
+            return
+        if type(message) not in self._kinds:
+            self._kinds.add(type(message))
+            self._connection.on_answer(type(message), self._answered)
+        self._asked[self._connection.request(message, now)] = words
+
+    def _answered(self, answer: Answer) -> None:
+        words = self._asked.pop(answer.sequence, None)
+        if words is None:
+            return
+        code = getattr(answer.reply, "return_code", 0)
+        if answer.reply is None:
+            self._say(f"{words}: no answer")
+        else:
+            self._say(f"{words}: refused (return code {code:#04x})" if code else f"{words}: done")
+            if not code:
+                self._done(words)

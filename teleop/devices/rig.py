@@ -1,0 +1,276 @@
+"""A profile brought to life: its links open, its devices at hand, and all of it closed in reverse whatever happens.
+
+Which class serves a type of sink is a row in a table. Devices that share a link share one connection, because two
+frames must never interleave on a bus. A simulated device is an ordinary one on a link that ends in this process.
+Whether a link ends at a gimbal or at a drone is said by the sinks that use it.
+"""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+
+from teleop.config.credentials import APP_KEY, load_credentials
+from teleop.config.document import DocumentError
+from teleop.config.profile import Profile
+from teleop.config.sinks_section import (
+    MOVES,
+    CameraSection,
+    FlightSection,
+    FocusSection,
+    GimbalSection,
+    VirtualRcSection,
+)
+from teleop.core.axes import Axis, Limits
+from teleop.core.control_loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, ControlLoop
+from teleop.core.errors import LinkError, TeleopError
+from teleop.core.interfaces import Clock, Reporter, Sink, Source
+from teleop.devices.camera import CameraSink
+from teleop.devices.connection import Connection
+from teleop.devices.drone.control_mode import ControlMode
+from teleop.devices.drone.last_enable import LastEnable, default_file
+from teleop.devices.drone.movement import MovementControl
+from teleop.devices.drone.preflight import Site
+from teleop.devices.drone.sink import DroneSink
+from teleop.devices.drone.telemetry import Telemetry
+from teleop.devices.drone.virtual_rc import VirtualRcControl
+from teleop.devices.focus import FocusReporter, FocusSink
+from teleop.devices.gimbal.pi_correction import Gains
+from teleop.devices.gimbal.position import Angles, PositionSink
+from teleop.devices.gimbal.speed import SpeedSink
+from teleop.devices.gimbal.stick import StickSink
+from teleop.dji.drone.encryption import Cipher
+from teleop.dji.drone.messages import Activate
+from teleop.dji.drone.session import OnboardSession
+from teleop.dji.gimbal.session import Session
+from teleop.links import open_link, parse
+from teleop.monitors.direction import DirectionGuard
+from teleop.monitors.following_error import FollowingErrorGuard
+from teleop.planner.live import Live
+from teleop.sim.drone.device import SimulatedDrone
+from teleop.sim.gimbal.device import SimulatedGimbal
+from teleop.sim.link import SimLink
+
+DRONE_FIRST_REPORT = 8.0  # s: an activation may be asked for three times, a second each
+
+
+@dataclass(frozen=True)
+class Device:
+    """What serves one entry of a profile's sinks, and the axes it can move.
+
+    `follow` is how far from commanded these may be found, in units, None where nobody measures them, and `delay` how
+    much later than that they move (s).
+    """
+
+    moves: Sequence[Axis]
+    sink: Sink
+    reporter: Reporter | None
+    follow: float | None = 0.0
+    delay: float = 0.0
+    direction: DirectionGuard | None = None  # what notices that an axis goes the other way
+
+
+class Rig:
+    """An open rig.
+
+    By link name: `connections`, and `simulated` and `simulated_drones`, the devices behind the links that are `sim:`.
+    """
+
+    def __init__(
+        self,
+        profile: Profile,
+        clock: Clock,
+        devices: Sequence[Device],
+        connections: Mapping[str, Connection],
+        simulated: Mapping[str, SimulatedGimbal],
+        simulated_drones: Mapping[str, SimulatedDrone],
+    ) -> None:
+        self.profile, self.clock, self.connections = profile, clock, connections
+        self.simulated, self.simulated_drones = simulated, simulated_drones
+        self._devices = devices
+
+    def drone(self, axes: Sequence[Axis]) -> DroneSink | None:
+        """The drone that moves some of the axes."""
+        sinks = [device.sink for device in self._used(axes) if isinstance(device.sink, DroneSink)]
+        return sinks[0] if sinks else None
+
+    @property
+    def axes(self) -> Sequence[Axis]:
+        """Those that some device here moves."""
+        return [axis for axis in self.profile.axes if any(axis in device.moves for device in self._devices)]
+
+    @property
+    def devices(self) -> Sequence[Device]:
+        return self._devices
+
+    def _used(self, axes: Sequence[Axis]) -> Sequence[Device]:
+        return [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
+
+    def loop(self, axes: Sequence[Axis], sources: Sequence[Source], watchers: Sequence[Sink] = ()) -> ControlLoop:
+        """A run of `sources` over the axes in use; devices that move none of them are left alone.
+
+        `watchers` are sinks that only look on, and see each tick after the devices.
+        """
+        limits = {axis: self.profile.limits[axis] for axis in axes}
+        used = self._used(axes)
+        sinks = [device.sink for device in used]
+        reporters = [device.reporter for device in used if device.reporter is not None]
+        measured = [(axis, device) for device in used for axis in device.moves if axis in limits]
+        guard = FollowingErrorGuard(
+            limits,
+            {axis: device.follow for axis, device in measured if device.follow is not None},
+            {axis: device.delay for axis, device in measured},
+            [device.direction.found for device in used if device.direction],
+        )
+        planner = Live(limits, PERIOD)
+        keep_alive, first_report = KEEP_ALIVE, FIRST_REPORT
+        if flown := self.drone(axes):
+            keep_alive, first_report = flown.period, DRONE_FIRST_REPORT
+        directions = [device.direction for device in used if device.direction]
+        all_sinks = [*sinks, *directions, guard, *watchers]
+        return ControlLoop(self.clock, planner, limits, sources, all_sinks, reporters, keep_alive, first_report)
+
+
+@contextmanager
+def open_rig(
+    profile: Profile, clock: Clock, absent: Callable[[str, TeleopError], object] | None = None
+) -> Iterator[Rig]:
+    """The rig with its links open; raises LinkError when one cannot be opened, and closes those that were.
+
+    Raises DocumentError when a drone on a real link has no credentials. With `absent` the rig does without the devices
+    on an optional link that cannot be opened, and `absent` is called with the link's name and the reason.
+    """
+    with ExitStack() as stack:
+        opening = _Opening(profile, clock, stack)
+        for name in profile.links:
+            try:
+                opening.open(name)
+            except (LinkError, DocumentError) as error:
+                if absent is None or name not in profile.optional:
+                    raise
+                absent(name, error)
+        yield opening.rig()
+
+
+class _Opening:
+    """A rig while its links are opened, one after the other, until `stack` is left."""
+
+    def __init__(self, profile: Profile, clock: Clock, stack: ExitStack) -> None:
+        self._profile, self._clock, self._stack = profile, clock, stack
+        self._devices: dict[int, Device] = {}  # by their places among the profile's sinks
+        self._connections: dict[str, Connection] = {}
+        self._simulated: dict[str, SimulatedGimbal] = {}
+        self._drones: dict[str, SimulatedDrone] = {}
+
+    def open(self, name: str) -> None:
+        """Open a link and what is at its end. Raises LinkError and DocumentError."""
+        with ExitStack() as stack:
+            connection = self._connected(name, stack)
+            limits = self._profile.limits
+            for place, section in enumerate(self._profile.sinks):
+                if section.link == name:
+                    self._devices[place] = BUILDERS[section.type](section, connection, limits)
+            self._connections[name] = connection
+            self._stack.push(stack.pop_all())
+
+    def rig(self) -> Rig:
+        profile = self._profile.with_links(self._connections)
+        devices = [device for _, device in sorted(self._devices.items(), key=lambda item: item[0])]
+        return Rig(profile, self._clock, devices, self._connections, self._simulated, self._drones)
+
+    def _connected(self, name: str, stack: ExitStack) -> Connection:
+        profile, clock, url = self._profile, self._clock, self._profile.links[name]
+        session: Session | OnboardSession = Session(first_sequence=_unlike_others(clock))
+        if name in profile.drones:
+            session = OnboardSession(first_sequence=_unlike_the_last())
+        if parse(url).kind != "sim":
+            link = open_link(url, now=clock.now)
+            stack.callback(link.close)
+            return Connection(name, url, link, clock.now(), link.counts, session)
+        far: SimulatedGimbal | SimulatedDrone
+        if name in profile.drones:
+            far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
+        else:
+            far = self._simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile))
+        return Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
+
+
+def _unlike_the_last() -> int:
+    """Where a session with a drone begins to number: the same numbers as a run before would look like its retries."""
+    return secrets.randbelow(0x10000)
+
+
+def _unlike_others(clock: Clock) -> int:
+    """Where a session with a gimbal begins to number: elsewhere than another program on its bus, by the time in us."""
+    return round(clock.now() * 1e6) & 0xFFFF
+
+
+def _turns_for_ever(profile: Profile) -> bool:
+    """Whether the simulated gimbal must, because the profile says that the real one does."""
+    return Axis.PAN in profile.limits and profile.limits[Axis.PAN].continuous
+
+
+def _gimbal(section: GimbalSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:
+    wiring = section.wiring
+    own = {axis: limits[axis] for axis in section.axes if axis is not None and axis in limits}
+    guard = DirectionGuard(section.sign_line, section.delay, speeds=section.mode != "position")
+    gains = Gains(section.gains.proportional, section.gains.integral)
+    sink: Sink
+    match section.mode:
+        case "position":
+            sink = PositionSink(connection, section.rate, section.delay, wiring, own, guard.found)
+        case "speed":
+            sink = SpeedSink(connection, section.rate, section.delay, wiring, own, gains, guard.sent)
+        case "stick":
+            full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
+            sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, guard.sent)
+    reporter = Angles(connection, wiring, section.legacy_angles)
+    return Device(list(own), sink, reporter, section.follow, section.delay, guard)
+
+
+def _focus(section: FocusSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
+    return Device(MOVES[section.type], FocusSink(connection, section.rate), FocusReporter(connection), section.follow)
+
+
+def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
+    return Device(MOVES[section.type], CameraSink(connection), None)
+
+
+def _virtual_rc(section: VirtualRcSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
+    last = None if connection.simulated else LastEnable(default_file())
+    grip = VirtualRcControl(connection, section.back_to_rc, section.go_home, last)
+    return _drone(section, grip, connection)
+
+
+def _flight(section: FlightSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
+    site = Site(section.guidance, section.indoors)
+    grip = MovementControl(connection, section.combination, section.frame, section.full.model_dump(), site)
+    return _drone(section, grip, connection)
+
+
+def _drone(section: VirtualRcSection | FlightSection, grip: ControlMode, connection: Connection) -> Device:
+    activation = Activate(0) if connection.simulated else load_credentials().activation()
+    telemetry = Telemetry(connection, activation, _cipher(section.encrypted))
+    sink = DroneSink(grip, telemetry, connection.opened, section.low_battery)
+    return Device(MOVES[section.type], sink, sink, follow=None)
+
+
+def _cipher(encrypted: bool) -> Cipher | None:
+    """What encrypts, by the app's key; raises DocumentError where there is none."""
+    if not encrypted:
+        return None
+    credentials = load_credentials()
+    if credentials.cipher is None:
+        raise DocumentError([f"encrypted: true wants the app's key: in {APP_KEY}, or key in {credentials.place}"])
+    return credentials.cipher
+
+
+BUILDERS: Mapping[str, Callable[..., Device]] = {
+    "gimbal": _gimbal,
+    "focus": _focus,
+    "camera": _camera,
+    "virtual-rc": _virtual_rc,
+    "flight": _flight,
+}

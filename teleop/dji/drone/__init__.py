@@ -1,0 +1,1 @@
+"""The messages of the Matrice 100 (Onboard SDK)."""

@@ -1,0 +1,1 @@
+"""The messages of the handheld gimbal (R SDK 2.5)."""

@@ -1,1 +1,0 @@
-"""What a HID device says: report descriptors and input reports, bytes in and controls out (HID 1.11)."""

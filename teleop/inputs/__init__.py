@@ -1,0 +1,1 @@
+"""What an operator holds: the keys of the terminal, HID devices, recorded sticks."""

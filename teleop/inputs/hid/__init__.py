@@ -1,0 +1,1 @@
+"""HID joysticks, gamepads and dials: found, read, mapped to axes and commands."""

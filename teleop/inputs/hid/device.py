@@ -1,0 +1,207 @@
+"""A HID device in an operator's hand, as an Input: what it says, and whether that is still true.
+
+Three troubles take it out of the hand: unplugged, silent for 0.2 s, and frozen, the very same report for 10 s while
+something is deflected. A device that reports only changes is silent by nature: at rest that is no trouble, and while it
+is deflected it is asked. Which kind a device is, its reports show (`HidState.steady`) unless the profile says it.
+
+Reading here never waits: a thread of the reader's does all that may.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+
+from teleop.config.enable_rules import enable_trouble
+from teleop.config.inputs_section import DIRECTIONS, ActionSection, ControlSection, InputSection
+from teleop.config.operator_settings import DEAD_ZONE, EXPO
+from teleop.config.pad_file import load_pad
+from teleop.core.operator_input import Command, Held
+from teleop.inputs.hid.backend import Hidapi, HidBackend, described
+from teleop.inputs.hid.mapping import Mapped
+from teleop.inputs.hid.pads import Chosen, may_stop, shipped
+from teleop.inputs.hid.reader import Claims, HidReader, Plugged
+from teleop.inputs.hid.state import HidState
+
+SILENT = 0.2  # s without a report, after which a device is not trusted
+RUN_COMMANDS = {Command.STOP, Command.CLEAR, Command.PAUSE, Command.GO, Command.QUIT}  # of a run that moves by itself
+
+
+class HidInput:
+    """The device that `section` stands for, once `start`ed or entered.
+
+    With `stop_only` no control counts but those that stop a run and go on with it, so its sticks cannot trouble it.
+    `dead_zone` and `expo` are those of controls that have none of their own, None for what a hand at a stick wants.
+    Raises DocumentError when the section's pad cannot be used.
+    """
+
+    def __init__(
+        self,
+        section: InputSection,
+        backend: HidBackend,
+        now: Callable[[], float],
+        *,
+        claims: Claims | None = None,
+        dead_zone: float | None = None,
+        expo: float | None = None,
+        stop_only: bool = False,
+    ) -> None:
+        if section.pad:
+            load_pad(section.pad)
+        self._section, self._stop_only = section, stop_only
+        self._dead_zone = DEAD_ZONE if dead_zone is None else dead_zone
+        self._expo = EXPO if expo is None else expo
+        self._reader = HidReader(section, backend, now, claims or Claims(), self._mapped)
+        self._plugged: Plugged | None = None  # the one that was read last
+        self._has_stop = may_stop(section)
+        self._misnamed = ""  # why its enable cannot be one
+        self._judged: set[str] = set()  # the sticks of which it has been said that they were not in their middle
+
+    @property
+    def name(self) -> str:
+        """What the profile calls it, else what it calls itself, else what is looked for."""
+        last = self._reader.last
+        return self._section.name or (described(last) if last else str(self._section.device))
+
+    def start(self) -> None:
+        self._reader.start()
+
+    def close(self) -> None:
+        self._reader.close()
+
+    def __enter__(self) -> HidInput:
+        self.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def read(self, now: float) -> Held:
+        held = self._read(now)
+        return replace(held, stop=self._stop_trouble(now))
+
+    def _read(self, now: float) -> Held:
+        plugged = self._reader.plugged
+        notes: list[str] = []
+        if plugged is not self._plugged:
+            last_words = self._plugged and self._look(self._plugged, now)
+            self._plugged, self._judged, self._misnamed = plugged, set(), self._enable_trouble(plugged)
+            if plugged is not None and plugged.missing and not plugged.chosen.guessed:
+                notes.append(
+                    f"{self.name}: it has no {', '.join(plugged.missing)}; what is mapped to that does nothing"
+                )
+            if last_words and last_words.presses:  # a stop on the way out still is one
+                return Held(presses=last_words.presses, enabled=self._off, trouble=self._absent, notes=notes)
+        if plugged is None:
+            return Held(enabled=self._off, trouble=self._absent)
+        held = self._look(plugged, now)
+        notes += self._judge(plugged)
+        if trouble := self._trouble(plugged, held, now):
+            return Held(presses=held.presses, enabled=self._off, trouble=f"{self.name}: {trouble}", notes=notes)
+        return replace(held, notes=notes)
+
+    def _stop_trouble(self, now: float) -> str | None:
+        """`Held.stop`: of a device that is gone as it was while it was there, None before it has been."""
+        plugged = self._plugged
+        if plugged is None:
+            known = self._has_stop and (self._reader.last is not None or self._reader.refused)
+            return self._absent if known else None
+        stops, state = plugged.mapped.stops, plugged.state
+        self._has_stop = bool(stops)
+        if not stops:
+            return None
+        if stops <= set(plugged.missing):
+            return f"{self.name}: it has no {', '.join(sorted(stops))}"
+        if not plugged.on_change and now - state.last > SILENT:
+            return f"{self.name}: has not reported for {SILENT:g} s"
+        return ""
+
+    @property
+    def _off(self) -> bool | None:
+        return False if self._section.enable else None
+
+    @property
+    def _absent(self) -> str:
+        if self._reader.refused:
+            return f"{self.name}: {self._reader.refused}"
+        return f"{self.name}: unplugged" if self._reader.last else f"{self.name}: not plugged in"
+
+    def _enable_trouble(self, plugged: Plugged | None) -> str:
+        if plugged is None or self._stop_only:
+            return ""
+        return enable_trouble(self._section.enable, plugged.state.names, plugged.chosen.controls)
+
+    def _mapped(self, chosen: Chosen, state: HidState) -> Mapped:
+        enable = self._section.enable
+        if self._stop_only:
+            return Mapped(_run_controls(chosen.controls), relative=state.relative)
+        return Mapped(chosen.controls, enable, state.relative, self._dead_zone, self._expo, guessed=chosen.guessed)
+
+    @staticmethod
+    def _look(plugged: Plugged, now: float) -> Held:
+        return plugged.mapped.read(plugged.state.values, plugged.state.changes(), now)
+
+    def _trouble(self, plugged: Plugged, held: Held, now: float) -> str:
+        state = plugged.state
+        if self._misnamed:
+            return self._misnamed
+        deflected = bool(held.dial) or any(held.deflections.values())
+        if not plugged.mapped.names & state.values.keys():
+            return "has not reported yet"
+        if plugged.mapped.finding:
+            return "is finding its centre: let it go"
+        if now - state.last > SILENT and (deflected or not plugged.on_change):
+            return f"has not reported for {SILENT:g} s"
+        if deflected and now - state.differed > plugged.chosen.frozen:
+            return f"has reported the very same for {plugged.chosen.frozen:g} s"
+        return ""
+
+    def _judge(self, plugged: Plugged) -> Iterator[str]:
+        """What is to be said of sticks that were not in their middle, once."""
+        found = set() if plugged.mapped.finding else set(plugged.mapped.uncentred) - self._judged
+        self._judged |= found
+        names = ", ".join(sorted(found))
+        if own := ", ".join(sorted(found & self._section.controls.keys())):
+            yield f"{self.name}: {own} was not in its middle; a trigger or a throttle wants rest: low or high"
+        elif plugged.chosen.guessed and found & {"X", "Y"}:
+            yield f"{self.name}: {names} was not in its middle and is left out; let it go and plug it in again"
+
+
+def _run_controls(controls: Mapping[str, ControlSection]) -> dict[str, ControlSection]:
+    """Those that stop a run that moves by itself, and go on with it."""
+    kept = {}
+    for name, control in controls.items():
+        update: dict[str, ActionSection | None] = {key: _run_part(getattr(control, key)) for key in DIRECTIONS}
+        if (part := _run_part(control)) or any(update.values()):
+            update |= {} if part else dict.fromkeys(("press", "hold", "axis"))
+            kept[name] = control.model_copy(update=update)
+    return kept
+
+
+def _run_part(action: ActionSection | None) -> ActionSection | None:
+    return action if action is not None and {action.press, action.hold} & RUN_COMMANDS else None
+
+
+@contextmanager
+def open_inputs(
+    sections: Sequence[InputSection],
+    now: Callable[[], float],
+    backend: HidBackend | None = None,
+    *,
+    dead_zone: float | None = None,
+    expo: float | None = None,
+    stop_only: bool = False,
+) -> Iterator[list[HidInput]]:
+    """The devices of a profile, started, in its order; without sections any joystick.
+
+    Raises DeviceError when HID devices cannot be read here at all, DocumentError when a pad cannot be used.
+    """
+    devices, claims = backend or Hidapi(), Claims()
+    shipped()  # read now: once the loop runs nothing shall keep it waiting
+    with ExitStack() as stack:
+        inputs = [
+            HidInput(section, devices, now, claims=claims, dead_zone=dead_zone, expo=expo, stop_only=stop_only)
+            for section in sections or [InputSection()]
+        ]
+        yield [stack.enter_context(each) for each in inputs]

@@ -1,0 +1,118 @@
+"""From a device's controls to what an operator's hand says: a mapping, laid over the device that is plugged in.
+
+Several controls may move one axis (two triggers, one each way): their deflections add up. Exchanging two axes is
+exchanging their names in the mapping.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+
+from teleop.config.inputs_section import DIRECTIONS, ControlSection
+from teleop.core.operator_input import Held
+from teleop.inputs.hid.controls import Button, ControlReader, ControlValues, Lever, Stick, Wheel
+from teleop.inputs.hid.pads import stops
+from teleop.inputs.hid.state import Change, Sample
+
+
+class Mapped:
+    """A mapping on one device, from its plugging in to its unplugging.
+
+    `relative` are the controls that the descriptor calls so, `dead_zone` and `expo` those of controls without their
+    own. `guessed`: nobody wrote this mapping, so that what does not rest in its middle is no stick and is left out.
+    `names` are the controls that it needs, `stops` those that are a STOP, `watched` those whose every change counts,
+    `counting` whether those that the descriptor describes wrongly report counts.
+    """
+
+    def __init__(
+        self,
+        controls: Mapping[str, ControlSection],
+        enable: str | None = None,
+        relative: Collection[str] = (),
+        dead_zone: float = 0.0,
+        expo: float = 0.0,
+        guessed: bool = False,
+    ) -> None:
+        flat = _flat(controls)
+        self._enable = enable
+        self._fine = {name: section.fine_button for name, section in flat.items()}
+        self._sticks = {
+            name: Stick(section, dead_zone, expo, guessed)
+            for name, section in flat.items()
+            if _is_stick(section, name in relative)
+        }
+        others = {
+            name: _reader(section, name in relative) for name, section in flat.items() if name not in self._sticks
+        }
+        self.stops = frozenset(name for name, section in flat.items() if stops(section))
+        self._readers: Mapping[str, ControlReader] = {**self._sticks, **others}
+        buttons = {name for name in (enable, *self._fine.values()) if name}
+        self.names = frozenset(self._readers) | buttons
+        self.watched = frozenset(name for name, reader in others.items() if not isinstance(reader, Lever))
+        self.counting = {
+            name: section.reads == "relative" for name, section in flat.items() if section.reads is not None
+        }
+
+    @property
+    def finding(self) -> bool:
+        """Whether the centre of some stick is still being found."""
+        return any(stick.finding for stick in self._sticks.values())
+
+    @property
+    def uncentred(self) -> Collection[str]:
+        """Sticks that were not in their middle when first seen."""
+        return [name for name, stick in self._sticks.items() if stick.uncentred]
+
+    def read(self, values: Mapping[str, Sample], changes: Iterable[Change], now: float) -> Held:
+        """What the controls say at `now`; of a control that has not reported, or has no value, nothing."""
+        said = ControlValues()
+        changed: dict[str, list[Change]] = {}
+        for change in changes:
+            changed.setdefault(change.name, []).append(change)
+        for name, reader in self._readers.items():
+            if (sample := values.get(name)) is not None:
+                fine = _pressed(values, self._fine[name])
+                reader.read(sample, changed.get(name, ()), now, fine, said)
+        enabled = None if self._enable is None else _pressed(values, self._enable)
+        return Held(
+            said.deflections,
+            said.steps,
+            said.dial,
+            said.presses,
+            enabled,
+            positions=said.positions,
+            click=said.click,
+        )
+
+
+def _pressed(values: Mapping[str, Sample], name: str | None) -> bool:
+    return name is not None and name in values and values[name].pressed
+
+
+def _flat(controls: Mapping[str, ControlSection]) -> dict[str, ControlSection]:
+    """The mapping with the directions of hats as the buttons that they are."""
+    flat: dict[str, ControlSection] = {}
+    for name, section in controls.items():
+        directions = {key: getattr(section, key) for key in DIRECTIONS}
+        if not any(directions.values()):
+            flat[name] = section
+        for key, action in directions.items():
+            if action is not None:
+                flat[f"{name} {key}"] = ControlSection(**action.model_dump())
+    return flat
+
+
+def _reads(section: ControlSection, relative: bool) -> str:
+    return section.reads or ("relative" if relative else "absolute")
+
+
+def _is_stick(section: ControlSection, relative: bool) -> bool:
+    return not section.press and section.by != "position" and _reads(section, relative) == "absolute"
+
+
+def _reader(section: ControlSection, relative: bool) -> ControlReader:
+    if section.press:
+        return Button(section)
+    if _reads(section, relative) == "absolute":
+        return Lever(section)
+    return Wheel(section, counter=_reads(section, relative) == "counter")

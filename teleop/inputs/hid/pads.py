@@ -1,0 +1,133 @@
+"""Which mapping a device gets: a shipped one by its ids, or one that is guessed from the controls it has.
+
+The guess for a pad nobody described: the left stick (X, Y) is pan and tilt, the right one (Rx and Ry, or Z and Rz,
+whichever rests in its middle) roll and focus; a joystick's twist (Rz without a Z) is roll. The puck of a multi-axis
+controller turns as the head is to turn. HID counts Y downwards, and up is to be up. Button 1, a joystick's trigger and
+the first under a thumb, is STOP, which does no harm when pressed unasked; 2 clears it, 3 records, 4 recentres, 5
+and 6 (the shoulders) are slower and faster. The hat recalls presets 1 to 4 and, held, stores them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+
+from teleop.config.inputs_section import (
+    DIRECTIONS,
+    FROZEN,
+    PADS,
+    ActionSection,
+    ControlSection,
+    DeviceSection,
+    InputSection,
+    PadSection,
+)
+from teleop.config.pad_file import load_pad
+from teleop.config.resources import folder
+from teleop.core.axes import Axis
+from teleop.core.operator_input import Command
+from teleop.inputs.hid.backend import DeviceInfo
+
+STICKS = frozenset({(0x01, 0x04), (0x01, 0x05), (0x01, 0x08)})  # joystick, gamepad, multi-axis controller
+MULTI_AXIS = (0x01, 0x08)
+_BUTTONS = (
+    ("Button 1", Command.STOP),
+    ("Button 2", Command.CLEAR),
+    ("Button 3", Command.RECORD),
+    ("Button 4", Command.RECENTER),
+    ("Button 5", Command.SLOWER),
+    ("Button 6", Command.FASTER),
+)
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """What a device does; `guessed`: nobody wrote it. `unreadable` says why its reports cannot be used."""
+
+    controls: Mapping[str, ControlSection] = field(default_factory=dict)
+    reports: str = "auto"
+    frozen: float = FROZEN
+    guessed: bool = False
+    unreadable: str = ""
+
+
+@cache
+def shipped() -> Sequence[PadSection]:
+    """Every mapping that comes with the program."""
+    return tuple(load_pad(file.stem) for file in sorted(folder(PADS).glob("*.yaml")))
+
+
+def pad_for(info: DeviceInfo) -> PadSection | None:
+    """The shipped mapping for this very device."""
+    return next((pad for pad in shipped() if any(fits(device, info) for device in pad.devices)), None)
+
+
+def fits(device: DeviceSection, info: DeviceInfo) -> bool:
+    """Whether this is the device, by its ids and its name; of a section for any device nothing is asked."""
+    from fnmatch import fnmatch
+
+    return (
+        device.vendor in (None, info.vendor_id)
+        and device.product in (None, info.product_id)
+        and (device.name is None or fnmatch(info.name.casefold(), device.name.casefold()))
+    )
+
+
+def stops(control: ControlSection) -> bool:
+    """Whether it is a STOP, in one of its directions maybe."""
+    parts = [control, *(getattr(control, direction) for direction in DIRECTIONS)]
+    return any(Command.STOP in (part.press, part.hold) for part in parts if part is not None)
+
+
+def may_stop(section: InputSection) -> bool:
+    """Whether the device that is plugged in for it may have a STOP: by what is written, else that is the device's."""
+    if not section.pad and not section.controls:
+        return True
+    controls = {**(load_pad(section.pad).controls if section.pad else {}), **section.controls}
+    return any(stops(control) for control in controls.values() if control is not None)
+
+
+def choose(section: InputSection, info: DeviceInfo, names: Collection[str]) -> Chosen:
+    """What the device does that `section` stands for and that has these controls."""
+    named = load_pad(section.pad) if section.pad else None
+    pad = named or (None if section.controls else pad_for(info))
+    if pad is None and not section.controls:
+        multi_axis = (info.usage_page, info.usage) == MULTI_AXIS
+        return Chosen(
+            guess(names, multi_axis),
+            section.reports or ("on-change" if multi_axis else "auto"),
+            section.frozen or FROZEN,
+            guessed=True,
+        )
+    merged = {**(pad.controls if pad else {}), **section.controls}
+    return Chosen(
+        {name: control for name, control in merged.items() if control is not None},
+        section.reports or (pad and pad.reports) or "auto",
+        section.frozen or (pad and pad.frozen) or FROZEN,
+        unreadable=pad.unreadable if pad else "",
+    )
+
+
+def guess(names: Collection[str], multi_axis: bool) -> Mapping[str, ControlSection]:
+    """A mapping for a device with these controls that nobody described; see the module."""
+    axes = {
+        "X": ControlSection(axis=Axis.PAN),
+        "Y": ControlSection(axis=Axis.TILT, invert=True),
+        "Rx": ControlSection(axis=Axis.ROLL),
+        "Ry": ControlSection(axis=Axis.FOCUS, invert=True),
+        "Z": ControlSection(axis=Axis.ROLL),
+        "Rz": ControlSection(axis=Axis.FOCUS, invert=True) if "Z" in names else ControlSection(axis=Axis.ROLL),
+    }
+    if multi_axis:
+        turns = {"Rx": (Axis.TILT, False), "Ry": (Axis.ROLL, True), "Rz": (Axis.PAN, False)}
+        axes = {
+            name: ControlSection(axis=axis, invert=invert, reads="absolute") for name, (axis, invert) in turns.items()
+        }
+    buttons = {name: ControlSection(press=command) for name, command in _BUTTONS}
+    presets = {
+        direction: ActionSection(press=Command.RECALL, number=number, hold=Command.STORE)
+        for number, direction in enumerate(DIRECTIONS, 1)
+    }
+    every = {**axes, **buttons, "Hat switch": ControlSection.model_validate(presets)}
+    return {name: section for name, section in every.items() if name in names}

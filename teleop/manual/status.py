@@ -1,0 +1,88 @@
+"""What an operator is to know: the state of a run by hand, and in a line each what is stopping what, newest first."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from teleop.core.axes import Axis
+from teleop.manual.interlock import CENTRE, ENABLE, Interlock
+
+KEPT = 20  # messages
+
+
+class Message(NamedTuple):
+    """A line for the operator, and when it was said on the loop's clock."""
+
+    time: float
+    text: str
+
+
+class InputStatus(NamedTuple):
+    """An input: the axes that it moves now, and what it waits for before it may move any, "" when it may."""
+
+    name: str
+    moves: Sequence[Axis]
+    waits_for: str
+    trouble: str
+
+
+@dataclass(frozen=True, slots=True)
+class OperatorStatus:
+    """The operator's side of a tick.
+
+    `range` is the index of the speed range in force among `ranges`, `deflections` (-1..1) is what came of all sticks,
+    `recall` what the axes are being taken to, "" for nothing, and `recall_end` when they are to be there. `recording`
+    is what the camera was last told, `follow` the gimbal's follow mode that it last confirmed, "" for none. `presets`
+    are the names of those stored, "" for one that has none.
+    """
+
+    hands: Sequence[InputStatus]
+    ranges: Sequence[float]
+    range: int
+    stopped: bool
+    hands_on: bool
+    recall: str
+    recall_end: float
+    recording: bool
+    follow: str
+    deflections: Mapping[Axis, float]
+    presets: Mapping[int, str]
+    messages: Sequence[Message]
+
+
+class MessageLog:
+    """The messages, and what was last said of each input, so that nothing is said twice."""
+
+    def __init__(self) -> None:
+        self.messages: tuple[Message, ...] = ()
+        self._said: deque[Message] = deque(maxlen=KEPT)
+        self._troubles: dict[Interlock, str] = {}
+        self._hinted: set[Interlock] = set()
+
+    def say(self, now: float, text: str) -> None:
+        if self._said and self._said[0].text == text:
+            self._said.popleft()
+        self._said.appendleft(Message(now, text))
+        self.messages = tuple(self._said)
+
+    def changes(self, hands: Sequence[Interlock], drivers: Mapping[Axis, Interlock]) -> Iterator[str]:
+        """A line for each input whose state has changed; `drivers` are those that moved an axis until now."""
+        for hand in hands:
+            trouble, before = hand.said.trouble, self._troubles.get(hand, "")
+            self._troubles[hand] = trouble
+            if trouble and trouble != before:
+                stops = [axis.value for axis, driver in drivers.items() if driver is hand]
+                yield f"{trouble}: {' and '.join(stops)} stopped" if stops else trouble
+            elif before and not trouble:
+                yield f"{hand.name}: {hand.waits_for or 'ready'}"
+            if hand.trusted:
+                self._hinted.discard(hand)
+            elif not trouble and hand not in self._hinted and any(hand.said.deflections.values()):
+                self._hinted.add(hand)
+                if hand.waits_for in (CENTRE, ENABLE):
+                    yield f"{hand.name} moves nothing yet: {hand.waits_for} first"
+                else:
+                    yield f"{hand.name} moves nothing: {hand.waits_for}"

@@ -1,0 +1,1 @@
+"""What compares commanded with measured motion while a rig runs."""

@@ -1,0 +1,76 @@
+"""How well the devices followed: the error of every reading against what was commanded at that moment.
+
+Readings are compared at their own time, between the two commanded states around it, so that the age of a report does
+not look like lag. Sums are kept, not samples: a run of hours takes the memory of one of seconds.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from teleop.core.axes import Axis, Motion
+from teleop.core.events import Tick
+
+
+@dataclass
+class Score:
+    """One axis: how many readings there were, and the error (commanded minus measured, units) over them."""
+
+    readings: int = 0
+    squares: float = 0.0
+    peak: float = 0.0
+
+    def add(self, error: float) -> None:
+        self.readings += 1
+        self.squares += error * error
+        self.peak = max(self.peak, abs(error))
+
+    @property
+    def rms(self) -> float:
+        return math.sqrt(self.squares / self.readings) if self.readings else math.nan
+
+
+class TrackingErrorMonitor:
+    """A sink that only watches. Readings from before `begin`, on the loop's clock, do not count."""
+
+    def __init__(self, begin: Callable[[], float]) -> None:
+        self.scores: dict[Axis, Score] = {}
+        self._begin = begin
+        self._latest: Tick | None = None
+        self._commanded: deque[tuple[float, Motion]] = deque(maxlen=100)
+        self._counted: dict[Axis, float] = {}
+
+    def write(self, tick: Tick) -> None:
+        self._latest = tick
+        self._commanded.append((tick.time, tick.motion))
+        for axis, reading in tick.reported.items():
+            if axis in tick.motion and reading.time != self._counted.get(axis) and reading.time >= self._begin():
+                self._counted[axis] = reading.time
+                error = self._commanded_at(axis, reading.time) - reading.position
+                self.scores.setdefault(axis, Score()).add(error)
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
+        return None
+
+    @property
+    def seconds(self) -> float:
+        """How long the run has been going since its begin."""
+        return max(0.0, self._latest.time - self._begin()) if self._latest else 0.0
+
+    def ends(self, axis: Axis) -> tuple[float, float]:
+        """Where the axis was last commanded to be, and last measured, in units."""
+        assert self._latest is not None
+        return self._latest.motion[axis].position, self._latest.reported[axis].position
+
+    def _commanded_at(self, axis: Axis, time: float) -> float:
+        later = self._commanded[-1]
+        for earlier in reversed(self._commanded):
+            if earlier[0] <= time:
+                span = later[0] - earlier[0]
+                share = (time - earlier[0]) / span if span > 0 else 0.0
+                return earlier[1][axis].position + share * (later[1][axis].position - earlier[1][axis].position)
+            later = earlier
+        return later[1][axis].position

@@ -1,0 +1,1 @@
+"""Timed keys to a checked move: segments, the quadratic program, and why a move is infeasible."""

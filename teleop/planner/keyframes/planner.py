@@ -1,0 +1,205 @@
+"""Timed keys to a checked move, per axis.
+
+Rests (first and last key, stops, dwells) cut an axis into legs that know nothing of each other, and each leg is a
+minimum-jerk programme (`quadratic`). A ladder of rules keeps the common case cheap and the hard one possible: few
+pieces first, then finer ones, each with the rule that nothing overshoots; only then without it, and the overshoot is
+reported; at last `explain` says what is in the way. Between equal keys without overshoot there is only standing still,
+so these too are rests as long as that rule holds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from teleop.core.axes import Axis, Limits
+from teleop.planner.keyframes.diagnostics import long_ramps, overshoots
+from teleop.planner.keyframes.findings import (
+    Finding,
+    Infeasible,
+    LongRamp,
+    Overshoot,
+    PlanError,
+    RampsTooLong,
+    Unsolved,
+)
+from teleop.planner.keyframes.infeasibility import explain
+from teleop.planner.keyframes.keys import Key, leg_between, ramps_asked, waypoints
+from teleop.planner.keyframes.qp import HEADROOM, Rule, solve
+from teleop.planner.keyframes.segment import Segment
+from teleop.planner.polynomial import Array
+from teleop.planner.trajectory import Move, Track
+
+PIECES = (2, 4, 8)
+STRETCH = 0.002  # relative, of the least factor
+MOST = 2.0**20  # times longer: what is impossible then is so at any speed
+ROUNDING = 1e-9  # relative, of ramps that are to take all of a leg
+
+
+class _Outcome(NamedTuple):
+    """One axis planned: its track, unless there are unsolved legs, with the names of their keys, or ramps too long."""
+
+    track: Track | None
+    overshoots: list[Overshoot]
+    long_ramps: list[LongRamp]
+    unsolved: list[tuple[Segment, list[str]]]
+    too_long: list[RampsTooLong]
+
+
+class _Pieces(NamedTuple):
+    widths: Array
+    coefficients: Array
+
+
+def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tension: float = 0.0) -> Move:
+    """The smoothest move through `keys` (at least one per axis, in order of time) within `limits`.
+
+    First and last key of an axis are stops. `tension` 0 is smoothest, 1 closest to constant speed between keys.
+    Raises Infeasible with the findings of all axes, and PlanError where keys are not in order.
+    """
+    beyond = {axis: _beyond(axis, of_axis, limits[axis]) for axis, of_axis in keys.items()}
+    outcomes = {
+        axis: _plan_axis(axis, of_axis, limits[axis], tension) for axis, of_axis in keys.items() if not beyond[axis]
+    }
+    findings: list[Finding | RampsTooLong | Unsolved] = [finding for of_axis in beyond.values() for finding in of_axis]
+    for axis, outcome in outcomes.items():
+        findings += outcome.too_long
+        for leg, wheres in outcome.unsolved:
+            findings += explain(axis, leg, wheres, limits[axis]) or [Unsolved(axis, wheres[0], wheres[-1])]
+    if findings:
+        raise Infeasible(findings)
+    return _assemble(outcomes)
+
+
+def stretch(
+    keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tension: float = 0.0
+) -> tuple[Move, float]:
+    """The move with all its times, dwells included, longer by the least factor (>= 1) that makes it possible.
+
+    Exact to STRETCH. Raises as `plan` does what more time cannot mend.
+    """
+    low = high = 1.0
+    move = _attempt(keys, limits, tension, high)
+    while move is None:
+        low, high = high, high * 2
+        if high > MOST:
+            plan(keys, limits, tension)
+        move = _attempt(keys, limits, tension, high)
+    while high > low * (1 + STRETCH):
+        middle = (low * high) ** 0.5
+        shorter = _attempt(keys, limits, tension, middle)
+        low, high, move = (middle, high, move) if shorter is None else (low, middle, shorter)
+    return move, high
+
+
+def attempt(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tension: float = 0.0) -> Move | None:
+    """What `plan` gives, or None where it would raise: for who tries keys by the hundred and needs no reasons."""
+    try:
+        return _attempt(keys, limits, tension, 1.0)
+    except Infeasible:
+        return None
+
+
+def _attempt(
+    keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tension: float, factor: float
+) -> Move | None:
+    """The move with its times multiplied, None when that is not enough. Raises Infeasible for keys out of reach."""
+    outcomes = {}
+    for axis, of_axis in keys.items():
+        beyond = _beyond(axis, of_axis, limits[axis])
+        if beyond:
+            raise Infeasible(beyond)
+        outcomes[axis] = _plan_axis(axis, [key.later(factor) for key in of_axis], limits[axis], tension)
+        if outcomes[axis].too_long:
+            raise Infeasible(outcomes[axis].too_long)  # however long the move, its ramps take the same share
+        if outcomes[axis].unsolved:
+            return None
+    return _assemble(outcomes)
+
+
+def _assemble(outcomes: Mapping[Axis, _Outcome]) -> Move:
+    tracks = {axis: outcome.track for axis, outcome in outcomes.items() if outcome.track is not None}
+    if missing := [axis for axis in outcomes if axis not in tracks]:
+        raise PlanError(f"{', '.join(missing)}: no plan, and no reason why")  # an axis is never left out in silence
+    return Move(
+        tracks,
+        tuple(overshoot for outcome in outcomes.values() for overshoot in outcome.overshoots),
+        tuple(ramp for outcome in outcomes.values() for ramp in outcome.long_ramps),
+    )
+
+
+def _beyond(axis: Axis, keys: Sequence[Key], limits: Limits) -> list[Finding]:
+    outside = []
+    for key in keys:
+        for limit, excess in (("minimum", limits.minimum - key.position), ("maximum", key.position - limits.maximum)):
+            if excess > 0:
+                outside.append(Finding(axis, key.where, key.where, limit, excess))
+    return outside
+
+
+def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: float) -> _Outcome:
+    points = waypoints(axis, keys)
+    rests = [i for i, point in enumerate(points) if point.rest]
+    outcome = _Outcome(None, [], [], [], [])
+    breaks: list[Array] = []
+    coefficients: list[Array] = [np.empty((0, 6))]
+    for first, last in pairwise(rests):
+        stretch = points[first : last + 1]
+        wheres, asked, duration = (
+            [p.where for p in stretch],
+            ramps_asked(stretch),
+            points[last].time - points[first].time,
+        )
+        if asked and sum(asked) > duration * (1 + ROUNDING):
+            outcome.too_long.append(RampsTooLong(axis, wheres[0], wheres[-1], *asked, duration))
+            continue
+        leg = leg_between(stretch, asked, limits)
+        evenness = tension if stretch[0].tension is None else stretch[0].tension
+        pieces = _directed(leg, limits, evenness)
+        if pieces is None:
+            pieces = _undirected(leg, limits, evenness)
+            if pieces is None:
+                outcome.unsolved.append((leg, wheres))
+                continue
+            outcome.overshoots.extend(overshoots(axis, leg, wheres, *pieces))
+        if asked:
+            outcome.long_ramps.extend(long_ramps(axis, leg, wheres, asked))
+        breaks.append(leg.times[0] + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])]))
+        coefficients.append(pieces.coefficients)
+    if outcome.unsolved or outcome.too_long:
+        return outcome
+    end = points[-1]
+    track = Track(np.concatenate([*breaks, [end.time]]), np.concatenate(coefficients), end.position)
+    return outcome._replace(track=track)
+
+
+def _directed(leg: Segment, limits: Limits, tension: float) -> _Pieces | None:
+    """Without overshoot: cut where equal keys follow each other, each part by the coarsest rule that does."""
+    if np.any(np.abs(leg.steps) > HEADROOM * limits.velocity * leg.durations):
+        return None
+    flat = leg.steps == 0
+    cuts = (np.flatnonzero(flat[:-1] | flat[1:]) + 1).tolist()
+    parts = []
+    for first, last in pairwise([0, *cuts, len(flat)]):
+        if flat[first]:
+            parts.append(_standing(leg, first))
+            continue
+        part = leg.part(first, last)
+        rules = (Rule(n, True, tension) for n in PIECES if tension == 0 or n > 2)
+        solved = next((pieces for pieces in (solve(part, limits, rule) for rule in rules) if pieces is not None), None)
+        if solved is None:
+            return None
+        parts.append(_Pieces(*solved))
+    return _Pieces(np.concatenate([p.widths for p in parts]), np.concatenate([p.coefficients for p in parts]))
+
+
+def _standing(leg: Segment, segment: int) -> _Pieces:
+    return _Pieces(leg.durations[segment : segment + 1], np.array([[leg.positions[segment], 0.0, 0.0, 0.0, 0.0, 0.0]]))
+
+
+def _undirected(leg: Segment, limits: Limits, tension: float) -> _Pieces | None:
+    solved = solve(leg, limits, Rule(PIECES[-1], False, tension))
+    return None if solved is None else _Pieces(*solved)

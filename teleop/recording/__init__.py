@@ -1,0 +1,1 @@
+"""Takes: recorded, read back, reported, replayed. Nothing here opens a port."""

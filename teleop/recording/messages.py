@@ -1,0 +1,124 @@
+"""One pass through a take's file: what it says of itself, and its messages in their order, never all at once.
+
+Hours of a run are more than a memory should hold, so whoever needs little of them reads it from here. Nothing is
+believed that is not checked: a stranger's MCAP, a take of a later format and a damaged chunk each have their sentence.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+from teleop.config.document import DocumentError
+from teleop.core.axes import Axis, Limits
+from teleop.recording.format import ABOUT, CUT, END, FORMAT, LIMITS, About
+from teleop.recording.records import Progress, whole_records
+
+
+@dataclass(frozen=True)
+class Ending:
+    """Why a run stopped, how many of its ticks the recorder had to leave out, and what its links counted."""
+
+    result: str
+    reasons: Sequence[str]
+    dropped: int
+    links: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        return ": ".join([self.result, "; ".join(self.reasons)]).removesuffix(": ")
+
+
+class Line(NamedTuple):
+    """A message: `time` in s from the first tick, its topic, and JSON."""
+
+    time: float
+    topic: str
+    data: bytes
+
+
+class Messages(Progress):
+    """The messages of a take, once; `about` is there with the first of them, `ending` at best after the last."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.path = path
+        self.ending: Ending | None = None
+        self._about: About | None = None
+
+    def __iter__(self) -> Iterator[Line]:
+        """Raises DocumentError when the file cannot be read at all, or is not a take."""
+        from mcap.records import Channel, Message, Metadata
+
+        topics: dict[int, str] = {}
+        started = 0
+        with understood(self.path):
+            for record in whole_records(self.path, self):
+                if isinstance(record, Message):
+                    if self._about is None:
+                        raise ValueError("it does not say what it is")
+                    yield Line((record.log_time - started) / 1e9, topics[record.channel_id], record.data)
+                elif isinstance(record, Channel):
+                    topics[record.id] = record.topic
+                elif isinstance(record, Metadata) and record.name == ABOUT:
+                    self._about = about(record.metadata)
+                    started = round(self._about.started * 1e9)
+                elif isinstance(record, Metadata) and record.name == END:
+                    self.ending = ending(record.metadata)
+
+    @property
+    def about(self) -> About:
+        """What the take says of itself; raises DocumentError when it was read and said nothing."""
+        if self._about is None:
+            raise DocumentError([f"{self.path}: is not a take of this program"])
+        return self._about
+
+    @property
+    def lost(self) -> int:
+        """Bytes at the end that could not be read."""
+        return self.size - self.whole
+
+    @property
+    def remark(self) -> str:
+        """A line for the user about a file that is not whole, "" about one that is; known after the last message."""
+        if self.closed and self.ending is not None:
+            return ""
+        return f"{self.path}: was not closed, and is read as far as it is whole; teleop take recover {self.path}"
+
+
+@contextmanager
+def understood(path: Path) -> Iterator[None]:
+    """What a file that is no take makes of its reading, as a DocumentError."""
+    try:
+        yield
+    except OSError as error:
+        raise DocumentError([f"{path}: cannot be read: {error.strerror or error}"]) from None
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise DocumentError([f"{path}: is not a take as this program writes it: {error}"]) from None
+
+
+def about(said: Mapping[str, str]) -> About:
+    """What the first metadata record says; raises ValueError, KeyError and TypeError for another's."""
+    if said.get("format") != FORMAT:
+        raise ValueError(f"its format is {said.get('format')!r}, and this program reads {FORMAT!r}")
+    limits = {}
+    for name, of_axis in json.loads(said["axes"]).items():
+        low, high, *magnitudes = (of_axis[name] for name in LIMITS)
+        low, high = (-math.inf if low is None else low), (math.inf if high is None else high)
+        limits[Axis(name)] = Limits(low, high, *magnitudes)
+    return About(said["rig"], said["title"], float(said["started"]), limits, said["version"])
+
+
+def ending(said: Mapping[str, str]) -> Ending:
+    """What the last metadata record says; raises as `about`."""
+    links = json.loads(said.get("links", "{}"))
+    return Ending(said["result"], json.loads(said["reasons"]), int(said["dropped"]), links)
+
+
+def was_cut(ended: Ending | None) -> bool:
+    """Whether the run went on after what is recorded: nobody knows how it ended."""
+    return ended is None or ended.result == CUT

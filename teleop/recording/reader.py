@@ -1,0 +1,99 @@
+"""A take read back from its file into arrays, whole or cut: for whoever has to look at all of it at once.
+
+Six hours of four axes are a quarter of a gigabyte this way; what is not motion or its measurement stays in the file.
+"""
+
+from __future__ import annotations
+
+import json
+from array import array
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from teleop.core.axes import Axis, State
+from teleop.planner.polynomial import Array
+from teleop.recording.format import CUT, About
+from teleop.recording.messages import Ending, Messages, understood, was_cut
+
+Act = Mapping[str, Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Take:
+    """Times are seconds from the first tick. `motion` has rows position, velocity, acceleration (3, n) at `times` (n,).
+
+    `measured` has rows time, position (2, m). `actions` are what was done once, and when. `ending` is None for a file
+    that was cut, and `remark` what is to be said of one that is not whole, else "".
+    """
+
+    path: Path
+    about: About
+    times: Array
+    motion: Mapping[Axis, Array]
+    measured: Mapping[Axis, Array]
+    actions: Sequence[tuple[float, Act]]
+    ending: Ending | None
+    remark: str
+
+    @property
+    def axes(self) -> Sequence[Axis]:
+        return list(self.motion)
+
+    @property
+    def duration(self) -> float:
+        """Seconds from the first to the last tick."""
+        return float(self.times[-1]) if len(self.times) else 0.0
+
+    @property
+    def cut(self) -> bool:
+        """Whether the run went on after the last tick that is here."""
+        return was_cut(self.ending)
+
+    @property
+    def ended(self) -> str:
+        """How the run ended, in words."""
+        return CUT if self.ending is None else str(self.ending)
+
+    def state(self, axis: Axis, index: int) -> State:
+        """Where the axis was commanded to be at tick `index`."""
+        return State(*self.motion[axis][:, index].tolist())
+
+
+def read_take(path: Path) -> Take:
+    """The take in a file; raises DocumentError when it cannot be read at all, or is not a take."""
+    messages = Messages(path)
+    times = array("d")
+    motion: dict[Axis, array[float]] = {}
+    measured: dict[Axis, array[float]] = {}
+    actions: list[tuple[float, Act]] = []
+    with understood(path):
+        for time, topic, data in messages:
+            if topic == "/motion":
+                content = json.loads(data)
+                motion = motion or {axis: array("d") for axis in messages.about.limits}
+                times.append(time)
+                for axis, row in motion.items():
+                    state = content[axis.value]
+                    row.extend((state["position"], state["velocity"], state["acceleration"]))
+            elif topic == "/measured":
+                for name, position in json.loads(data).items():
+                    measured.setdefault(Axis(name), array("d")).extend((time, position))
+            elif topic == "/actions":
+                content = json.loads(data)
+                actions.append((time, {"action": content["action"], **content}))
+    about = messages.about
+    motion = motion or {axis: array("d") for axis in about.limits}
+    return Take(
+        path,
+        about,
+        np.frombuffer(times),
+        {axis: np.frombuffer(row).reshape(-1, 3).T for axis, row in motion.items()},
+        {axis: np.frombuffer(row).reshape(-1, 2).T for axis, row in measured.items()},
+        actions,
+        messages.ending,
+        messages.remark,
+    )

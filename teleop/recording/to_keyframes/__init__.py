@@ -1,0 +1,1 @@
+"""A take as sparse, editable keyframes within a tolerance."""

@@ -1,0 +1,172 @@
+"""Few keys for one axis between two rests, so that the planner's own way through them stays by a recording.
+
+Keys are put where people would put them, where the axis turns back, and then where the plan is furthest off, until it
+is nowhere off by more than is allowed. Every trial is a plan as `play` will make it: with the limits, nothing else
+could tell what lies between two keys. Where a key on the recording itself would ask for too much (a recording may use
+all of a limit, a plan keeps headroom) it may lie a little beside it, towards what the planner would rather do.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect, bisect_left
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from teleop.core.axes import Axis, Limits
+from teleop.planner.keyframes.planner import Key, attempt
+from teleop.planner.polynomial import Array
+from teleop.recording.to_keyframes.reference import GRID
+
+NEAREST = 3  # places between two keys
+MARGIN = 0.98  # of what is allowed: what a leg is off by itself and as a part of the whole may differ a little
+ASIDE = (0.0, 0.5, 0.85)  # of what is allowed: how far beside the recording a key may lie
+PRUNED = 40  # keys of a leg of which each is tried without: every trial plans all of the leg
+SHARED = 0.2  # of the way to the next key: a key that another axis has that near is as good a place
+
+Keys = Mapping[int, float]  # place of the grid -> units
+
+
+@dataclass(frozen=True)
+class Style:
+    """How one axis is fitted: off by `allowed` units at most, keys with so many digits behind the point."""
+
+    axis: Axis
+    limits: Limits
+    allowed: float
+    digits: int
+    tension: float
+
+
+@dataclass(frozen=True, eq=False)
+class Leg:
+    """One axis from rest to rest: `positions` (n,) from place `begin` on."""
+
+    begin: int
+    positions: Array
+    style: Style
+
+    @property
+    def allowed(self) -> float:
+        return self.style.allowed
+
+    def position(self, place: int, aside: float = 0.0) -> float:
+        """What a key says there, in as many digits as an editor wants to see."""
+        wanted = round(float(self.positions[place - self.begin]) + aside, self.style.digits)
+        return min(max(wanted, self.style.limits.minimum), self.style.limits.maximum)
+
+    def off(self, keys: Keys) -> Array | None:
+        """How far the plan through these keys is off, at every place (units); None where there is no plan."""
+        planned = attempt(
+            {self.style.axis: [Key((place - self.begin) / GRID, position) for place, position in sorted(keys.items())]},
+            {self.style.axis: self.style.limits},
+            self.style.tension,
+        )
+        if planned is None:
+            return None
+        return planned.tracks[self.style.axis].sample(np.arange(len(self.positions)) / GRID)[0] - self.positions
+
+    def fits(self, off: Array) -> bool:
+        return bool(np.abs(off).max() <= MARGIN * self.allowed)
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """The keys of a leg, its ends included, and how far (n,) their plan is off; None where they have no plan."""
+
+    keys: Keys
+    off: Array | None
+
+
+def fit(leg: Leg, corners: Sequence[int], others: Sequence[int]) -> Fit:
+    """As few keys as are found; too few, where no more of them bring the plan any nearer.
+
+    `corners` are places worth a key where there is no turn.
+
+    `others` are the places, rising, at which other axes have keys: one of them is as good as a place nearby.
+    """
+    last = leg.begin + len(leg.positions) - 1
+    turns = [leg.begin + turn for turn in turning_points(leg.positions, leg.allowed)]
+    ends: Keys = {place: leg.position(place) for place in (leg.begin, *turns, last)}
+    apart = [corner for corner in corners if all(abs(corner - end) >= NEAREST for end in ends)]
+    keys = {**ends, **{place: leg.position(place) for place in apart}}
+    off = leg.off(keys)
+    if off is None:
+        keys, off = ends, leg.off(ends)
+    while off is not None and not leg.fits(off):
+        more = {place: leg.position(place) for place in _worst(leg, keys, off, others)}
+        trial = {**keys, **more}
+        better = leg.off(trial) if more else None
+        if better is None:
+            trial, better = _one_by_one(leg, keys, off, list(more))
+        if len(trial) == len(keys):
+            return Fit(keys, off)
+        keys, off = trial, better
+    return Fit(keys, off) if off is None else _pruned(leg, keys, off)
+
+
+def turning_points(positions: Array, least: float) -> Iterator[int]:
+    """Where it turns back by more than `least` units, as indices: the extremes, with hysteresis."""
+    values = positions.tolist()
+    low = high = way = 0  # where it was lowest and highest since it last turned, and which way it has gone since
+    for index, value in enumerate(values):
+        low, high = (index if value < values[low] else low), (index if value > values[high] else high)
+        if way >= 0 and value < values[high] - least:
+            if way > 0:
+                yield high
+            way, low = -1, index
+        elif way <= 0 and value > values[low] + least:
+            if way < 0:
+                yield low
+            way, high = 1, index
+
+
+def _worst(leg: Leg, keys: Keys, off: Array, others: Sequence[int]) -> Iterator[int]:
+    """Between each two keys where the plan is off by too much, the place where it is furthest off."""
+    for first, second in pairwise(sorted(keys)):
+        between = np.abs(off[first - leg.begin : second - leg.begin + 1])
+        if between.max() <= MARGIN * leg.allowed or second - first < 2 * NEAREST:
+            continue
+        worst = min(max(first + int(between.argmax()), first + NEAREST), second - NEAREST)
+        reach = round(SHARED * (second - first))
+        low, high = max(first + NEAREST, worst - reach), min(second - NEAREST, worst + reach)
+        shared = others[bisect_left(others, low) : bisect(others, high)]
+        yield min(shared, key=lambda place, worst=worst: abs(place - worst), default=worst)
+
+
+def _one_by_one(leg: Leg, keys: Keys, off: Array, places: list[int]) -> tuple[Keys, Array]:
+    """As many of the new keys as have a plan and bring it nearer, each where and as it can be."""
+    for place in places:
+        known = sorted(keys)
+        index = bisect(known, place)
+        first, second = known[index - 1], known[index]
+        here = slice(first - leg.begin, second - leg.begin + 1)
+        for other in (place, (place + first) // 2, (place + second) // 2):
+            if other - first < NEAREST or second - other < NEAREST:
+                continue
+            pull = float(np.clip(off[other - leg.begin], -leg.allowed, leg.allowed))
+            trials = ({**keys, other: leg.position(other, aside * pull)} for aside in ASIDE)
+            found = ((trial, leg.off(trial)) for trial in trials)
+            nearer = next(
+                ((trial, new) for trial, new in found if new is not None and _peak(new[here]) < _peak(off[here])), None
+            )
+            if nearer is not None:
+                keys, off = nearer
+                break
+    return keys, off
+
+
+def _peak(off: Array) -> float:
+    return float(np.abs(off).max())
+
+
+def _pruned(leg: Leg, keys: Keys, off: Array) -> Fit:
+    """Without the keys that it can do without."""
+    for place in sorted(keys)[1:-1] if len(keys) <= PRUNED else []:
+        fewer = {other: position for other, position in keys.items() if other != place}
+        without = leg.off(fewer)
+        if without is not None and leg.fits(without):
+            keys, off = fewer, without
+    return Fit(keys, off)

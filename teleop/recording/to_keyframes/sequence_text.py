@@ -1,0 +1,61 @@
+"""A sequence file as people write it: one keyframe a line, times in seconds, no more digits than mean something."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from teleop.core.axes import Axis
+from teleop.core.events import Action
+from teleop.recording.to_keyframes.merge_keys import MergedKey
+from teleop.recording.to_keyframes.reference import GRID
+
+
+@dataclass(frozen=True)
+class SequenceText:
+    """What is to stand in the file; cues are (s, action), `digits` those of positions behind the point."""
+
+    title: str
+    tension: float
+    frames: Sequence[MergedKey]
+    cues: Sequence[tuple[float, Action]]
+    digits: Mapping[Axis, int]
+
+
+def sequence_text(sheet: SequenceText) -> str:
+    """The YAML of a sequence, as `load_performance` reads it."""
+    return "\n".join(_lines(sheet)) + "\n"
+
+
+def _lines(sheet: SequenceText) -> Iterator[str]:
+    yield f"title: {json.dumps(sheet.title, ensure_ascii=False)}"
+    if sheet.tension:
+        yield f"tension: {sheet.tension:g}"
+    yield "keyframes:"
+    for frame in sheet.frames:
+        yield f"  - {{{', '.join(_frame(frame, sheet.digits))}}}"
+    if sheet.cues:
+        yield "cues:"
+    for time, action in sheet.cues:
+        yield f"  - {{at: {time:.2f}, camera: {action.value}}}"
+
+
+def _frame(frame: MergedKey, digits: Mapping[Axis, int]) -> Iterator[str]:
+    yield f"at: {_seconds(frame.place)}"
+    for axis in Axis:
+        if axis in frame.positions:
+            yield f"{axis.value}: {_plain(round(frame.positions[axis], digits[axis]))}"
+    if frame.hold:
+        yield f"hold: {_seconds(frame.hold)}s"
+    elif frame.stop:
+        yield "pass: stop"
+
+
+def _seconds(places: int) -> str:
+    return _plain(places / GRID)
+
+
+def _plain(value: float) -> str:
+    """Without an exponent, and without a minus before nothing."""
+    return f"{value + 0.0:.6f}".rstrip("0").rstrip(".")

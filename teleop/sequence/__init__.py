@@ -1,0 +1,1 @@
+"""A sequence file: read, checked, compiled to a move, and played."""

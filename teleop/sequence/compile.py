@@ -1,0 +1,124 @@
+"""A sequence file: keyframes in YAML to a checked performance, or every reason why not.
+
+Two checks, both before a port opens. The file alone: shapes, times in order, nothing unknown. The file on a rig: the
+axes are there, the keys lie inside the soft limits, and the planner finds a way; what it cannot plan is said at the
+keyframe where it goes wrong. The rules read the plain data, so that all errors of a file come at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from teleop.config.document import ENTRIES, DocumentError, UnplayableError, path_text
+from teleop.config.quantities import seconds
+from teleop.config.resources import find
+from teleop.core.axes import Axis, Limits
+from teleop.planner.keyframes.findings import Infeasible
+from teleop.planner.keyframes.planner import Key, plan, stretch
+from teleop.planner.keyframes.rests import SAME, Rest, rests
+from teleop.planner.trajectory import Move
+from teleop.sequence.cues import Cue, Wait
+from teleop.sequence.keys import Keys
+from teleop.sequence.model import PREROLL, SequenceModel
+from teleop.sequence.reader import SequenceReader
+from teleop.sequence.rules import STICKS
+from teleop.sequence.timeline import Timed
+
+
+@dataclass(frozen=True)
+class CompiledSequence:
+    """A sequence compiled for a rig: everything that will happen, checked. `warnings` are lines for the user.
+
+    `preroll` is how long to rest on the first keyframe before the start, in s; `back_to_one`: whether to go back to
+    it after the end. `fps` is what the file counts frames by, if it does.
+    """
+
+    title: str
+    move: Move
+    cues: Sequence[Cue]
+    warnings: Sequence[str]
+    keys: Mapping[Axis, Sequence[Key]]
+    preroll: float = PREROLL
+    back_to_one: bool = False
+    fps: float | None = None
+
+    @property
+    def key_times(self) -> Sequence[float]:
+        """When each key of the file begins (s), key 1 first; where it has none of its own, the times of all keys."""
+        keys = [key for of_axis in self.keys.values() for key in of_axis]
+        own: dict[int, float] = {}
+        for key in keys:
+            kind, _, number = key.where.partition(" ")
+            if kind == ENTRIES["keyframes"]:
+                own[int(number)] = min(key.at, own.get(int(number), math.inf))
+        return [own[number] for number in sorted(own)] or sorted({key.at for key in keys})
+
+    @property
+    def duration(self) -> float:
+        """Seconds from zero to the last keyframe or cue."""
+        return max([self.move.duration, *(cue.at for cue in self.cues)])
+
+
+def load_performance(
+    name: str, limits: Mapping[Axis, Limits], rig: str, devices: Collection[str] | None = None
+) -> CompiledSequence:
+    """The sequence called `name`, shipped or at a path, compiled for a rig with these limits.
+
+    `devices` are the kinds of device that the rig has, None where that is not known. Raises DocumentError with a line
+    for everything wrong with it; UnplayableError when only the rig is in the way.
+    """
+    reader = SequenceReader(limits, rig, devices)
+    script = reader.read(*find(name, "sequences", "sequence"))
+    if script is None:
+        kind = UnplayableError if len(reader.problems) + reader.more == reader.beyond_rig else DocumentError
+        raise kind(reader.problems, reader.more)
+    sheet, document = script.sheet, script.document
+    if sheet.timelapse is not None:
+        raise DocumentError([document.problem(("timelapse",), "has keyframes in frames: it is shot, not played")])
+    try:
+        keys, move, factor = _planned(script.keys, sheet, {axis: limits[axis] for axis in script.keys})
+    except Infeasible as error:
+        raise UnplayableError([script.places[found.last].line(str(found)) for found in error.findings]) from None
+    cues = [timed._replace(cue=timed.cue._replace(at=factor * timed.cue.at)) for timed in script.cues]
+    if problems := list(_restless(cues, move)):
+        raise DocumentError(problems)
+    remarks = [*move.overshoots, *move.long_ramps]
+    warnings = [*script.remarks, *(script.places[remark.last].line(str(remark)) for remark in remarks)]
+    if factor > 1:
+        warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
+        if sticks := [axis for axis in move.tracks if axis in STICKS]:
+            warnings.append(document.problem(("fit",), f"does so to {', '.join(sticks)} too: the drone flies further"))
+    title, preroll = sheet.called(document.name), seconds(sheet.preroll, sheet.fps)
+    done = [timed.cue for timed in cues]
+    return CompiledSequence(title, move, done, warnings, keys, preroll, sheet.back_to_one, sheet.fps)
+
+
+def _planned(keys: Keys, sheet: SequenceModel, limits: Mapping[Axis, Limits]) -> tuple[Keys, Move, float]:
+    """The keys at the times they will have, the move through them, and how far it had to be stretched."""
+    if sheet.fit is None:
+        return keys, plan(keys, limits, sheet.tension), 1.0
+    move, factor = stretch(keys, limits, sheet.tension)
+    return {axis: [key.later(factor) for key in of_axis] for axis, of_axis in keys.items()}, move, factor
+
+
+def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
+    """A line for each cue that needs rest and has none, with what would be right."""
+    places = rests(move)
+    for (at, action), needs_rest, place in cues:
+        held = [axis for axis, state in move.at(at).items() if axis in STICKS and abs(state.position) > SAME]
+        if needs_rest and not any(rest.start - SAME <= at <= rest.end + SAME for rest in places):
+            yield place.line(f"{path_text(place.location)} {_elsewhere(move, places, at)}")
+        elif isinstance(action, Wait) and held:
+            text = f"would hold {' and '.join(held)} deflected, and the drone would fly on: let it be 0 by then"
+            yield place.line(f"{path_text(place.location)} {text}")
+
+
+def _elsewhere(move: Move, places: Sequence[Rest], at: float) -> str:
+    """Why a cue may not be there, and where the nearest place is."""
+    moving = [axis for axis, state in move.at(at).items() if abs(state.velocity) > SAME] or list(move.tracks)
+    nearest = min(places, key=lambda rest: max(rest.start - at, at - rest.end))
+    where = nearest.start if nearest.start > at else nearest.end
+    what = f"{' and '.join(moving)} move{'' if len(moving) > 1 else 's'}"
+    return f"is at {at:g} s, where {what}; all rest at {where:g} s, and would here with pass: stop in a key of each"

@@ -1,0 +1,151 @@
+"""What happens once at a time of a sequence, beside the motion: the camera, the gimbal's own commands, a wait.
+
+A command is looked up, and its ranges are checked, when the file is read. What the gimbal does by itself would be taken
+back by the stream that moves it, so that is refused with what does it instead: a recentre is planned like any other
+way to a key. What changes how the gimbal behaves is given only where every axis rests, as in `teleop live`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, Literal, NamedTuple
+
+from pydantic import ConfigDict
+
+from teleop.config.base_model import Section
+from teleop.config.document import Location, Wrong, mapping
+from teleop.config.json_types import Time
+from teleop.core.axes import Axis
+from teleop.core.events import Action, DeviceCommand, TickEvent
+from teleop.dji.gimbal import camera, focus
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.command_table import find, is_taken_back
+from teleop.dji.message import FieldError, Message
+
+KINDS = ("camera", "follow", "recenter", "send", "wait")
+FOLLOW: Mapping[str, str] = {
+    "lock": "gimbal follow lock",
+    "pan": "gimbal follow yaw",
+    "yaw": "gimbal follow yaw",  # the gimbal's own word for it, and that of `teleop send`
+    "sport": "gimbal follow sport",
+}
+CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)
+"""What a recentre takes to 0, and what moves when the gimbal does something by itself."""
+
+_BY_ITSELF = (gimbal.Calibrate, gimbal.ActiveTrack, gimbal.Orient)
+_CAMERA = {
+    camera.CameraCommand.RECORD: Action.RECORD,
+    camera.CameraCommand.STOP: Action.STOP,
+    camera.CameraCommand.SHUTTER: Action.SHUTTER,
+    camera.CameraCommand.CENTER_FOCUS: Action.FOCUS,
+    camera.CameraCommand.END_CENTER_FOCUS: Action.END_FOCUS,
+}
+
+
+class CueSection(Section):
+    """Something done once: one of these.
+
+    `at`: when, from the start. `camera`: what the camera is told; a focus on the centre holds until end_focus.
+    `follow`: what the gimbal does when its handle is turned. `recenter`: pan, tilt and roll go to 0 within this time.
+    `send`: a command in the words of teleop send. `wait`: everything holds until the operator says go.
+    """
+
+    model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [kind]} for kind in KINDS]})
+
+    at: Time
+    camera: Literal["record", "stop", "shutter", "focus", "end_focus"] | None = None
+    follow: Literal["lock", "pan", "yaw", "sport"] | None = None
+    recenter: Time = None
+    send: str | None = None
+    wait: Literal["operator"] | None = None
+
+    @property
+    def kind(self) -> str:
+        """Which of KINDS it is."""
+        return next(kind for kind in KINDS if getattr(self, kind) is not None)
+
+    @property
+    def act(self) -> TickEvent | Wait | None:
+        """What is done; None where that is motion."""
+        if self.camera:
+            return Action(self.camera)
+        if self.follow or self.send:
+            return DeviceCommand(FOLLOW[self.follow] if self.follow else " ".join((self.send or "").split()))
+        return Wait() if self.wait else None
+
+    @property
+    def needs_rest(self) -> bool:
+        """Whether it may be only where every axis rests; what the camera is told may be anywhere."""
+        return bool(self.follow or self.wait) or (
+            self.send is not None and not find(self.send.split()).name.startswith("camera.")
+        )
+
+
+class Wait(NamedTuple):
+    """The move holds until the operator says go."""
+
+
+class Cue(NamedTuple):
+    """An action `at` so many seconds after the first keyframe's zero."""
+
+    at: float
+    action: TickEvent | Wait
+
+    @property
+    def name(self) -> str:
+        """For people, in a word or a few."""
+        match self.action:
+            case DeviceCommand(words):
+                return words
+            case Wait():
+                return "wait"
+            case _:
+                return str(getattr(self.action, "value", self.action))
+
+
+def cue_rules(cue: Any, here: Location) -> Iterator[Wrong]:
+    """What is wrong with one cue, whatever moves beside it, but for its times."""
+    given = [kind for kind in KINDS if mapping(cue).get(kind) is not None]
+    if isinstance(cue, dict) and len(given) != 1 and cue.keys() <= {"at", *KINDS}:
+        yield here, f"must have one of {', '.join(KINDS)}{', not ' + ' and '.join(given) if given else ''}"
+    words = mapping(cue).get("send")
+    if isinstance(words, str) and (wrong := _unsendable(words)):
+        yield (*here, "send"), wrong
+
+
+def moved_rules(cue: Any, here: Location, moved: Collection[str]) -> Iterator[Wrong]:
+    """What is wrong with one cue, which has passed `cue_rules`, in a sequence that moves the axes `moved`."""
+    turns = any(axis in moved for axis in CENTRED)
+    if mapping(cue).get("recenter") is not None and not turns:
+        yield (*here, "recenter"), "moves pan, tilt and roll, and no keyframe has one of them"
+    words = mapping(cue).get("send")
+    message = find(words.split()) if words else None
+    if isinstance(message, _BY_ITSELF) and turns:
+        yield (*here, "send"), "would have the gimbal move by itself, against the keyframes"
+    if isinstance(message, focus.Calibrate) and Axis.FOCUS in moved:
+        yield (*here, "send"), "would have the focus motor move by itself, against the keyframes"
+
+
+def _unsendable(words: str) -> str:
+    try:
+        message = find(words.split())
+        message.check()
+    except FieldError as error:
+        return f"cannot be sent: {error}"
+    if isinstance(message, camera.Command | camera.ShortCommand) and message.command in _CAMERA:
+        return f"must be written as camera: {_CAMERA[camera.CameraCommand(message.command)].value}"
+    if is_taken_back(message):
+        return f"would be taken back by what is streamed: {_instead(message)}"
+    return ""
+
+
+def _instead(message: Message) -> str:
+    match message:
+        case gimbal.Mode(action=gimbal.CentreAction.RECENTER):
+            return "write recenter: 3s"
+        case gimbal.Dial():
+            return "a dial is for teleop live"
+        case focus.Set():
+            return "write focus: into a keyframe"
+        case _:
+            return "write pan:, tilt: and roll: into a keyframe"

@@ -1,0 +1,145 @@
+"""What must hold between the values of a sequence file: rules over its plain data, so that all errors come at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Iterator, Mapping
+from functools import partial
+from typing import Any
+
+from teleop.config.document import Location, Wrong, mapping, number, numbered, sequence
+from teleop.config.quantities import frame_rate, frames, percentage, seconds
+from teleop.core.axes import Axis, Limits
+from teleop.sequence.cues import cue_rules
+from teleop.sequence.easing import ease_rules
+from teleop.sequence.panorama import panorama_limits, panorama_rules
+from teleop.sequence.timelapse_section import is_timelapse, timelapse_rules
+
+AXES = tuple(axis.value for axis in Axis)
+When = Callable[[Any], float]  # a time as written -> seconds, or output frames
+STICKS = tuple(axis for axis in Axis if axis.value.startswith("stick_"))
+SLOWEST, FASTEST = 0.01, 10.0  # of an included move
+DEVICES = {"camera": "camera", "follow": "gimbal", "send": "gimbal"}  # what performs a cue
+
+
+def file_rules(data: Any) -> Iterator[Wrong]:
+    """Times that are times and in order, keyframes that say something."""
+    fps = frame_rate(mapping(data).get("fps"))
+    when = frames if is_timelapse(data) else partial(seconds, fps=fps)
+    yield from _keyframe_rules(data, when)
+    yield from _stick_rules(data)
+    if isinstance(data, dict) and not data.keys() & {"keyframes", "include", "panorama"}:
+        yield ("keyframes",), "is missing"
+    if is_timelapse(data):
+        yield from ease_rules(data, 1.0)  # a ramp of 24f takes 24 frames
+        yield from timelapse_rules(data)
+        return
+    yield from ease_rules(data, fps)
+    if wrong := _time(mapping(data), "preroll", when)[1]:
+        yield ("preroll",), wrong
+    yield from panorama_rules(data, fps)
+    for index, cue in enumerate(sequence(data, "cues")):
+        yield from cue_rules(cue, ("cues", index))
+        if wrong := _time(mapping(cue), "at", when)[1]:
+            yield ("cues", index, "at"), wrong
+        if mapping(cue).get("recenter") is not None and (wrong := _time(mapping(cue), "recenter", when)[1]):
+            yield ("cues", index, "recenter"), wrong
+    for index, entry in enumerate(sequence(data, "include")):
+        yield from _include_rules(mapping(entry), ("include", index), when)
+
+
+def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
+    before: tuple[int, float] | None = None
+    free: dict[str, tuple[int, float]] = {}  # axis -> the keyframe that holds it, and until when
+    for index, frame in enumerate(sequence(data, "keyframes")):
+        frame = mapping(frame)
+        if all(frame.get(axis) is None for axis in AXES):
+            yield ("keyframes", index), f"names no axis ({', '.join(AXES[:4])})"
+        at, wrong = _time(frame, "at", when)
+        hold, wrong_hold = _time(frame, "hold", when)
+        for key, text in (("at", wrong), ("hold", wrong_hold)):
+            if text:
+                yield ("keyframes", index, key), text
+        if at is None:
+            continue
+        if before and at <= before[1]:
+            yield (
+                ("keyframes", index, "at"),
+                f"must be after {numbered('keyframes', before[0])} ({_said(before[1], when)})",
+            )
+        else:
+            yield from _hold_rules(index, frame, at, free, when)
+        before = (index, at)
+        free.update({axis: (index, at + (hold or 0)) for axis in AXES if frame.get(axis) is not None})
+
+
+def _include_rules(entry: Mapping[str, Any], here: Location, when: When) -> Iterator[Wrong]:
+    if wrong := _time(entry, "at", when)[1]:
+        yield (*here, "at"), wrong
+    try:
+        if "speed" in entry and not SLOWEST <= percentage(entry["speed"]) <= FASTEST:
+            yield (*here, "speed"), f"must be {SLOWEST:.0%} to {FASTEST:.0%}"
+    except ValueError as error:
+        yield (*here, "speed"), str(error)
+
+
+def _stick_rules(data: Any) -> Iterator[Wrong]:
+    """A drone is left with its sticks in the middle, and taken over so."""
+    for stick in STICKS:
+        named = [
+            (index, number(mapping(frame)[stick]))
+            for index, frame in enumerate(sequence(data, "keyframes"))
+            if mapping(frame).get(stick) is not None
+        ]
+        for which, (index, position) in (("first", named[0]), ("last", named[-1])) if named else ():
+            if position:
+                yield ("keyframes", index, stick), f"must be 0 in its {which} key, where the drone is to hover"
+
+
+def _hold_rules(
+    index: int, frame: Mapping[str, Any], at: float, free: Mapping[str, tuple[int, float]], when: When
+) -> Iterator[Wrong]:
+    for axis, (holder, end) in free.items():
+        if frame.get(axis) is not None and at < end:
+            yield (
+                ("keyframes", index, "at"),
+                f"must be after {numbered('keyframes', holder)} has held {axis} (until {_said(end, when)})",
+            )
+
+
+def _said(time: float, when: When) -> str:
+    return f"frame {time:g}" if when is frames else f"{time:g} s"
+
+
+def _time(section: Mapping[str, Any], key: str, when: When) -> tuple[float | None, str]:
+    """The time at a key in seconds or frames, or what is wrong with it; a missing one is pydantic's to report."""
+    if key not in section:
+        return None, ""
+    try:
+        return when(section[key]), ""
+    except ValueError as error:
+        return None, str(error)
+
+
+def rig_rules(
+    data: Any, limits: Mapping[Axis, Limits], rig: str, devices: Collection[str] | None = None
+) -> Iterator[Wrong]:
+    """Every key is on an axis of the rig and inside its soft limits, and for every cue there is a device."""
+    for index, cue in enumerate(sequence(data, "cues")):
+        for kind, device in DEVICES.items():
+            if devices is not None and kind in mapping(cue) and device not in devices:
+                yield ("cues", index, kind), f"cannot be: {rig} has no {device}; its sinks are {', '.join(devices)}"
+    by_name = {axis.value: axis_limits for axis, axis_limits in limits.items()}
+    yield from panorama_limits(data, by_name, rig)
+    if devices is not None and "camera" not in devices and mapping(data, "panorama"):
+        yield ("panorama",), f"cannot be: {rig} has no camera; its sinks are {', '.join(devices)}"
+    for index, frame in enumerate(sequence(data, "keyframes")):
+        for axis in AXES:
+            position = number(mapping(frame).get(axis))
+            if position is None or not math.isfinite(position):
+                continue
+            if axis not in by_name:
+                yield ("keyframes", index, axis), f"cannot be: {rig} has no {axis}; it has {', '.join(by_name)}"
+            elif not by_name[axis].minimum <= position <= by_name[axis].maximum:
+                low, high = by_name[axis].minimum, by_name[axis].maximum
+                yield ("keyframes", index, axis), f"must be within {low:g}..{high:g} ({rig}), not {position:g}"

@@ -1,0 +1,151 @@
+"""The `timelapse:` section of a sequence file, and what must hold in a file that has one.
+
+In such a file the keyframes' times are output frames, from the first frame of the move on, because a timelapse is made
+for its clip: how long the shoot takes follows from `interval`. Durations inside the section are real seconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from teleop.config.base_model import Section
+from teleop.config.document import Location, Wrong, mapping, number, sequence
+from teleop.config.json_types import Interval, Settle, Time
+from teleop.config.messages import shown
+from teleop.config.quantities import frame_rate, frames, seconds
+
+MOST = 100_000  # frames: more than an hour of clip
+UNUSED = {
+    "cues": "the shutter is its only cue",
+    "include": "an included move's times are seconds, not frames",
+    "panorama": "that has frames of its own",
+    "repeat": "its frames are counted once",
+    "preroll": "delay is what it waits for",
+    "back_to_one": "it stays where its last frame was shot",
+    "fit": "a longer interval is what gives it more time",
+}
+Count = Annotated[int, Field(ge=0, le=MOST)]
+
+
+class RampSection(Section):
+    """From frame to frame the interval grows, or shrinks, by the same amount."""
+
+    from_: Any = Field(alias="from")
+    to: Any
+
+
+class SettleSection(Section):
+    """The gimbal counts as still when it is measured to turn slower than `below` (deg/s), or after `at_most`."""
+
+    below: Annotated[float, Field(gt=0, le=100)]
+    at_most: Any
+
+
+class TimelapseSection(Section):
+    """`frames` are those of the move; `lead_in` and `lead_out` are still frames before and after it.
+
+    `interval` is from one shutter to the next. `exposure` is how long the camera is really exposing, `post` how long it
+    must be left in peace after that. `camera_fault` is what a camera that refuses or does not answer is. `mode` says
+    whether it stands still for each frame. `prefocus` is how long the focus gets before the shutter, `settle` how long
+    the gimbal gets to be still. `delay` is waited before the first frame.
+    """
+
+    frames: Annotated[int, Field(ge=1, le=MOST)]
+    interval: Interval
+    mode: Literal["shoot-move-shoot", "continuous"] = "shoot-move-shoot"
+    exposure: Time
+    prefocus: Time = 0
+    post: Time = 0
+    settle: Settle = 0.3
+    lead_in: Count = 0
+    lead_out: Count = 0
+    delay: Time = 0
+    camera_fault: Literal["stop", "go-on"] = "stop"
+
+
+def is_timelapse(data: Any) -> bool:
+    """Whether a sequence file's keyframes are in output frames."""
+    return "timelapse" in mapping(data)
+
+
+def timelapse_rules(data: Any) -> Iterator[Wrong]:
+    """Durations that are durations, keyframes within the frames that there are, nothing that only a film has."""
+    for name, reason in UNUSED.items():
+        if name in mapping(data):
+            yield (name,), f"has no place beside timelapse: {reason}"
+    for where, ease in _eases(data):
+        if isinstance(ease, str) and ease.strip()[-1:] in ("s", "m", "h") and ease[:1].isdigit():
+            yield where, f"must be in output frames here (24f), or a share or a name, not {shown(ease)}"
+    section, fps = mapping(data, "timelapse"), frame_rate(mapping(data).get("fps"))
+    for name in ("exposure", "prefocus", "post", "delay"):
+        yield from _duration(section, fps, name)
+    interval = section.get("interval")
+    if isinstance(interval, Mapping):
+        yield from _mapping_rules(section, fps, "interval", {"from": True, "to": True})
+    else:
+        yield from _duration(section, fps, "interval", positive=True)
+    if isinstance(section.get("settle"), Mapping):
+        yield from _mapping_rules(section, fps, "settle", {"below": None, "at_most": False})
+    else:
+        yield from _duration(section, fps, "settle")
+    count = number(section.get("frames"))
+    for index, frame in enumerate(sequence(data, "keyframes")):
+        at = _frame(mapping(frame).get("at"))
+        if at is not None and count is not None and 1 <= count <= at:
+            last = f"{count - 1:g}, the last of {count:g} frames counted from 0"
+            yield ("keyframes", index, "at"), f"must be at most {last}, not {at:g}"
+
+
+def _eases(data: Any) -> Iterator[tuple[Location, Any]]:
+    """Each ease that is written in the file, and where."""
+    for path, section in [
+        ((), data),
+        *((("keyframes", i), each) for i, each in enumerate(sequence(data, "keyframes"))),
+    ]:
+        ease = mapping(section).get("ease")
+        ends = ease if isinstance(ease, Mapping) else {None: ease}
+        yield from (((*path, "ease", *([end] if end else [])), value) for end, value in ends.items())
+
+
+def _mapping_rules(
+    section: Mapping[str, Any], fps: float | None, name: str, known: Mapping[str, bool | None]
+) -> Iterator[Wrong]:
+    """A value that may also be a mapping: pydantic sees only that it may be anything.
+
+    `known` says of each key whether it is a duration that must be positive (True), a duration (False), neither (None).
+    """
+    value = section[name]
+    for key in value:
+        if key not in known:
+            yield ("timelapse", name, key), f"is not known here; there are {' and '.join(known)}"
+    for key, positive in known.items():
+        if key not in value:
+            yield ("timelapse", name, key), "is missing"
+        elif positive is not None:
+            yield from _duration(value, fps, key, (name,), positive=positive)
+        elif not 0 < (number(value[key]) or 0) <= 100:
+            yield ("timelapse", name, key), f"must be a rate above 0 deg/s, not {shown(value[key])}"
+
+
+def _duration(
+    section: Mapping[str, Any], fps: float | None, key: str, below: tuple[str, ...] = (), *, positive: bool = False
+) -> Iterator[Wrong]:
+    if key not in section:
+        return
+    try:
+        value = seconds(section[key], fps)
+    except ValueError as error:
+        yield ("timelapse", *below, key), str(error)
+        return
+    if positive and value == 0:
+        yield ("timelapse", *below, key), "must be more than 0 s"
+
+
+def _frame(value: Any) -> float | None:
+    try:
+        return frames(value)
+    except ValueError:
+        return None

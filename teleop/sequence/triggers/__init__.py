@@ -1,0 +1,1 @@
+"""What may start a move that waits at its start position."""

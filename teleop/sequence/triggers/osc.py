@@ -1,0 +1,101 @@
+"""A start by OSC: a UDP packet with the right address, from a show controller, a phone or a script.
+
+A thread of its own takes the packets, and what is no OSC is dropped there. It listens on this computer only, unless
+another address of its own is given: whoever can reach the port can start the rig.
+
+A packet counts only for the arming in force when it was taken from the socket. Arming empties the socket first, so that
+neither a packet that waits there nor one that the thread is still reading can start a move.
+"""
+
+from __future__ import annotations
+
+import select
+import socket
+from contextlib import ExitStack, suppress
+from threading import Lock, Thread
+
+from teleop.core.errors import DeviceError, UsageError
+
+LOOK = 0.2  # s between looks at whether it is over
+WAITING = 10_000  # packets that arming throws away at most: more than a socket holds
+LONGEST = 65536  # bytes of a packet
+
+
+class OscTrigger:
+    """Fires for a message to `address` whose first argument, if it has one, is not 0: a button that is let go sends 0.
+
+    Raises UsageError without python-osc.
+    """
+
+    again = True
+
+    def __init__(self, host: str, port: int, address: str) -> None:
+        try:
+            from pythonosc.osc_packet import OscPacket
+        except ImportError:
+            raise UsageError("--trigger osc: needs python-osc: pip install 'rs-teleop[osc]'") from None
+        self._parse = OscPacket
+        self._where, self._address = (host, port), address
+        self._listener: socket.socket | None = None
+        self._lock = Lock()  # over taking a packet, and over what it counts for
+        self._armed = 0  # how often it was; a packet counts for the arming that it was taken in
+        self._fired_in = 0  # the last arming in which a packet fired it
+        self._over = False
+        self.ignored = 0  # packets that were no OSC
+
+    def open(self, stack: ExitStack) -> None:
+        """Listen until the stack is left; raises DeviceError where that cannot be."""
+        listener = stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+        try:
+            listener.bind(self._where)
+        except OSError as error:
+            host, port = self._where
+            raise DeviceError(f"--trigger osc: cannot listen on {host}:{port}: {error.strerror or error}") from None
+        listener.setblocking(False)
+        self._listener = listener
+        thread = Thread(target=self._listen, args=(listener,), name="osc", daemon=True)
+        thread.start()
+        stack.callback(thread.join)
+        stack.callback(setattr, self, "_over", True)
+
+    def arm(self, now: float) -> None:  # noqa: ARG002 - the order of arrival decides, not a time
+        with self._lock:
+            self._armed += 1
+            for _ in range(WAITING if self._listener else 0):
+                if _taken(self._listener) is None:
+                    return
+
+    def fired(self, now: float) -> bool:  # noqa: ARG002
+        return 0 < self._armed == self._fired_in
+
+    def said(self, now: float) -> str:  # noqa: ARG002
+        host, port = self._where
+        return f"OSC {self._address} on {host}:{port}"
+
+    def _listen(self, listener: socket.socket) -> None:
+        while not self._over:
+            select.select([listener], [], [], LOOK)
+            with self._lock:
+                data, armed = _taken(listener), self._armed
+            if data is not None:
+                self._hear(data, armed)
+
+    def _hear(self, data: bytes, armed: int = 0) -> None:
+        """A packet that was taken while it had been armed so many times."""
+        try:
+            messages = [timed.message for timed in self._parse(data).messages]
+            if any(self._is_go(message.address, message.params) for message in messages):
+                self._fired_in = armed
+        except Exception:  # noqa: BLE001 - whatever a stranger's packet does to a parser, it is a packet to ignore
+            self.ignored += 1
+
+    def _is_go(self, address: str, arguments: list[object]) -> bool:
+        return address == self._address and (not arguments or bool(arguments[0]))
+
+
+def _taken(listener: socket.socket | None) -> bytes | None:
+    """The next packet, None where none waits."""
+    if listener is not None:
+        with suppress(OSError):  # none waits, or an answer to nobody's packet, as some systems report it
+            return listener.recv(LONGEST)
+    return None

@@ -1,0 +1,1 @@
+"""A simulated gimbal with its focus motor and camera."""

@@ -1,1 +1,0 @@
-"""Takes: what a run did, read back, judged, repeated, and made into keyframes. Nothing here opens a port."""

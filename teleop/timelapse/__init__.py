@@ -1,0 +1,1 @@
+"""A sequence that is shot frame by frame: its schedule, its budget, its journal and its source."""

@@ -1,0 +1,141 @@
+"""Whether an interval can hold what a frame takes: prefocus, exposure, post-exposure, the move to the next, settling.
+
+Asked of every frame with the limits of the rig, because one long step in an hour of short ones is what ruins a night.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Callable, Mapping
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from teleop.config.quantities import seconds
+from teleop.core.axes import Axis, Limits
+from teleop.planner.polynomial import Array, extremes
+from teleop.planner.rest_to_rest import shortest
+from teleop.planner.time_scaling import at_most
+from teleop.planner.trajectory import Move
+from teleop.sequence.timelapse_section import SettleSection, TimelapseSection
+from teleop.timelapse.schedule import Schedule
+
+STEP_SHARE = 0.95  # of velocity, acceleration and jerk for a step between two frames that has no time to lose
+TICKS = 0.02  # s: a step begins and ends on the loop's grid
+TIGHT = 0.1  # of an interval; with less to spare than this a warning is due
+ROUNDING = 1e-9  # s
+
+
+class Phases(NamedTuple):
+    """What one frame takes besides its move, in s. `below` is the rate (deg/s) at which it has settled before `settle`
+    is over, None where only time tells."""
+
+    prefocus: float
+    exposure: float
+    post: float
+    settle: float
+    below: float | None
+
+    @classmethod
+    def of(cls, section: TimelapseSection, fps: float | None) -> Phases:
+        prefocus, exposure, post = (seconds(value, fps) for value in (section.prefocus, section.exposure, section.post))
+        if isinstance(section.settle, Mapping):
+            settle = SettleSection.model_validate(section.settle)
+            return cls(prefocus, exposure, post, seconds(settle.at_most, fps), settle.below)
+        return cls(prefocus, exposure, post, seconds(section.settle, fps), None)
+
+    def said(self, **more: float) -> str:
+        """Those that take any time: `exposure 0.5 s + settle 0.3 s`."""
+        parts = {"prefocus": self.prefocus, "exposure": self.exposure, "post": self.post, **more}
+        return " + ".join(f"{name} {value:.3g} s" for name, value in parts.items() if value > 0) or "nothing"
+
+
+class FramePath(Protocol):
+    def positions(self, count: int) -> Mapping[Axis, Array]: ...
+
+    def on(self, slots: Schedule) -> Move: ...
+
+
+def budget(
+    phases: Phases, slots: Schedule, path: FramePath, limits: Mapping[Axis, Limits], continuous: bool
+) -> tuple[list[str], list[str]]:
+    """What the interval cannot hold, and what it can hardly hold; both are to stand after `interval`."""
+    if slots.frames < 2:
+        return [], []
+    if 2 * min(slots.first, slots.last) <= abs(slots.change):
+        return [f"changes by {abs(slots.change):.3g} s from frame to frame, too much for its shortest"], []
+    fixed = phases.prefocus + phases.exposure + phases.post
+    if continuous:
+        problems, warnings = _held(np.full(slots.frames - 1, fixed), slots, lambda _frame: phases.said())
+        fast, nearly = _speed(path.on(slots), slots, limits)
+        return problems + fast, warnings + nearly
+    moves = _moves(path, slots.frames, limits)
+    needs = fixed + phases.settle + moves
+    return _held(needs, slots, lambda frame: phases.said(move=moves[frame], settle=phases.settle))
+
+
+def _moves(path: FramePath, count: int, limits: Mapping[Axis, Limits]) -> Array:
+    """Seconds for each step between two frames (count - 1,), whole ticks and what they round."""
+    steps = {axis: np.abs(np.diff(positions)) for axis, positions in path.positions(count).items()}
+    times = [shortest(step, limits[axis].scaled(STEP_SHARE)) for axis, step in steps.items()]
+    longest = np.max(times, axis=0)
+    return np.where(longest > 0, longest + TICKS, 0.0)
+
+
+def _held(needs: Array, slots: Schedule, said: Callable[[int], str]) -> tuple[list[str], list[str]]:
+    """Of the interval after each frame (count - 1,) and what it `needs`."""
+    intervals = np.array([slots.interval(frame) for frame in range(slots.frames - 1)])
+    spare = intervals - needs
+    worst = int(spare.argmin())
+    takes = f"frame {worst} of {slots.frames} takes {said(worst)}"
+    if spare[worst] < -ROUNDING:
+        return [_too_short(intervals, needs, worst, takes, slots)], []
+    if spare[worst] < TIGHT * intervals[worst]:
+        return [], [f"is tight: {takes}, which leaves {spare[worst]:.2f} s of {intervals[worst]:.3g} s"]
+    return [], []
+
+
+def _too_short(intervals: Array, needs: Array, worst: int, takes: str, slots: Schedule) -> str:
+    least = math.ceil(needs[worst] * 100 - 1e-6) / 100
+    if not slots.change:
+        return f"must be at least {least:.2f} s, not {intervals[worst]:g} s: {takes}"
+    many = int(np.count_nonzero(intervals < needs - ROUNDING))
+    others = f" ({many} frames are too short)" if many > 1 else ""
+    return f"is {intervals[worst]:.2f} s where at least {least:.2f} s would do: {takes}{others}"
+
+
+def _speed(move: Move, slots: Schedule, limits: Mapping[Axis, Limits]) -> tuple[list[str], list[str]]:
+    """Of a move that goes on while frames are shot."""
+    rate = at_most(move, limits)
+    if rate >= 1 / (1 - TIGHT):
+        return [], []
+    time, axis, limit = _fastest(move, limits)
+    frame = _frame_at(time, slots)
+    if rate >= 1:
+        return [], [f"is tight: at frame {frame} {axis} is near its {limit} limit"]
+    least = math.ceil(slots.interval(frame) / rate * 100 - 1e-6) / 100
+    return [
+        f"must be at least {least:.2f} s, not {slots.interval(frame):.3g} s: frame {frame}: {axis} needs "
+        f"{1 / rate:.2f} x its {limit} limit"
+    ], []
+
+
+def _fastest(move: Move, limits: Mapping[Axis, Limits]) -> tuple[float, Axis, str]:
+    """Where a move asks most of its limits: the time in s, the axis and the limit."""
+    found: list[tuple[float, float, Axis, str]] = []
+    for axis, track in move.tracks.items():
+        if not len(track.coefficients):
+            continue
+        least, greatest = extremes(track.coefficients, np.diff(track.breaks))
+        for order, name in enumerate(("velocity", "acceleration", "jerk"), 1):
+            share = (np.maximum(-least[order], greatest[order]) / getattr(limits[axis], name)) ** (1 / order)
+            piece = int(share.argmax())
+            found.append((float(share[piece]), float(track.breaks[piece]), axis, name))
+    _, time, axis, name = max(found)
+    return time, axis, name
+
+
+def _frame_at(time: float, slots: Schedule) -> int:
+    """The last frame that is due by `time`."""
+    return max(0, bisect_right(range(slots.frames), time + ROUNDING, key=slots.at) - 1)

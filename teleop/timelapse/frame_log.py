@@ -1,0 +1,87 @@
+"""What is written down of the frames of a shoot, and what a camera that took no picture means for it.
+
+A frame that the camera refused is known not to be shot and is due again; one of which it said nothing is in doubt, and
+that run never presses it again. Whether either of them ends the shoot is the file's to say, up to a number in a row.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from teleop.core.errors import DeviceError, TeleopError
+from teleop.core.events import ShutterResult
+from teleop.timelapse.journal import Frame, Note
+from teleop.timelapse.progress import Progress
+
+PATIENCE = 10  # frames in a row without a picture, after which going on is pointless
+
+
+class FrameBook(Protocol):
+    """Where frames are written down; `teleop.timelapse.journal.Journal`, or a fake of it."""
+
+    trouble: str
+
+    def note(self, frame: int | None, state: Frame) -> Note: ...
+
+    def finish(self) -> Note: ...
+
+
+class FrameLog:
+    """The book of a shoot, kept together with its `progress`. `go_on` is whether a camera's failure is only counted."""
+
+    def __init__(self, book: FrameBook, progress: Progress, go_on: bool) -> None:
+        self._book, self._progress, self._go_on = book, progress, go_on
+        self._in_a_row = 0  # frames without a picture
+
+    def begin(self, frame: int) -> Note:
+        """Its shutter is due. Raises TeleopError as `check` does."""
+        self.check(frame)
+        return self._book.note(frame, Frame.BEGUN)
+
+    def unshot(self, frame: int) -> None:
+        """Begun, and its shutter was not pressed."""
+        self._book.note(frame, Frame.UNSHOT)
+
+    def lost(self, frame: int) -> None:
+        """Its place has been passed without a picture."""
+        self._progress.lost.append(frame)
+        self._book.note(frame, Frame.MISSED)
+
+    def heard(self, outcome: ShutterResult) -> None:
+        """What the camera said; a picture is written down at once."""
+        if outcome.code == 0:
+            self._book.note(outcome.frame, Frame.DONE)
+
+    def past(self, outcome: ShutterResult) -> bool:
+        """Whether the shoot is past that frame. Raises DeviceError where what the camera did is to end it."""
+        if outcome.code == 0:
+            self._progress.shot += 1
+            self._in_a_row = 0
+            return True
+        self._in_a_row += 1
+        if outcome.code is None:
+            said = f"the camera did not answer at frame {outcome.frame}: whether it was shot is in doubt"
+        else:
+            said = f"the camera refused to shoot frame {outcome.frame} (return code {outcome.code:#04x})"
+            self._progress.refused += 1
+            self.unshot(outcome.frame)
+        if not self._go_on or self._in_a_row >= PATIENCE:
+            raise DeviceError(said)
+        if outcome.code is None:
+            self._progress.doubtful.append(outcome.frame)
+            self._book.note(outcome.frame, Frame.DOUBTFUL)
+        return outcome.code is None
+
+    def check(self, frame: int) -> None:
+        """Raises TeleopError when nothing can be written down any more; `frame` is the one that waits for it."""
+        if self._book.trouble:
+            raise TeleopError(f"{self._book.trouble}; frame {frame} has not been shot")
+
+    def finish(self) -> Note:
+        """The last frame is behind."""
+        return self._book.finish()
+
+    def check_end(self) -> None:
+        """Raises TeleopError when the end could not be written down."""
+        if self._book.trouble:
+            raise TeleopError(f"{self._book.trouble}; the shoot is past its last frame all the same")

@@ -1,0 +1,242 @@
+"""What takes the camera from frame to frame of a timelapse: in steps between the shots, or gliding through them.
+
+Both keep the shoot's own time, in which frame N is due at a time that a formula gives: for steps it is the clock's,
+shifted; for a glide it is the move's, because there the place of a frame is a moment of the move. Both begin by coming
+from the side that the move comes from, so that play in the gears is taken up the same way after a pause or a power cut.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from typing import Protocol
+
+from teleop.core.axes import Axis, Limits, Motion, State
+from teleop.planner.polynomial import Array
+from teleop.planner.rest_to_rest import ease
+from teleop.planner.trajectory import Move
+from teleop.sequence.playback import Playback
+from teleop.timelapse.budget import STEP_SHARE
+from teleop.timelapse.compile import Timelapse
+
+GENTLE = 0.5  # of velocity, acceleration and jerk, where there is time
+BACKLASH = {Axis.FOCUS: 0.02}  # units, how far before its place an axis is approached from
+BACKLASH_ANGLE = 1.0  # deg
+FAR = 1000.0  # s: when any run-up is long over
+_GRID = 100  # Hz: what begins and ends on the loop's ticks
+_INSTANT = 1e-6  # s: times on the loop's grid that are closer are the same
+
+
+class Mover(Protocol):
+    """Times named `now` are the loop's clock, those named `time` the shoot's own, both in s."""
+
+    @property
+    def arrival(self) -> float:
+        """When the way that it is on is over."""
+        ...
+
+    @property
+    def run_up(self) -> float:
+        """How long it moves, once begun, before it is at the frame that it approached, in s."""
+        ...
+
+    def approach(self, now: float, motion: Motion, frame: int) -> None:
+        """Set out for where `frame` begins, from rest at `motion`."""
+        ...
+
+    def begin(self, slot: float, time: float) -> None:
+        """The shoot's own time is to be `time` at `slot`."""
+        ...
+
+    def at(self, now: float) -> Motion: ...
+
+    def step(self, now: float, frame: int, spare: float) -> bool:
+        """Set out for `frame`, in `spare` s if that can be; False for what needs no step."""
+        ...
+
+    def next_motion(self, now: float) -> float:
+        """`now` while it moves, later when it is about to, inf when it will not by itself."""
+        ...
+
+    def time(self, now: float) -> float: ...
+
+    def when(self, time: float, now: float) -> float: ...
+
+    def skip(self, seconds: float) -> bool:
+        """Wait so much longer for the present frame; False where its place has been passed."""
+        ...
+
+    def pause(self, now: float) -> None: ...
+
+    def resume(self, now: float, time: float, lead: float) -> None:
+        """Go on: `time` is that of the frame that is next, and is `lead` s away or more."""
+        ...
+
+
+class Way:
+    """Moves one after the other, each from rest to rest."""
+
+    def __init__(self, now: float, motion: Motion) -> None:
+        self._legs: list[tuple[float, Move]] = []
+        self._motion = motion
+        self.arrival = now
+
+    def on(self, target: Mapping[Axis, float], limits: Mapping[Axis, Limits], share: float, least: float = 0.0) -> None:
+        """To `target` when the way so far is over."""
+        move = ease(self._motion, target, limits, share, least)
+        self._legs.append((self.arrival, move))
+        self._motion = {axis: State(position) for axis, position in target.items()}
+        self.arrival += math.ceil(move.duration * _GRID - _INSTANT) / _GRID
+
+    def at(self, now: float) -> Motion:
+        for begin, move in self._legs:
+            if now < begin + move.duration:
+                return move.at(now - begin)
+        return self._motion
+
+
+class StepMover:
+    """Shoot-move-shoot: rests at each frame, and moves only between two shots."""
+
+    def __init__(self, timelapse: Timelapse) -> None:
+        self._limits, self._positions = timelapse.limits, timelapse.path.positions(timelapse.frames)
+        self._way = Way(0.0, {})
+        self._base = math.inf  # when the shoot's own time is 0
+        self.run_up = 0.0
+
+    @property
+    def arrival(self) -> float:
+        return self._way.arrival
+
+    def approach(self, now: float, motion: Motion, frame: int) -> None:
+        place = self._place(frame)
+        self._way = approach(now, motion, place, self._positions, frame, self._limits)
+
+    def begin(self, slot: float, time: float) -> None:
+        self._base = slot - time
+
+    def at(self, now: float) -> Motion:
+        return self._way.at(now)
+
+    def step(self, now: float, frame: int, spare: float) -> bool:
+        place = self._place(frame)
+        here = self._way.at(now)
+        if all(here[axis].position == position for axis, position in place.items()):
+            return False
+        self._way = Way(now, here)
+        gentle = ease(here, place, self._limits, GENTLE).duration
+        self._way.on(place, self._limits, STEP_SHARE, min(gentle, spare))
+        return True
+
+    def next_motion(self, now: float) -> float:
+        return now if now < self.arrival - _INSTANT else math.inf
+
+    def time(self, now: float) -> float:
+        return now - self._base
+
+    def when(self, time: float, now: float) -> float:  # noqa: ARG002 - it keeps the clock's pace
+        return self._base + time
+
+    def skip(self, seconds: float) -> bool:
+        self._base += seconds
+        return True
+
+    def pause(self, now: float) -> None: ...
+
+    def resume(self, now: float, time: float, lead: float) -> None:
+        self._base = max(self._base, now + lead - time)
+
+    def _place(self, frame: int) -> Mapping[Axis, float]:
+        return {axis: float(positions[frame]) for axis, positions in self._positions.items()}
+
+
+class GlideMover:
+    """Continuous: moves through the shots. A pause slows it down to rest along its path, and nothing is due meanwhile.
+
+    Changes of speed are searched for by `executor`, a thread unless given.
+    """
+
+    def __init__(self, timelapse: Timelapse, executor: Executor | None = None) -> None:
+        self._limits, self._slots, self._executor = timelapse.limits, timelapse.slots, executor
+        self._move = timelapse.path.on(timelapse.slots)
+        self._positions = timelapse.path.positions(timelapse.frames)
+        self._playback = Playback(self._move, self._limits, executor=executor)
+        self._way = Way(0.0, {})
+        self._begin = math.inf
+        self.run_up = 0.0
+
+    @property
+    def arrival(self) -> float:
+        return self._way.arrival
+
+    def approach(self, now: float, motion: Motion, frame: int) -> None:
+        time = self._slots.at(frame)
+        self._playback = Playback(self._move, self._limits, executor=self._executor, start_at=time)
+        self._playback.begin(0.0)
+        self.run_up = FAR - (self._playback.time(FAR) - time)
+        place = {axis: state.position for axis, state in self._move.at(self._playback.opening).items()}
+        self._way = approach(now, motion, place, self._positions, frame, self._limits)
+
+    def begin(self, slot: float, time: float) -> None:  # noqa: ARG002 - it was approached
+        self._begin = slot - self.run_up
+        self._playback.begin(self._begin)
+
+    def at(self, now: float) -> Motion:
+        return self._way.at(now) if now < self._begin - _INSTANT else self._playback.at(now)[1]
+
+    def step(self, now: float, frame: int, spare: float) -> bool:  # noqa: ARG002 - it is on its way
+        return False
+
+    def next_motion(self, now: float) -> float:
+        if now < self._begin - _INSTANT:
+            return now if now < self.arrival - _INSTANT else self._begin
+        if self._playback.changing(now):
+            return now
+        return self._playback.when(self._move.next_motion(self._playback.time(now)), now)
+
+    def time(self, now: float) -> float:
+        return self._playback.time(now) if now >= self._begin - _INSTANT else -math.inf
+
+    def when(self, time: float, now: float) -> float:
+        return self._playback.when(time, max(now, self._begin))
+
+    def skip(self, seconds: float) -> bool:  # noqa: ARG002 - the place of the frame is behind
+        return False
+
+    def pause(self, now: float) -> None:
+        if now < self._begin - _INSTANT:
+            self._begin = math.inf
+        else:
+            self._playback.pause(now)
+
+    def resume(self, now: float, time: float, lead: float) -> None:
+        if math.isinf(self._begin):
+            self.begin(now + lead + self.run_up, time)
+        else:
+            self._playback.resume(now)
+
+
+def approach(
+    now: float,
+    motion: Motion,
+    place: Mapping[Axis, float],
+    positions: Mapping[Axis, Array],
+    frame: int,
+    limits: Mapping[Axis, Limits],
+) -> Way:
+    """To `place`, in the end from the side from which the move comes to `frame`."""
+    before = {axis: _before(axis, position, positions[axis], frame, limits[axis]) for axis, position in place.items()}
+    way = Way(now, {axis: motion[axis] for axis in place})
+    if before != place:
+        way.on(before, limits, GENTLE)
+    way.on(place, limits, GENTLE)
+    return way
+
+
+def _before(axis: Axis, place: float, positions: Sequence[float] | Array, frame: int, limits: Limits) -> float:
+    """A little before `place`: by the way there, or, where it begins there, by the way on."""
+    way = next((place - there for there in positions[:frame][::-1] if there != place), 0.0)
+    way = way or next((there - place for there in positions[frame:] if there != place), 0.0)
+    back = math.copysign(BACKLASH.get(axis, BACKLASH_ANGLE), way) if way else 0.0
+    return min(max(place - back, limits.minimum), limits.maximum)

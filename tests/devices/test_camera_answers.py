@@ -1,0 +1,53 @@
+"""What the camera answers an operator, in a line: only what it has confirmed, and that a rig has no camera."""
+
+from __future__ import annotations
+
+import pytest
+from far_end import FarEnd
+
+from teleop.core.errors import DeviceError
+from teleop.core.events import Action, Tick
+from teleop.devices.camera import CameraSink
+from teleop.devices.camera_answers import CameraAnswers
+from teleop.dji.gimbal import camera
+from teleop.dji.message import Result
+
+
+def lines(far: FarEnd, *actions: Action) -> list[str]:
+    """What is said in half a second, the actions one after the other."""
+    said: list[str] = []
+    sink, answers = CameraSink(far.connection), CameraAnswers(far.connection, said.append)
+    for number in range(50):
+        tick = Tick(number / 100, {}, {}, actions[number // 10 : number // 10 + 1] if number % 10 == 0 else (), {})
+        answers.write(tick)
+        sink.write(tick)
+        far.serve(tick.time)
+    return said
+
+
+def test_what_was_done_is_said_once_it_is_confirmed() -> None:
+    far = FarEnd()
+    far.replies[camera.Command] = lambda _command: Result(0)
+    said = lines(far, Action.RECORD, Action.SHUTTER, Action.STOP)
+    assert said == ["camera: recording", "camera: shutter released", "camera: stopped"]
+
+
+def test_a_lost_answer_is_waited_for_and_a_refusal_is_never_called_done() -> None:
+    far = FarEnd()
+    answers = iter([None, Result(0)])
+    far.replies[camera.Command] = lambda _command: next(answers)
+    assert lines(far, Action.RECORD) == ["camera: recording"]
+    far = FarEnd()
+    far.replies[camera.Command] = lambda _command: Result(2)
+    said: list[str] = []
+    with pytest.raises(DeviceError, match="refused to record"):
+        said += lines(far, Action.RECORD)
+    assert said == []
+
+
+def test_a_rig_without_a_camera_says_so() -> None:
+    said: list[str] = []
+    answers = CameraAnswers(None, said.append)
+    answers.write(Tick(1.0, {}, {}, (Action.SHUTTER, Action.RECORD), {}))
+    assert said == ["shutter: this rig has no camera", "record: this rig has no camera"]
+    assert answers.release(2.0) is None

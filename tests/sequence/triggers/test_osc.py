@@ -1,0 +1,151 @@
+"""A start by OSC, over a real UDP port on this computer: the right message, and nothing else, however it looks."""
+
+import socket
+from contextlib import ExitStack, nullcontext
+from threading import Event
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pythonosc.osc_bundle_builder import IMMEDIATELY, OscBundleBuilder
+from pythonosc.osc_message_builder import OscMessageBuilder
+from waiting import wait_until
+
+from teleop.core.errors import DeviceError, UsageError
+from teleop.sequence.triggers.osc import OscTrigger
+
+
+def free_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def message(address: str, *arguments) -> bytes:
+    builder = OscMessageBuilder(address)
+    for argument in arguments:
+        builder.add_arg(argument)
+    return builder.build().dgram
+
+
+def bundle(address: str) -> bytes:
+    builder = OscBundleBuilder(IMMEDIATELY)
+    whole = OscMessageBuilder(address)
+    builder.add_content(whole.build())
+    return builder.build().dgram
+
+
+def send(port: int, data: bytes) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        sender.sendto(data, ("127.0.0.1", port))
+
+
+@pytest.mark.parametrize("data", [message("/go"), message("/go", 1), message("/go", 1.0, "x"), bundle("/go")])
+def test_its_message_fires_it(data):
+    port = free_port()
+    trigger = OscTrigger("127.0.0.1", port, "/go")
+    with ExitStack() as stack:
+        trigger.open(stack)
+        trigger.arm(0.0)
+        assert trigger.said(0.0) == f"OSC /go on 127.0.0.1:{port}"
+        assert not trigger.fired(0.0)
+        send(port, data)
+        wait_until(lambda: trigger.fired(0.0), "the trigger")
+        trigger.arm(1.0)
+        assert not trigger.fired(1.0)  # what came before does not count
+
+
+def test_other_messages_a_button_let_go_and_noise_do_not_and_it_goes_on_listening():
+    port = free_port()
+    trigger = OscTrigger("127.0.0.1", port, "/go")
+    with ExitStack() as stack:
+        trigger.open(stack)
+        trigger.arm(0.0)
+        for data in (
+            message("/gone"),
+            message("/go", 0),
+            message("/go", False),
+            b"",
+            b"/go",
+            b"#bundle\0\0\1",
+            b"x" * 9000,
+        ):
+            send(port, data)
+        wait_until(lambda: trigger.ignored >= 4, "noise ignored")
+        assert not trigger.fired(0.0)
+        send(port, message("/go"))
+        wait_until(lambda: trigger.fired(0.0), "the trigger")
+
+
+@given(st.binary(max_size=200))
+def test_no_packet_hurts(data):
+    trigger = OscTrigger("127.0.0.1", 1, "/go")
+    trigger._hear(data)
+    trigger._hear(b"#bundle\0" + data)
+    assert not trigger.fired(0.0) or b"/go" in data
+
+
+def test_a_port_that_is_taken_is_said():
+    port = free_port()
+    with ExitStack() as stack:
+        OscTrigger("127.0.0.1", port, "/go").open(stack)
+        with pytest.raises(DeviceError, match=f"cannot listen on 127.0.0.1:{port}: Address already in use"):
+            OscTrigger("127.0.0.1", port, "/go").open(stack)
+    with ExitStack() as stack:  # and is free again afterwards
+        OscTrigger("127.0.0.1", port, "/go").open(stack)
+
+
+def test_a_missing_extra_is_a_line_that_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "pythonosc.osc_packet", None)
+    with pytest.raises(UsageError, match=r"pip install 'rs-teleop\[osc\]'"):
+        OscTrigger("127.0.0.1", 9000, "/go")
+
+
+def test_a_packet_that_waits_in_the_socket_when_it_is_armed_does_not_count(monkeypatch):
+    """The thread is kept from taking it, as a busy computer does."""
+    port = free_port()
+    trigger = OscTrigger("127.0.0.1", port, "/go")
+    with ExitStack() as stack:
+        trigger.open(stack)
+        with trigger._lock:
+            for _ in range(5):
+                send(port, message("/go"))
+            monkeypatch.setattr(trigger, "_lock", nullcontext())  # `arm` takes it from here on
+            trigger.arm(0.0)
+        send(port, message("/gone"))
+        send(port, b"")  # no OSC: when it is ignored all before it has been read
+        wait_until(lambda: trigger.ignored, "the last packet")
+        assert not trigger.fired(0.0)
+        send(port, message("/go"))
+        wait_until(lambda: trigger.fired(0.0), "the trigger")
+
+
+def test_a_packet_that_is_still_being_read_when_it_is_armed_does_not_count(monkeypatch):
+    port = free_port()
+    trigger = OscTrigger("127.0.0.1", port, "/go")
+    reading, go_on, parse = Event(), Event(), trigger._parse
+
+    def slow(data):
+        reading.set()
+        assert go_on.wait(5)
+        return parse(data)
+
+    monkeypatch.setattr(trigger, "_parse", slow)
+    with ExitStack() as stack:
+        trigger.open(stack)
+        trigger.arm(0.0)
+        send(port, message("/go"))
+        assert reading.wait(5)
+        trigger.arm(1.0)  # for another pass, between taking the packet and understanding it
+        go_on.set()
+        send(port, b"")
+        wait_until(lambda: trigger.ignored, "the last packet")
+        assert not trigger.fired(1.0)
+
+
+def test_nothing_counts_before_it_is_armed_at_all():
+    trigger = OscTrigger("127.0.0.1", 1, "/go")
+    trigger._hear(message("/go"))
+    assert not trigger.fired(0.0)
+    trigger.arm(0.0)
+    assert not trigger.fired(0.0)
