@@ -1,30 +1,67 @@
 """A DJI handheld gimbal, a joystick and a YAML file as a motion-control head.
 
-For programs: `plan` is what `teleop check` and `teleop play` begin with. Everything else is the command line's.
+For programs: `open`, `plan` and `read_take`, the values they return, and the errors they raise (see `teleop.api`).
+Everything else in the package is internal and may change.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from teleop.api import (
+        AxisReport,
+        DeviceError,
+        DocumentError,
+        LinkError,
+        Move,
+        Report,
+        Rig,
+        State,
+        StoppedError,
+        Take,
+        TeleopError,
+        UnplayableError,
+        UsageError,
+        open,  # noqa: A004 - `teleop.open` reads well
+        plan,
+        read_take,
+    )
 
-    from teleop.planner.trajectory import Move
+    __version__: str
+
+__all__ = [
+    "AxisReport",
+    "DeviceError",
+    "DocumentError",
+    "LinkError",
+    "Move",
+    "Report",
+    "Rig",
+    "State",
+    "StoppedError",
+    "Take",
+    "TeleopError",
+    "UnplayableError",
+    "UsageError",
+    "open",
+    "plan",
+    "read_take",
+]
 
 
-def plan(sequence: str | Path, rig: str | Path = "sim") -> Move:
-    """The move that a sequence makes on a rig; each a shipped name, or a file.
+def __getattr__(name: str) -> Any:
+    """The API, imported when it is used: the command line pays only for what it needs."""
+    if name == "__version__":
+        from importlib.metadata import version
 
-    `Move.at(t)` is the state of every axis t seconds after the first keyframe's zero, `Move.duration` its length in s;
-    of a timelapse it is the rehearsal, at the speed of its clip.
-    Raises `teleop.config.document.DocumentError` with a line for each mistake, UnplayableError where the rig cannot.
-    """
-    from teleop.config.profile import load_profile
-    from teleop.sequence.compile import load_performance
-    from teleop.timelapse.compile import load_timelapse
+        return version("rs-teleop")
+    if name in __all__:
+        import teleop.api
 
-    profile = load_profile(str(rig))
-    if timelapse := load_timelapse(str(sequence), profile.limits, profile.name):
-        return timelapse.rehearsal().move
-    return load_performance(str(sequence), profile.limits, profile.name).move
+        return getattr(teleop.api, name)
+    raise AttributeError(f"module 'teleop' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

@@ -26,7 +26,7 @@ from teleop.devices.gimbal.position import Angles
 from teleop.devices.rig import open_rig
 from teleop.planner.live import Live
 
-WAYS: Mapping[Axis, str] = {Axis.PAN: "right", Axis.TILT: "up", Axis.ROLL: "clockwise"}  # teleop.motion.Axis
+WAYS: Mapping[Axis, str] = {Axis.PAN: "right", Axis.TILT: "up", Axis.ROLL: "clockwise"}  # teleop.core.axes.Axis
 
 
 def signs(*, axis: Angle | None = None, fast: Fast = False, options: Options = DEFAULTS) -> int:

@@ -115,7 +115,7 @@ class ControlLoop:
         """
         while self.supervisor.state is not RunState.OVER:
             try:
-                self._turn()
+                self.turn()
             except KeyboardInterrupt:  # where nobody handles the signal it may come between any two lines
                 self.interrupt("Ctrl-C")
             except LeaveAtOnce:
@@ -136,7 +136,8 @@ class ControlLoop:
             for reporter in self._reporters:  # what the links hold back leaves, and answers come in
                 self._quietly(reporter.report, now)
 
-    def _turn(self) -> None:
+    def turn(self) -> None:
+        """One tick, the wait for it included; `run` does this until the run is over."""
         tick = self._guarded(self._next_tick)
         if tick is None:  # even the clock may fail; the run comes to its end all the same
             self._ticks += 1

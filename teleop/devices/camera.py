@@ -42,6 +42,11 @@ class CameraSink:
         self._lasting: set[Action] = set()
         connection.on_answer(camera.Command, self._answered)
 
+    @property
+    def waiting(self) -> bool:
+        """Whether an answer of the camera is still due."""
+        return bool(self._pending or self._again)
+
     def write(self, tick: Tick) -> None:
         """Raises DeviceError when the camera refused or did not answer an earlier action."""
         again, self._again = self._again, []

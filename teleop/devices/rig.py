@@ -105,6 +105,11 @@ class Rig:
     def devices(self) -> Sequence[Device]:
         return self._devices
 
+    @property
+    def camera(self) -> CameraSink | None:
+        """The camera that the profile names."""
+        return next((device.sink for device in self._devices if isinstance(device.sink, CameraSink)), None)
+
     def _used(self, axes: Sequence[Axis]) -> Sequence[Device]:
         return [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
 

@@ -20,7 +20,7 @@ from teleop.links.url import LinkAddress
 
 
 class BufferedLink(ABC):
-    """A teleop.ports.Link whose sends may be held back for a moment, and its counts: see Outbox."""
+    """A `Link` whose sends may be held back for a moment, and its counts: see Outbox."""
 
     _failures: tuple[type[Exception], ...] = (OSError,)  # of the library below, meaning that the link is lost
 

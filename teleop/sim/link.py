@@ -19,7 +19,7 @@ class Device(Protocol):
 
 
 class SimLink:
-    """A teleop.ports.Link to a device at its far end, which lives by the clock `now` (s). It is never lost."""
+    """A `Link` to a device at its far end, which lives by the clock `now` (s). It is never lost."""
 
     def __init__(self, device: Device, now: Callable[[], float]) -> None:
         self._device = device

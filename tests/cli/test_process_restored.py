@@ -114,14 +114,14 @@ def test_a_run_that_a_signal_ends_leaves_it_too(
     number: signal.Signals, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     before = state()
-    turn, turns = ControlLoop._turn, iter(range(1 << 30))
+    turn, turns = ControlLoop.turn, iter(range(1 << 30))
 
     def turned(self: ControlLoop) -> None:
         if next(turns) == 60:
             signal.raise_signal(number)
         turn(self)
 
-    monkeypatch.setattr(ControlLoop, "_turn", turned)
+    monkeypatch.setattr(ControlLoop, "turn", turned)
     assert run(COMMANDS["play"], folder) == 130
     assert state() == before
 

@@ -49,14 +49,14 @@ class Stage:
             self.clock, self.planner, LIMITS, [self.source], [self.sink, self.healthy], [self.reporter]
         )
         self.turns = 0
-        turn = self.loop._turn
+        turn = self.loop.turn
 
         def counted() -> None:
             self.turns += 1
             assert self.turns < 10_000, f"it does not end: {self.loop.supervisor}"
             turn()
 
-        self.loop._turn = counted  # type: ignore[method-assign]
+        self.loop.turn = counted  # type: ignore[method-assign]
 
     def target(self, place: str) -> tuple[object, str]:
         piece, name = place.split(".")

@@ -42,7 +42,7 @@ _REPLY_TYPE = 0x1F  # bits of cmd_type; 0 is the only type that is not answered:
 class SimulatedGimbal:
     """A gimbal with camera and focus motor. Angles and rates are (yaw, roll, pitch) in deg and deg/s.
 
-    `boot` is where it stands at first. `signs` are those of its firmware against teleop.motion, 1 or -1 for each axis.
+    `boot` is where it is at first. `signs` are those of its firmware against `core.axes`, 1 or -1 for each axis.
     `lag` is the time constant of its speeds in s, `joystick_speed` the rates at full deflection. A `continuous` gimbal
     has no stops for yaw. `focus_speed` is in counts/s. With `bare_replies` it leaves set and id out of its replies, as
     firmware before 01.04.00.20 does. `push_rate` is in Hz, once the push is switched on. What moves it is carried out

@@ -13,7 +13,7 @@ FocusMotorState = Literal["calibrated", "uncalibrated", "absent"]
 class Firmware:
     """The defaults are those of V2.5.
 
-    - `speed_signs`: of yaw, roll and pitch in speed commands (0x01, 0x0A) against teleop.motion, 1 or -1; None for the
+    - `speed_signs`: of yaw, roll and pitch in speed commands (0x01, 0x0A) against `core.axes`, 1 or -1; None for the
       signs of the angles. Some gimbals have other ones: one driver negates roll in 0x01 alone. `report_signs` likewise
       of the angles that it reports and pushes.
     - `legacy_replies`: replies without set and id, that of 0x02 without the type byte too, its angles in `legacy_order`

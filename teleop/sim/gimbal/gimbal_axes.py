@@ -1,7 +1,7 @@
 """The three axes of a simulated gimbal: what its commands make of the motors, and what they report.
 
 On the wire an axis may have the opposite sign, and its speed another one than its angle, as firmware differs; the
-motors turn in the signs of teleop.motion, and limits, which are magnitudes on the wire, are the motors' own. Angles are
+motors turn in the signs of `core.axes`, and limits, which are magnitudes on the wire, are the motors' own. Angles are
 rounded to 0.1 degree by the messages, never in here. The document leaves open what happens to a target beyond a stop
 (it ends at the stop), to an axis that turns for ever (it goes the short way round), and to a position command under
 speed control (it wins).
@@ -70,7 +70,7 @@ class GimbalAxes:
         }
 
     def angles(self, time: float) -> Angles:
-        """Exact, in the signs of teleop.motion; an axis without stops counts its turns."""
+        """Exact, in the signs of `core.axes`; an axis without stops counts its turns."""
         return Angles(*(motor.at(time)[0] for motor in self._motors))
 
     def rates(self, time: float) -> Angles:

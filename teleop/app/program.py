@@ -1,0 +1,224 @@
+"""A rig moved by a program: one source that runs a program's jobs, one after the other, in the control loop.
+
+A job is a move to a position, a jog, a sequence, or a camera action. The program's thread hands a job over and waits;
+the control thread asks it for setpoints once a tick. STOP is latched here: it cancels the job and brings every axis to
+rest at the fastest legal rate, until it is cleared.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
+
+from teleop.core.axes import Axis, Motion, Reading
+from teleop.core.errors import DeviceError, TeleopError
+from teleop.core.events import Tick, TickEvent
+from teleop.core.interfaces import Sink, Source
+from teleop.core.setpoints import Demand, PositionTarget, Stop, VelocityTarget
+
+ARRIVED: Mapping[Axis, float] = {Axis.FOCUS: 0.02}
+ARRIVED_ANGLE = 0.5  # deg: as near as a reading must be; a gimbal in speed mode rests within this of its target
+SETTLE = 2.0  # s after the commanded arrival within which the readings must be that near
+
+
+class StoppedError(TeleopError):
+    """STOP was pressed, or `stop()` was called; nothing moves until `clear()`."""
+
+
+class Job(Protocol):
+    """Something a program has asked for. All calls are made by the control thread."""
+
+    def start(self, now: float, motion: Motion) -> None: ...
+
+    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]: ...
+
+    def done(self, tick: Tick) -> bool:
+        """Whether it is complete, seen from this tick; raises TeleopError when it cannot be completed."""
+        ...
+
+
+class MoveJob:
+    """Every axis to its target (units) and at rest there, `seconds` from its start or as soon as the limits allow."""
+
+    def __init__(self, targets: Mapping[Axis, float], seconds: float | None) -> None:
+        self._targets, self._seconds = targets, seconds
+        self._end: float | None = None
+        self._arrived: float | None = None
+
+    def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - the planner knows where the axes are
+        self._end = None if self._seconds is None else now + self._seconds
+
+    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+        left = None if self._end is None else max(0.0, self._end - now)
+        return {axis: PositionTarget(target, left or None) for axis, target in self._targets.items()}, ()
+
+    def done(self, tick: Tick) -> bool:
+        states = {axis: tick.motion[axis] for axis in self._targets}
+        if any(state.velocity or abs(state.position - self._targets[axis]) > 1e-4 for axis, state in states.items()):
+            return False
+        self._arrived = tick.time if self._arrived is None else self._arrived
+        far = {axis: at for axis, at in self._readings(tick).items() if self._is_far(axis, at)}
+        if far and tick.time > self._arrived + SETTLE:
+            rests = (f"{axis} rests at {at.position:g}, not {self._targets[axis]:g}" for axis, at in far.items())
+            raise DeviceError(", ".join(rests))
+        return not far
+
+    def _readings(self, tick: Tick) -> Mapping[Axis, Reading]:
+        return {axis: tick.reported[axis] for axis in self._targets if axis in tick.reported}
+
+    def _is_far(self, axis: Axis, reading: Reading) -> bool:
+        return abs(reading.position - self._targets[axis]) > ARRIVED.get(axis, ARRIVED_ANGLE)
+
+
+class JogJob:
+    """Every axis at its velocity (unit/s) for `seconds`, then the fastest legal stop."""
+
+    def __init__(self, velocities: Mapping[Axis, float], seconds: float) -> None:
+        self._velocities, self._seconds = velocities, seconds
+        self._end = 0.0
+
+    def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - the planner knows where the axes are
+        self._end = now + self._seconds
+
+    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+        over = now >= self._end - 1e-6
+        return {axis: Stop() if over else VelocityTarget(speed) for axis, speed in self._velocities.items()}, ()
+
+    def done(self, tick: Tick) -> bool:
+        rests = all(not tick.motion[axis].velocity for axis in self._velocities)
+        return rests and tick.time >= self._end - 1e-6
+
+
+class SourceJob:
+    """A source of the pipeline, such as a sequence, until it has no more to say."""
+
+    def __init__(self, source: Source) -> None:
+        self._source = source
+        self._over = False
+
+    def start(self, now: float, motion: Motion) -> None:
+        self._source.start(now, motion)
+
+    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+        demand, events = self._source.read(now)
+        self._over = self._source.next_change(now) == float("inf")
+        return demand, events
+
+    def done(self, tick: Tick) -> bool:
+        return self._over and all(not state.velocity for state in tick.motion.values())
+
+
+class EventJob:
+    """One event for a device, complete once `waiting` says that the device has answered."""
+
+    def __init__(self, event: TickEvent, waiting: Callable[[], bool]) -> None:
+        self._events: list[TickEvent] = [event]
+        self._waiting = waiting
+
+    def start(self, now: float, motion: Motion) -> None: ...
+
+    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:  # noqa: ARG002 - it is due at once
+        events, self._events = self._events, []
+        return {}, events
+
+    def done(self, tick: Tick) -> bool:  # noqa: ARG002 - the device knows
+        return not self._events and not self._waiting()
+
+
+class ProgramSource:
+    """A source, and an observer of each tick. `submit`, `stop` and `clear` may be called from any thread."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._motion: Motion = {}
+        self._job: Job | None = None
+        self._fresh = False  # the job has not begun yet
+        self._finished = threading.Event()
+        self._error: TeleopError | None = None
+        self._ended = False
+        self.stopped = False
+        self.running = threading.Event()  # set by the first tick
+        self.tick: Tick | None = None
+        self.observers: tuple[Sink, ...] = ()  # of the job in hand; replaced whole, never changed
+
+    # --- for the program's threads
+
+    def submit(self, job: Job) -> None:
+        """Hand `job` over; raises StoppedError after a STOP, TeleopError while another job is in hand."""
+        with self._lock:
+            if self.stopped:
+                raise StoppedError("STOPPED: call clear() first")
+            if self._job is not None:
+                raise TeleopError("the rig is busy: another thread moves it")
+            self._job, self._fresh, self._error = job, True, None
+            self._finished.clear()
+
+    @property
+    def finished(self) -> bool:
+        return self._finished.is_set()
+
+    def wait(self) -> None:
+        """Until the job in hand is complete or has failed."""
+        self._finished.wait()
+
+    def result(self) -> None:
+        """Raises what the last job ended with, if it failed."""
+        if self._error is not None:
+            raise self._error
+
+    def stop(self) -> None:
+        self.stopped = True
+
+    def clear(self) -> None:
+        self.stopped = False
+
+    def end(self, error: TeleopError) -> None:
+        """The run is over: whoever waits for a job gets `error`."""
+        self._ended = True
+        self._finish(error)
+
+    # --- for the control thread
+
+    def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - jobs begin later
+        self._motion = motion
+
+    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+        job = self._job
+        if self.stopped:
+            if job is not None:
+                self._finish(StoppedError("STOPPED"))
+            return {axis: Stop() for axis in self._motion}, ()
+        if job is None:
+            return {}, ()
+        if self._fresh:
+            self._fresh = False
+            job.start(now, self._motion)
+        return job.read(now)
+
+    def next_change(self, now: float) -> float:
+        return now
+
+    def write(self, tick: Tick) -> None:
+        self._motion, self.tick = tick.motion, tick
+        self.running.set()
+        for observer in self.observers:
+            observer.write(tick)
+        job = self._job
+        if job is None or self._fresh:
+            return
+        try:
+            if job.done(tick):
+                self._finish(None)
+        except TeleopError as error:
+            self._finish(error)
+
+    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
+        return None
+
+    def _finish(self, error: TeleopError | None) -> None:
+        with self._lock:
+            if self._job is not None or error is not None:
+                self._error = error
+            self._job = None
+        self._finished.set()
