@@ -42,7 +42,7 @@ class Terminal:
 
     def __init__(self) -> None:
         if not sys.stdin.isatty():
-            raise UsageError("--learn: it asks and wants answers: run it on a terminal")
+            raise UsageError("--learn asks questions: run it on a terminal")
 
     def say(self, text: str) -> None:
         print(text, file=sys.stderr, flush=True)
@@ -51,7 +51,7 @@ class Terminal:
         pressed = False
         while select.select([sys.stdin], [], [], 0)[0]:
             if not sys.stdin.readline():
-                raise UsageError("--learn: the terminal has been closed; nothing was learned")
+                raise UsageError("--learn: the terminal was closed; nothing was learned")
             pressed = True
         return pressed
 
@@ -69,13 +69,13 @@ def learn(
     backend, asker, now = backend or Hidapi(), asker or Terminal(), now or SystemClock().now
     found = wanted(DeviceSection(), backend.enumerate(), None)
     if not found:
-        raise UsageError("--learn: there is no joystick: plug one in; teleop devices says what is there")
+        raise UsageError("--learn: no joystick found: plug one in; teleop devices lists what is connected")
     info = found[0]
     try:
         device = backend.open(info.path)
     except OSError as error:
         raise DeviceError(
-            f"{described(info)}: cannot be opened ({error}): is there a udev rule? teleop doctor"
+            f"{described(info)}: cannot be opened ({error}): check its udev rule: teleop doctor"
         ) from None
     try:
         learned = _Dialogue(info, device, asker, now).hold(axes)
@@ -84,7 +84,7 @@ def learn(
     finally:
         device.close()
     print(learned.text(info.vendor_id, info.product_id, described(info)), end="")
-    asker.say("That belongs into the profile.")
+    asker.say("Copy these lines into your profile.")
     return 0
 
 
@@ -97,7 +97,7 @@ class _Dialogue:
 
     def hold(self, axes: Sequence[Axis]) -> Learned:
         """Raises OSError when the device is unplugged."""
-        self._asker.say(f"{described(self._info)}: let go of everything.")
+        self._asker.say(f"{described(self._info)}: release all controls.")
         self._rest()
         for question in questions(axes):
             answer = self._answer(question)
@@ -111,19 +111,19 @@ class _Dialogue:
 
     def _answer(self, question: Question) -> Found | None:
         """The control that somebody moved, let go again; None when nothing is to do that."""
-        self._asker.say(f"{question.text}. Enter: nothing does that.")
+        self._asker.say(f"{question.text}. Enter: skip.")
         while True:
             watch = Watch(self._state.values, smooth=question.axis is not None)
             found = self._moved(watch)
             if found is None:
                 return None
-            self._asker.say(f"  {found.name}; let it go")
+            self._asker.say(f"  {found.name}; release it")
             self._rest()
             if watch.settled(found, self._state.values).kind is Kind.LEVER:
                 self._rest(HELD)
             if not self._learned.has(found.name):
                 return watch.settled(found, self._state.values)
-            self._asker.say(f"  {found.name} does something already: take another")
+            self._asker.say(f"  {found.name} is already in use: choose another")
 
     def _moved(self, watch: Watch) -> Found | None:
         while not self._asker.skips():

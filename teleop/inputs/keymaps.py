@@ -58,16 +58,16 @@ KEYS: Mapping[str, Act] = {
 }
 
 PREFIXES: Mapping[str, tuple[str, Mapping[str, Act]]] = {
-    "s": ("store as which preset? 0-9", {str(digit): Press(Command.STORE, digit) for digit in range(10)}),
+    "s": ("store which preset? 0-9", {str(digit): Press(Command.STORE, digit) for digit in range(10)}),
     "x": ("delete which preset? 0-9", {str(digit): Press(Command.DELETE, digit) for digit in range(10)}),
     "f": (
-        "follow how? l lock, y yaw, s sport",
+        "follow mode? l lock, y yaw, s sport",
         {key: Press(Command.TELL, words=f"gimbal follow {mode}") for key, mode in FOLLOW_MODES.items()},
     ),
 }
 """Keys that ask for a second one: the question, and its answers. Any other key takes it back."""
 
-SPELL, SPELLING = "d", "tell the drone: "
+SPELL, SPELLING = "d", "drone command: "
 DRONE_WORDS: Mapping[str, Act] = {
     "engage": Press(Command.ENGAGE),
     "disengage": Press(Command.DISENGAGE),
@@ -82,27 +82,27 @@ DRONE_WORDS: Mapping[str, Act] = {
 """What can be spelled after the key that begins a word."""
 
 HELP: Sequence[tuple[str, str]] = (
-    ("space", "STOP (no emergency stop: motors stay on)"),
-    ("c", "clear the STOP"),
+    ("space", "STOP all axes (motors stay on)"),
+    ("c", "clear STOP"),
     ("arrows", "pan, tilt by 1 deg; shift 10, ctrl 0.1"),
     ("h j k l", "pan, tilt by 0.1 deg; H J K L by 10"),
     ("< >", "roll by 1 deg"),
     ("[ ]", "focus by 1 %; { } by 10 %"),
     ("- +  v", "speed range: slower, faster, next"),
     ("f l/y/s", "follow mode: lock, yaw, sport"),
-    ("0-9", "recall a preset"),
-    ("s 0-9", "store it"),
-    ("x 0-9", "delete it"),
+    ("0-9", "recall preset"),
+    ("s 0-9", "store preset"),
+    ("x 0-9", "delete preset"),
     ("z", "recenter"),
-    ("r", "record, and stop"),
+    ("r", "start or stop recording"),
     (".", "shutter"),
-    ("e", "manual off, and on"),
+    ("e", "manual on or off"),
     ("d word", "drone: engage, arm"),
-    ("b", "give the drone back"),
+    ("b", "release the drone"),
     ("q", "quit"),
 )
 
-NO_EMERGENCY_STOP = "STOP is no emergency stop: the motors stay powered."
+NO_EMERGENCY_STOP = "STOP is not an emergency stop: the motors stay powered."
 LONGEST_WORD = 20
 
 _SEQUENCE = re.compile(r"\x1b(?:O|\[(?P<parameters>[0-9;]*))(?P<final>[@-~])")
@@ -164,7 +164,7 @@ class KeyReader:
             yield KEYS[key]
 
     def _begin_word(self, word: str) -> None:
-        self._word, self.question = word, f"{SPELLING}{word}_   Enter does it, Escape takes it back"
+        self._word, self.question = word, f"{SPELLING}{word}_   Enter sends, Escape cancels"
 
     def _spell(self, word: str, key: str) -> Iterator[Act]:
         if key in "\r\n":
@@ -172,7 +172,7 @@ class KeyReader:
             if word in DRONE_WORDS:
                 yield DRONE_WORDS[word]
             elif word:
-                self.question = f"a drone knows {', '.join(DRONE_WORDS)}, not {word!r}"
+                self.question = f"unknown command {word}; commands: {', '.join(DRONE_WORDS)}"
         elif key in "\b\x7f":
             self._begin_word(word[:-1])
         elif key.isascii() and key.isprintable() and len(word) < LONGEST_WORD:

@@ -55,7 +55,7 @@ def _column_problems(columns: Sequence[str], known: Sequence[Axis]) -> list[str]
         problems.append("no column names an axis")
     for index, column in enumerate(columns):
         if column in columns[:index]:
-            problems.append(f"the column {column} stands twice")
+            problems.append(f"duplicate column {column}")
         elif column != "time" and column not in [axis.value for axis in known]:
             names = [axis.value for axis in known]
             near = nearest(column, names) or f"; it has {', '.join(names)}"

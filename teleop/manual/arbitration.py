@@ -116,7 +116,7 @@ class Arbitration:
         if hand.said.trouble:
             return False
         if not hand.trusted:
-            self._say(f"{hand.name} moves nothing: {hand.waits_for}")
+            self._say(f"{hand.name} is locked: {hand.waits_for}")
         elif axis not in self._limits:
             self._say(f"{axis} is not an axis of this rig")
         elif axis in STICKS:

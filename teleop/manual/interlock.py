@@ -10,9 +10,9 @@ from __future__ import annotations
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Held, Input
 
-CENTRE = "let it go to its centre"
+CENTER = "center its sticks"
 ENABLE = "hold its enable button"
-OFF = "hands are off"
+OFF = "manual control is off"
 JITTER = 0.002  # of a slider's way, which is no move: less than a step of eight bits, more than one of ten
 
 
@@ -21,7 +21,7 @@ class Interlock:
 
     def __init__(self, device: Input) -> None:
         self.said = Held()
-        self.waits_for = CENTRE
+        self.waits_for = CENTER
         self._device = device
         self._centred = self._enabled = self._fresh = False
         self._slid: dict[Axis, float] = {}  # where its sliders lay when they last were taken for moved
@@ -61,7 +61,7 @@ class Interlock:
 
     def distrust(self) -> None:
         self._centred = self._enabled = self._fresh = False
-        self.waits_for = CENTRE
+        self.waits_for = CENTER
 
     def _enable(self) -> None:
         """Enabled while the button is held, if it was seen released after the input was seen centred."""
@@ -71,7 +71,7 @@ class Interlock:
 
     def _missing(self, hands_on: bool) -> str:
         if not self._centred:
-            return CENTRE
+            return CENTER
         if not self._enabled:
             return ENABLE
         return "" if hands_on or self.said.enabled is not None else OFF

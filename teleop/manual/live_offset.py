@@ -87,7 +87,7 @@ class LiveOffset:
         """Take every offset back to 0, as this hand asks; a stick ends that."""
         hand = next(hand for hand in self._hands if hand.name == name)
         if hand.waits_for:
-            self.say(f"the trim stays: {name} {hand.waits_for}")
+            self.say(f"trim unchanged: {name} is locked: {hand.waits_for}")
         elif any(state.position for state in self.offsets.values()):
             self._driving.begin(Recall("trim to 0", hand, dict.fromkeys(self.offsets, 0.0), self._now, RELEASE))
 

@@ -150,7 +150,7 @@ class Operator:
 
     def _stop(self, hand: Interlock, _press: Press) -> None:
         if not self._stopped:
-            self.say(f"STOP by {hand.name}: nothing moves until it is cleared")
+            self.say(f"STOP by {hand.name}. Press c to clear, then center all sticks.")
             self.reason = f"ended while stopped: STOP by {hand.name}"
         self._stopped = True
         self._distrust_all()
@@ -163,7 +163,9 @@ class Operator:
 
     def _enable(self, _hand: Interlock, _press: Press) -> None:
         self._hands_on = not self._hands_on
-        self.say("hands are on" if self._hands_on else "hands are off: inputs without an enable button move nothing")
+        self.say(
+            "manual control on" if self._hands_on else "manual control off: inputs without an enable button are locked"
+        )
         for hand in self._hands:
             if hand.said.enabled is None:
                 hand.distrust()
@@ -185,14 +187,14 @@ class Operator:
         self._send(hand, f"preset {press.number}", known)
 
     def _recenter(self, hand: Interlock, _press: Press) -> None:
-        self._send(hand, "recentre", {axis: 0.0 for axis in CENTRED if axis in self._limits})
+        self._send(hand, "recenter", {axis: 0.0 for axis in CENTRED if axis in self._limits})
 
     def _send(self, hand: Interlock, title: str, positions: Mapping[Axis, float]) -> None:
         """Begin to take the axes somewhere, if the hand that asks may."""
         held = [each.said.deflections for each in self._hands if each.trusted]
         deflected = any(value for said in held for axis, value in said.items() if axis not in STICKS)
         refusal = "STOP is not cleared" if self._stopped else hand.waits_for
-        refusal = refusal or ("let the stick go first" if deflected else "")
+        refusal = refusal or ("release the stick first" if deflected else "")
         if refusal:
             self.say(f"{title} refused: {refusal}")
         elif not positions:
@@ -226,12 +228,12 @@ class Operator:
         if press.words.startswith(DRONE):
             self._tell_drone(press.words.removeprefix(DRONE).strip())
         elif self._moving:
-            self.say(f"{press.words} refused: an axis moves")
+            self.say(f"{press.words} refused: an axis is moving")
         else:
             self._actions.append(DeviceCommand(press.words))
 
     def _refuse(self, _hand: Interlock, press: Press) -> None:
-        self.say(f"{press.command}: only while a sequence is played")
+        self.say(f"{press.command}: works only while a sequence plays")
 
     def _quit(self, _hand: Interlock, _press: Press) -> None:
         self._done = True

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from teleop.core.axes import Axis
-from teleop.manual.interlock import CENTRE, ENABLE, Interlock
+from teleop.manual.interlock import Interlock
 
 KEPT = 20  # messages
 
@@ -82,7 +82,4 @@ class MessageLog:
                 self._hinted.discard(hand)
             elif not trouble and hand not in self._hinted and any(hand.said.deflections.values()):
                 self._hinted.add(hand)
-                if hand.waits_for in (CENTRE, ENABLE):
-                    yield f"{hand.name} moves nothing yet: {hand.waits_for} first"
-                else:
-                    yield f"{hand.name} moves nothing: {hand.waits_for}"
+                yield f"{hand.name} is locked: {hand.waits_for}"

@@ -27,10 +27,12 @@ from teleop.core.setpoints import Demand, Stop
 
 LOOK = 0.05  # s between two looks at the inputs while nothing moves
 GRACE = 1.0  # s after the start within which an input is found and has reported
-GO_ON = "Press p or Enter to go on, q to end."
+STOPPING = "stopping: all axes slow down to rest"
+STOPPED = "STOPPED. Press c to clear, q to end."
+GO_ON = "Press p or Enter to continue, q to end."
 GOES_ON = (Command.PAUSE, Command.GO)  # either goes on after a STOP or a pause
 CLEAR_HINTS = (Hint("c", "clear"), Hint("q", "end"))
-GO_HINTS = (Hint("p", "go on"), Hint("space", "STOP"), Hint("q", "end"))
+GO_HINTS = (Hint("p", "continue"), Hint("space", "STOP"), Hint("q", "end"))
 
 
 class Hold(Enum):
@@ -199,9 +201,9 @@ class StopGuard:
         """What holds the axes, and what an operator can do about it; "" while nothing does."""
         match self._hold:
             case Hold.STOPPED:
-                return f"{self.stop.upper()} by {self.stopped_by}. Press c to clear, q to end."
+                return STOPPING if self.stop == "stopping" else STOPPED
             case Hold.CLEARED | Hold.PAUSED if self._going:
-                return "going on as soon as all axes are at rest"
+                return "continuing once all axes are at rest"
             case Hold.CLEARED:
                 return f"STOP cleared. {GO_ON}"
             case Hold.PAUSED:
@@ -242,10 +244,10 @@ class StopGuard:
         if self._hold is Hold.STOPPED:
             return
         self.stopped_by = name
-        self.say(f"STOP by {name}. A camera that records goes on recording.")
+        self.say(f"STOP by {name}. A recording camera keeps recording.")
         self._halt(Hold.STOPPED, now)
         if not self._source.resumable:
-            self._end = self._end or Interrupted(f"STOP by {name}: a drone's move cannot go on from its middle")
+            self._end = self._end or Interrupted(f"STOP by {name}: a drone's move cannot be resumed")
 
     def _clear(self, now: float) -> None:
         if self._hold is not Hold.STOPPED:
@@ -283,7 +285,7 @@ class StopGuard:
                 self._halt(Hold.PAUSED, now)
 
     def _lose(self, trouble: str) -> None:
-        self.say(f"{trouble}: its STOP is lost, so the run pauses")
+        self.say(f"{trouble}: STOP lost, the run pauses")
         self._lost, self._why = True, trouble
         if not self._source.resumable:
             self._end = self._end or DeviceError(f"{trouble}: its STOP is lost")

@@ -164,7 +164,7 @@ def test_an_operator_types_a_word_and_sees_the_drone(tmp_path: Path) -> None:
     with terminal("live", "--sticks", str(tmp_path / "long.csv"), *RIG, folder=tmp_path) as term:
         term.wait_for("not engaged: d engage Enter")
         term.type("dengage")
-        term.wait_for("tell the drone: engage_")
+        term.wait_for("drone command: engage_")
         term.wait_for("battery 100 %")
         term.type("\r")
         term.wait_for("ENGAGED")

@@ -18,14 +18,14 @@ from teleop.core.errors import DeviceError, UsageError
 
 REST = "7f7f7f7f08000000"
 HAND: Mapping[str, Sequence[str]] = {
-    "pan to the right": ["a07f7f7f08000000", "ff7f7f7f08000000"],
+    "pan right": ["a07f7f7f08000000", "ff7f7f7f08000000"],
     "tilt up": ["7f007f7f08000000"],
     "focus farther": ["7f7f7f7f08080000"],
     "focus nearer": ["7f7f7f7f08040000"],
-    "stop everything": ["7f7f7f7f18000000"],
-    "record": ["7f7f7f7f18000000"],
+    "for: STOP": ["7f7f7f7f18000000"],
+    "for: record": ["7f7f7f7f18000000"],
     "recall preset 1": ["7f7f7f7f00000000"],
-    "be held while": ["7f7f7f7f08010000"],
+    "must be held": ["7f7f7f7f08010000"],
 }
 
 
@@ -41,7 +41,7 @@ class Hand:
         does = next((reports for words, reports in HAND.items() if words in text), None)
         if does is not None:
             self.pad.report(*map(bytes.fromhex, does))
-        elif text.endswith(("let it go", "let go of everything.")):
+        elif text.endswith(("release it", "release all controls.")):
             self.pad.report(bytes.fromhex(REST))
         elif "already" in text:
             self.pad.report(bytes.fromhex("7f7f7f7f28000000"))
@@ -80,7 +80,7 @@ inputs:   # Logitech Dual Action
         up: {press: recall, number: 1, hold: store}
 """
     )
-    assert "  Button 1 does something already: take another" in hand.heard
+    assert "  Button 1 is already in use: choose another" in hand.heard
     assert device.closed == 1
     rig = tmp_path / "rig.yaml"
     rig.write_text((folder("profiles") / "sim.yaml").read_text() + printed)
@@ -100,7 +100,7 @@ def test_a_stick_that_is_held_for_a_while_is_not_taken_for_a_slider(capsys: pyte
         """Lets go a second after being told to."""
 
         def say(self, text: str) -> None:
-            if not text.endswith("let it go"):
+            if not text.endswith("release it"):
                 super().say(text)
                 return
             told, read = time[0], device.read
@@ -126,11 +126,11 @@ def test_a_joystick_that_is_pulled_out_ends_it() -> None:
 
 
 def test_without_a_joystick_it_says_so() -> None:
-    with pytest.raises(UsageError, match="there is no joystick: plug one in"):
+    with pytest.raises(UsageError, match="no joystick found: plug one in"):
         learn([Axis.PAN], FakeBackend(), Hand(pad()))
 
 
 def test_it_wants_a_terminal() -> None:
     done = teleop("live", "--learn")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "teleop: --learn: it asks and wants answers: run it on a terminal\n"
+    assert done.stderr == "teleop: --learn asks questions: run it on a terminal\n"

@@ -25,9 +25,9 @@ def test_a_stop_in_a_move_holds_until_it_is_cleared_and_then_the_move_goes_on(tm
     with terminal("play", str(tmp_path / "there.yaml"), "--take", str(take), folder=tmp_path) as term:
         term.wait_for("playing")
         term.type(" ")
-        term.wait_for("STOPPED by keys. Press c to clear")
+        term.wait_for("STOPPED. Press c to clear, q to end.")
         term.type("c")
-        term.wait_for("STOP cleared. Press p or Enter to go on")
+        term.wait_for("STOP cleared. Press p or Enter to continue")
         term.type("p")
         code, out = term.end()
         assert term.restored

@@ -112,7 +112,7 @@ def test_the_first_hand(size: tuple[int, int], folder: Path) -> None:
         term.wait_for_keys()
         term.look(term.wait_for("measured"))
         assert KEYS in "\n".join(term.rows[-2:]), term.text
-        for each in ("follow not set here", "jog 1 deg", "take "):
+        for each in ("follow not set", "jog 1 deg", "take "):
             assert any(each in row for row in term.rows), f"{each}:\n{term.text}"
         term.type("r")
         term.wait_for("camera: recording")
@@ -125,7 +125,7 @@ def test_the_first_hand(size: tuple[int, int], folder: Path) -> None:
         term.wait_for("STOPPED. Press c to clear, then center all sticks.")
         term.look(term.rows)
         term.type("?")
-        term.look(term.wait_for("STOP is no emergency stop: the motors stay powered."))
+        term.look(term.wait_for("STOP is not an emergency stop: the motors stay powered."))
         assert any(row.startswith(" pan ") for row in term.rows), "where the axes are is never hidden"
         term.type("?cq")
         assert term.end() == 0, term.text

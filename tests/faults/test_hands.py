@@ -77,8 +77,8 @@ class Row:
 
 ROWS = [
     Row("stick unplugged", unplugged, "unplugged", 1.0),
-    Row("stick frozen", frozen, "has reported the very same for 10 s", 11.0),
-    Row("reports stop", silent, "has not reported for 0.2 s", 1.2),
+    Row("stick frozen", frozen, "reports unchanged for 10 s", 11.0),
+    Row("reports stop", silent, "no report for 0.2 s", 1.2),
     Row("exception in the reader's thread", reader_dies, "its reader failed: a defect in the reader's thread", 1.2),
 ]
 

@@ -80,7 +80,7 @@ def test_what_is_typed_is_what_is_asked_for(text: str, acts: list[Act]) -> None:
 def test_a_question_is_shown_until_it_is_answered_or_taken_back() -> None:
     reader = KeyReader()
     list(reader.feed("s"))
-    assert reader.question.startswith("store as which preset?")
+    assert reader.question.startswith("store which preset?")
     list(reader.feed("5"))
     assert reader.question == ""
     list(reader.feed("f\x1b"))

@@ -26,7 +26,7 @@ def written(tmp_path: Path, text: str) -> Path:
         ("pan\n1\n", ":1: there is no column called time"),
         ("time\n1\n", ":1: no column names an axis"),
         ("time,pna\n0,1\n", ":1: 'pna' is not an axis of this rig; did you mean pan?"),
-        ("time,pan,pan\n0,1,1\n", ":1: the column pan stands twice"),
+        ("time,pan,pan\n0,1,1\n", ":1: duplicate column pan"),
         ("time,pan\n", ":1: there are no rows"),
         ("time,pan\n0,1.5\n", ":2: pan must be -1..1, not 1.5"),
         ("time,pan\n0,nan\n", ":2: pan must be -1..1, not nan"),

@@ -117,7 +117,7 @@ def test_a_pad_torn_out_in_a_pan_stops_it_smoothly_and_moves_nothing_until_it_is
 
     with plugged_in(GAMEPAD, RIGHT) as again:
         scene.pad = again
-        scene.hear(f"{NAME}: let it go to its centre")
+        scene.hear(f"{NAME}: center its sticks")
         assert scene.still(), "a stick that was never seen centred moved the pan"
         again.show(RESTING)
         scene.bus.more(10)

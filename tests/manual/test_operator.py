@@ -47,8 +47,8 @@ def test_a_stick_that_is_held_over_at_the_start_moves_nothing_until_it_was_centr
     desk.pad.hold(pan=1.0)
     desk.run(1)
     assert desk.rests
-    assert desk.messages == ["pad moves nothing yet: let it go to its centre first"]
-    assert desk.status.hands[0].waits_for == "let it go to its centre"
+    assert desk.messages == ["pad is locked: center its sticks"]
+    assert desk.status.hands[0].waits_for == "center its sticks"
     desk.pad.hold(pan=0.0)
     desk.tick()
     desk.pad.hold(pan=1.0)
@@ -123,10 +123,10 @@ def test_hands_off_is_for_inputs_without_an_enable_button(tmp_path: Path) -> Non
     assert desk.velocity(PAN) == 0
     assert desk.velocity(TILT) == pytest.approx(9)
     assert not desk.status.hands_on
-    assert desk.status.hands[0].waits_for == "let it go to its centre"
+    assert desk.status.hands[0].waits_for == "center its sticks"
     free.hold()
     desk.tick(2)
-    assert desk.status.hands[0].waits_for == "hands are off"
+    assert desk.status.hands[0].waits_for == "manual control is off"
     free.press(Command.ENABLE)
     desk.tick(2)
     free.hold(pan=1.0)
@@ -158,7 +158,7 @@ def test_trouble_stops_what_the_input_moved_and_says_so(desk: Desk) -> None:
     desk.pad.trouble = ""  # replugged, the stick still held over
     desk.run(0.5)
     assert desk.rests
-    assert desk.messages[1] == "pad: let it go to its centre"
+    assert desk.messages[1] == "pad: center its sticks"
     desk.pad.hold()
     desk.tick()
     desk.pad.hold(pan=1.0)
@@ -217,7 +217,7 @@ def test_a_stop_counts_from_any_input_in_any_state(tmp_path: Path, trouble: str)
     second.press(Command.STOP)
     desk.tick()
     assert desk.demand == {axis: Stop() for axis in LIMITS}
-    assert desk.messages[0] == "STOP by second: nothing moves until it is cleared"
+    assert desk.messages[0] == "STOP by second. Press c to clear, then center all sticks."
 
 
 # --- STOP
@@ -423,7 +423,7 @@ def test_an_input_that_may_move_nothing_may_recall_nothing(tmp_path: Path) -> No
     desk.run(1)
     assert desk.rests
     assert desk.messages[:2] == [
-        "recentre refused: hold its enable button",
+        "recenter refused: hold its enable button",
         "preset 1 refused: hold its enable button",
     ]
 
@@ -433,7 +433,7 @@ def test_a_recall_waits_for_the_stick_to_be_let_go(desk: Desk) -> None:
     desk.pad.hold(tilt=0.5)
     desk.run(0.5)
     desk.press(Command.RECALL, 1)
-    assert desk.messages[0] == "preset 1 refused: let the stick go first"
+    assert desk.messages[0] == "preset 1 refused: release the stick first"
     assert PAN not in desk.demand
 
 
@@ -529,7 +529,7 @@ def test_steps_of_an_untrusted_input_are_lost_not_kept(tmp_path: Path) -> None:
     desk.pad.enabled = True
     desk.run(1)
     assert desk.motion[PAN] == State(0)
-    assert desk.messages == ["pad moves nothing: hold its enable button"]
+    assert desk.messages == ["pad is locked: hold its enable button"]
 
 
 def test_a_slider_takes_its_axis_only_once_it_is_moved(desk: Desk) -> None:
@@ -596,7 +596,7 @@ def test_a_device_s_own_command_is_refused_while_anything_moves(desk: Desk) -> N
     desk.pad.hold(pan=1.0)
     desk.run(0.2)
     desk.press(Command.TELL, words="gimbal follow lock")
-    assert (desk.actions, desk.messages[0]) == ([], "gimbal follow lock refused: an axis moves")
+    assert (desk.actions, desk.messages[0]) == ([], "gimbal follow lock refused: an axis is moving")
     desk.pad.hold()
     desk.run(1)
     desk.press(Command.TELL, words="gimbal follow lock")

@@ -130,7 +130,7 @@ def test_from_stick_to_recall_to_stop_and_on_there_is_no_bump(tmp_path: Path, mo
     assert show.tap.gimbal.angles.pitch == pytest.approx(0, abs=0.15)
     assert not show.tap.gimbal.controlled
     assert [word for word in show.words() if "STOP by" in word or "unplugged" in word] == [
-        "STOP by pad: nothing moves until it is cleared",
+        "STOP by pad. Press c to clear, then center all sticks.",
         "pad: unplugged: pan and tilt stopped",
     ]
 

@@ -140,7 +140,8 @@ def test_stop_takes_the_fastest_legal_stop_and_latches() -> None:
     run.press(STOP)
     assert run.demand == {PAN: Stop(), TILT: Stop()}
     assert run.guard.stop == "stopping"
-    assert run.guard.note.startswith("STOPPING by keys")
+    assert run.guard.note == "stopping: all axes slow down to rest"
+    assert run.said == ["STOP by keys. A recording camera keeps recording."]
     ticks = 1
     while not run.rests:
         run.tick()
@@ -154,7 +155,7 @@ def test_stop_takes_the_fastest_legal_stop_and_latches() -> None:
         end = stop_state(state, LIMITS[axis].acceleration, LIMITS[axis].jerk, math.inf).position
         assert run.motion[axis].position == pytest.approx(end, abs=1e-6)
     assert run.guard.stop == "stopped"
-    assert run.guard.note == "STOPPED by keys. Press c to clear, q to end."
+    assert run.guard.note == "STOPPED. Press c to clear, q to end."
     there = dict(run.motion)
     run.press(STOP)  # a second one does nothing
     run.press(PAUSE, GO)  # and nothing goes on before it is cleared
@@ -173,7 +174,7 @@ def test_after_clear_the_run_goes_on_from_where_it_was_left_and_no_cue_is_lost_o
     run.run(4)
     assert run.acts == [Action.RECORD, DeviceCommand("gimbal follow lock")]
     run.press(CLEAR)
-    assert run.guard.note == "STOP cleared. Press p or Enter to go on, q to end."
+    assert run.guard.note == "STOP cleared. Press p or Enter to continue, q to end."
     rest = dict(run.motion)
     run.run(2)
     assert run.motion == rest
@@ -279,7 +280,7 @@ def test_p_pauses_on_the_ways_to_the_move_and_from_it_too(phase: SequencePhase) 
     there = dict(run.motion)
     run.run(5)
     assert (run.motion, run.sequence.phase) == (there, phase)
-    assert run.guard.note == "paused. Press p or Enter to go on, q to end."
+    assert run.guard.note == "paused. Press p or Enter to continue, q to end."
     assert run.guard.reason == ""
     run.press(PAUSE)
     while not run.over:
@@ -311,7 +312,7 @@ def test_a_pad_stops_what_the_keys_began_and_says_so() -> None:
     run.until(SequencePhase.PLAYING)
     run.pad.press(STOP)
     run.tick()
-    assert run.said == ["STOP by pad. A camera that records goes on recording."]
+    assert run.said == ["STOP by pad. A recording camera keeps recording."]
     assert run.guard.stopped_by == "pad"
 
 
@@ -335,7 +336,7 @@ def test_an_input_whose_stop_is_lost_pauses_the_run(phase: SequencePhase) -> Non
     there = dict(run.motion)
     run.run(3)
     assert (run.motion, run.rests) == (there, True)
-    assert run.said == ["pad: unplugged: its STOP is lost, so the run pauses"]
+    assert run.said == ["pad: unplugged: STOP lost, the run pauses"]
     run.press(PAUSE)
     run.pad.stop = ""
     run.tick()

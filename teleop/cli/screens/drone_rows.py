@@ -48,7 +48,7 @@ def summary(state: DroneState) -> str:
 
 
 def _say(word: str | None) -> str:
-    return "says nothing" if word is None else word
+    return "unknown" if word is None else word
 
 
 def _bit(on: bool | None) -> str:

@@ -65,7 +65,7 @@ def banner(status: OperatorStatus, motion: Motion, now: float, width: int) -> Te
         return Text(" MANUAL CONTROL OFF. Press e to enable.".ljust(width), "black on yellow")
     if status.recall:
         left = max(0.0, status.recall_end - now)
-        return Text(f" {status.recall} in {left:.1f} s; a stick ends it".ljust(width), "black on cyan")
+        return Text(f" {status.recall} in {left:.1f} s; move a stick to cancel".ljust(width), "black on cyan")
     return Text()
 
 
@@ -74,11 +74,11 @@ def state_rows(status: OperatorStatus, links: Sequence[Text]) -> list[Text]:
     jog = f"   jog {JOG:g} deg (shift {COARSE * JOG:g}, ctrl {FINE * JOG:g})"
     rows = [labelled("speed", _ranges(status).append(jog, "dim"))]
     rows += [labelled("inputs" if index == 0 else "", _hand(hand)) for index, hand in enumerate(status.hands)]
-    camera = Text("● recording", "bold red") if status.recording else Text("○ not told to record", "dim")
-    rows.append(labelled("camera", camera.append("   follow ", "dim").append(status.follow or "not set here")))
+    camera = Text("● recording", "bold red") if status.recording else Text("○ not recording", "dim")
+    rows.append(labelled("camera", camera.append("   follow ", "dim").append(status.follow or "not set")))
     rows += [labelled("link", link) for link in links]
     names = [f"{number} {name}".strip() for number, name in status.presets.items()]
-    presets = Text("   ".join(names)) if names else Text("none yet: s and a digit stores one", "dim")
+    presets = Text("   ".join(names)) if names else Text("none: press s and a digit to store one", "dim")
     return [*rows, labelled("presets", presets)]
 
 
@@ -112,10 +112,10 @@ def said(message: Message, now: float) -> Text:
 
 def key_rows(question: str, keys: bool, width: int = 80, rows: int = 2) -> list[Text]:
     if not keys:
-        return [Text(" no keys here: Ctrl-C ends the run", "dim")]
+        return [Text(" no keyboard: press Ctrl-C to end the run", "dim")]
     if question:
         spelling = question.startswith(SPELLING)
-        return [Text(f" {question}", "bold cyan"), Text("" if spelling else " any other key takes it back", "dim")]
+        return [Text(f" {question}", "bold cyan"), Text("" if spelling else " any other key cancels", "dim")]
     return hint_rows(HINTS, width, rows)
 
 

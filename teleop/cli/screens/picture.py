@@ -96,7 +96,7 @@ class Picture:
         try:
             rows = self.draw(width, height).fitted(width, height)
         except Exception as error:  # noqa: BLE001 - a broken picture is no reason to stop anything
-            rows = Rows(Text(f"cannot draw the view ({type(error).__name__}: {error}); the run goes on", "red"))
+            rows = Rows(Text(f"cannot draw the view ({type(error).__name__}: {error}); the run continues", "red"))
             rows = rows.fitted(width, height)
         if not self.console.encoding.lower().startswith("utf"):
             rows = [_in_ascii(row) for row in rows]

@@ -10,11 +10,11 @@ from rich.text import Text
 
 from teleop.cli.timelapse_summary import clock
 from teleop.core.run_status import Hint, RunStatus, StopState
+from teleop.manual.stop_guard import STOPPED, STOPPING
 
 BAR = 30  # cells of the bar of how far it is, at most
 LABEL = 9
-STOPPED = "STOPPED. Press c to clear."
-PAUSED = "PAUSED. Press p to go on."
+PAUSED = "PAUSED. Press p to continue."
 RUN_HINTS = (Hint("space", "STOP"), Hint("p", "pause"), Hint("q", "end"))
 NO_KEYS = (Hint("Ctrl-C", "ends the run"),)
 
@@ -36,7 +36,7 @@ def title_row(command: str, title: str, recording: bool | None, take: str, width
 def stop_row(stop: StopState, then: str, width: int) -> Text:
     """A latched STOP, and `then` how to go on from it; empty while there is none."""
     if stop == "stopping":
-        return Text(" stopping: the axes slow down to rest".ljust(width), "bold white on red")
+        return Text(f" {STOPPING}".ljust(width), "bold white on red")
     return Text(f" {then}".ljust(width), "bold white on red") if stop else Text()
 
 

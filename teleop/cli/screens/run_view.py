@@ -132,7 +132,7 @@ def timed(begin: Callable[[], float], duration: float, phase: str) -> Callable[[
     def status(now: float) -> RunStatus:
         elapsed = now - begin()
         if not math.isfinite(elapsed) or elapsed < 0:
-            return RunStatus("about to begin", None, duration, duration if math.isfinite(duration) else None)
+            return RunStatus("starting", None, duration, duration if math.isfinite(duration) else None)
         done = min(elapsed, duration)
         return RunStatus(phase, done, duration, duration - done if math.isfinite(duration) else None)
 

@@ -21,9 +21,9 @@ from teleop.core.run_status import Hint, RunStatus
 from teleop.timelapse.progress import Progress
 
 EVERY = 60.0  # s between two lines, at most, while frames are shot
-ENDS = Hint("Ctrl-C", "end, --resume goes on")
+ENDS = Hint("Ctrl-C", "end; continue with --resume")
 HINTS = (Hint("space", "STOP"), Hint("p", "pause between frames"), Hint("q", "end"), ENDS)
-RESUMES = (Hint("space", "STOP"), Hint("p", "go on"), Hint("q", "end"), ENDS)
+RESUMES = (Hint("space", "STOP"), Hint("p", "continue"), Hint("q", "end"), ENDS)
 
 
 class ShootView(RunView):

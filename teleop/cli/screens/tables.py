@@ -39,7 +39,9 @@ def print_table(
         table.add_row(*(Text(row[index]) for index in kept))
     console.print(table)
     if missing := [heading for index, heading in enumerate(headings) if index not in kept]:
-        console.print(Text(f"no room for: {', '.join(missing)}", "dim"), no_wrap=True, overflow="ellipsis", crop=True)
+        console.print(
+            Text(f"columns left out: {', '.join(missing)}", "dim"), no_wrap=True, overflow="ellipsis", crop=True
+        )
 
 
 def _width(widths: Sequence[int]) -> int:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from teleop.recording.writer import Recorder
 
-FAILS = "TAKE FAILS"
+FAILS = "TAKE FAILED"
 
 
 def take_words(recorder: Recorder | None) -> Callable[[], str]:

@@ -88,9 +88,7 @@ class HidInput:
             last_words = self._plugged and self._look(self._plugged, now)
             self._plugged, self._judged, self._misnamed = plugged, set(), self._enable_trouble(plugged)
             if plugged is not None and plugged.missing and not plugged.chosen.guessed:
-                notes.append(
-                    f"{self.name}: it has no {', '.join(plugged.missing)}; what is mapped to that does nothing"
-                )
+                notes.append(f"{self.name}: no control {', '.join(plugged.missing)}: its mapping is ignored")
             if last_words and last_words.presses:  # a stop on the way out still is one
                 return Held(presses=last_words.presses, enabled=self._off, trouble=self._absent, notes=notes)
         if plugged is None:
@@ -112,9 +110,9 @@ class HidInput:
         if not stops:
             return None
         if stops <= set(plugged.missing):
-            return f"{self.name}: it has no {', '.join(sorted(stops))}"
+            return f"{self.name}: no control {', '.join(sorted(stops))}"
         if not plugged.on_change and now - state.last > SILENT:
-            return f"{self.name}: has not reported for {SILENT:g} s"
+            return f"{self.name}: no report for {SILENT:g} s"
         return ""
 
     @property
@@ -148,13 +146,13 @@ class HidInput:
             return self._misnamed
         deflected = bool(held.dial) or any(held.deflections.values())
         if not plugged.mapped.names & state.values.keys():
-            return "has not reported yet"
+            return "no report yet"
         if plugged.mapped.finding:
-            return "is finding its centre: let it go"
+            return "finding its center: release the sticks"
         if now - state.last > SILENT and (deflected or not plugged.on_change):
-            return f"has not reported for {SILENT:g} s"
+            return f"no report for {SILENT:g} s"
         if deflected and now - state.differed > plugged.chosen.frozen:
-            return f"has reported the very same for {plugged.chosen.frozen:g} s"
+            return f"reports unchanged for {plugged.chosen.frozen:g} s"
         return ""
 
     def _judge(self, plugged: Plugged) -> Iterator[str]:
@@ -163,9 +161,9 @@ class HidInput:
         self._judged |= found
         names = ", ".join(sorted(found))
         if own := ", ".join(sorted(found & self._section.controls.keys())):
-            yield f"{self.name}: {own} was not in its middle; a trigger or a throttle wants rest: low or high"
+            yield f"{self.name}: {own} was not centered; a trigger or a throttle needs rest: low or high"
         elif plugged.chosen.guessed and found & {"X", "Y"}:
-            yield f"{self.name}: {names} was not in its middle and is left out; let it go and plug it in again"
+            yield f"{self.name}: {names} was not centered and is ignored; release it and plug the device in again"
 
 
 def _run_controls(controls: Mapping[str, ControlSection]) -> dict[str, ControlSection]:

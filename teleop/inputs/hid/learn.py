@@ -55,37 +55,40 @@ class Question(NamedTuple):
 
 
 _AXES: Mapping[Axis, tuple[str, str]] = {
-    Axis.PAN: ("pan to the right", "pan to the left"),
+    Axis.PAN: ("pan right", "pan left"),
     Axis.TILT: ("tilt up", "tilt down"),
-    Axis.ROLL: ("roll clockwise", "roll the other way"),
+    Axis.ROLL: ("roll clockwise", "roll counterclockwise"),
     Axis.FOCUS: ("focus farther", "focus nearer"),
 }
 _PRESSES: Sequence[tuple[str, Command, int | None]] = (
-    ("stop everything", Command.STOP, None),
-    ("go on after a stop", Command.CLEAR, None),
+    ("STOP", Command.STOP, None),
+    ("clear STOP", Command.CLEAR, None),
     ("record", Command.RECORD, None),
-    ("release the shutter", Command.SHUTTER, None),
-    ("recentre", Command.RECENTER, None),
-    ("be slower", Command.SLOWER, None),
-    ("be faster", Command.FASTER, None),
-    *((f"recall preset {number} (held: store it)", Command.RECALL, number) for number in (1, 2, 3, 4)),
+    ("shutter", Command.SHUTTER, None),
+    ("recenter", Command.RECENTER, None),
+    ("slower", Command.SLOWER, None),
+    ("faster", Command.FASTER, None),
+    *((f"recall preset {number} (hold: store it)", Command.RECALL, number) for number in (1, 2, 3, 4)),
 )
 
 
 def questions(axes: Iterable[Axis]) -> Sequence[Question]:
     """What is asked of somebody with a rig that has these axes, in this order."""
     asked = [
-        Question(f"Move what is to {_AXES[axis][0] if axis in _AXES else f'raise {axis}'}", axis=axis) for axis in axes
+        Question(f"Move the control for: {_AXES[axis][0] if axis in _AXES else f'{axis} up'}", axis=axis)
+        for axis in axes
     ]
-    presses = [Question(f"Press what is to {text}", press=press, number=number) for text, press, number in _PRESSES]
-    return [*asked, *presses, Question("Press what is to be held while anything may move", enable=True)]
+    presses = [
+        Question(f"Press the control for: {text}", press=press, number=number) for text, press, number in _PRESSES
+    ]
+    return [*asked, *presses, Question("Press the enable button, which must be held to move anything", enable=True)]
 
 
 def other_way(question: Question) -> Question:
     """What is asked when a control moves its axis one way only."""
     axis = question.axis
-    text = _AXES[axis][1] if axis is not None and axis in _AXES else f"lower {axis}"
-    return question._replace(text=f"Move what is to {text}")
+    text = _AXES[axis][1] if axis is not None and axis in _AXES else f"{axis} down"
+    return question._replace(text=f"Move the control for: {text}")
 
 
 class Watch:

@@ -148,7 +148,7 @@ class HidReader:
         try:
             device = self._backend.open(info.path)
         except OSError as error:
-            self._refusal = f"{described(info)} cannot be opened ({error}): is there a udev rule? teleop doctor"
+            self._refusal = f"{described(info)} cannot be opened ({error}): check its udev rule: teleop doctor"
             return False
         try:
             state = HidState(parse_descriptor(device.get_report_descriptor()))
@@ -163,9 +163,7 @@ class HidReader:
         except OSError as error:  # unplugged, unless it was never there
             if self.plugged is None:
                 self._broken = True
-                self._refusal = (
-                    f"{described(info)} opens, but cannot be read ({error}): unplug it, and plug it in again"
-                )
+                self._refusal = f"{described(info)} opens, but cannot be read ({error}): unplug it and plug it in again"
             return self.plugged is not None
         finally:
             self.plugged = None

@@ -86,7 +86,7 @@ def test_the_help_has_every_key_on_the_smallest_terminal(
     shown = screen(replace(STATUS, hands=STATUS.hands[:hands]), monkeypatch, keyboard=Keyboard(-1, reader))
     text = "\n".join(shown)
     assert [word for key in HELP for word in key if word not in text] == []
-    assert ("follow how?" in text) == (typed == "?f")
+    assert ("follow mode?" in text) == (typed == "?f")
     assert len(shown) <= 24
     assert "-45.00" in text, "where the axes are is never hidden"
 
@@ -95,7 +95,7 @@ def test_it_shows_each_thing_that_an_operator_asks_for(monkeypatch: pytest.Monke
     text = "\n".join(screen(STATUS, monkeypatch))
     for each in (
         "Simulated rig", "-45.00", "-44.50", "-0.50", "██│", "+146.00", "+0.250", "[35%]", "Xbox pad  moves pan",
-        "dial  hold its enable button", "old stick: unplugged", "not told to record", "follow lock", "gimbal",
+        "dial  hold its enable button", "old stick: unplugged", "not recording", "follow lock", "gimbal",
         "jog 1 deg (shift 10, ctrl 0.1)", "1 wide   3",
         "7 s ago  old stick: unplugged: tilt stopped", "Ctrl-C",
     ):  # fmt: skip
@@ -139,11 +139,11 @@ def test_a_link_that_has_gone_silent_and_lost_replies_are_seen() -> None:
 
 
 def test_recording_a_failing_take_and_a_question_are_shown() -> None:
-    title = title_row("rig", 75.0, replace(STATUS, recording=True), "TAKE FAILS", 80).plain
+    title = title_row("rig", 75.0, replace(STATUS, recording=True), "TAKE FAILED", 80).plain
     assert "● REC" in title
-    assert "TAKE FAILS" in title
+    assert "TAKE FAILED" in title
     assert title.rstrip().endswith("01:15")
-    assert key_rows("store as which preset? 0-9", True)[0].plain.strip() == "store as which preset? 0-9"
+    assert key_rows("store which preset? 0-9", True)[0].plain.strip() == "store which preset? 0-9"
     assert all(len(row.plain) <= 80 for row in [*help_rows(), *key_rows("", True), *state_rows(STATUS, [])])
 
 

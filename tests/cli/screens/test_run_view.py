@@ -146,7 +146,7 @@ def test_a_stop_is_said_to_be_one_only_once_the_axes_rest() -> None:
     assert "STOPPED" not in seen(view)
     status = replace(status, stop="stopped")
     view.write(replace(TICK, time=13.0, motion=RESTING))
-    assert "STOPPED. Press c to clear." in seen(view)
+    assert "STOPPED. Press c to clear, q to end." in seen(view)
 
 
 def test_a_run_that_is_ended_in_mid_move_is_stopping_and_then_stopped(capsys: pytest.CaptureFixture[str]) -> None:
@@ -179,7 +179,7 @@ def test_a_picture_that_cannot_be_made_is_a_line_and_stops_nothing(monkeypatch: 
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setenv("LINES", "24")
     text = Picture(broken).text().plain
-    assert text.splitlines()[0].rstrip() == "cannot draw the view (ZeroDivisionError: 80x24); the run goes on"
+    assert text.splitlines()[0].rstrip() == "cannot draw the view (ZeroDivisionError: 80x24); the run continues"
 
 
 def test_a_folder_that_is_gone_ends_no_shoot(tmp_path: Path) -> None:

@@ -68,7 +68,7 @@ class Hand:
     def settle(self, device: FakeDevice, *reports: bytes) -> None:
         """Plugged in, at rest, its centres found; a device that was asked to reports all the time then does."""
         device.told(*reports or (REST,))
-        self.until_trouble("is finding its centre: let it go")
+        self.until_trouble("finding its center: release the sticks")
         self.time.now += 0.3
         device.told(STICKY, REST)
         self.until(lambda held: held.trouble == "" and held.deflections == CENTRED)
@@ -93,7 +93,7 @@ def pan(held: Held) -> float | None:
 def test_any_joystick_is_found_and_moves_the_axes() -> None:
     pad = f310()
     with in_hand(FakeBackend(pad)) as hand:
-        hand.until_trouble("has not reported yet")
+        hand.until_trouble("no report yet")
         hand.settle(pad)
         pad.told(RIGHT)
         hand.until(lambda held: pan(held) == 1)
@@ -123,7 +123,7 @@ def test_unplugged_in_mid_pan_it_says_so_and_when_it_is_back_its_centre_is_found
         again = f310(serial="A", path=b"/dev/hidraw7")
         backend.plug(again)
         again.told(RIGHT)
-        hand.until_trouble("is finding its centre: let it go")
+        hand.until_trouble("finding its center: release the sticks")
         hand.time.now += 0.3
         again.told(RIGHT)
         hand.until(lambda held: pan(held) == 1)
@@ -153,7 +153,7 @@ def test_a_spare_of_another_model_that_is_plugged_in_afterwards_takes_its_place_
         wait_until(lambda: backend.looks > looks + 3)
         backend.plug(spare)
         spare.told(RIGHT)
-        hand.until_trouble("Spare: is finding its centre: let it go")
+        hand.until_trouble("Spare: finding its center: release the sticks")
         hand.settle(spare)
         assert hand.read().enabled is False
         spare.told(RIGHT)
@@ -198,7 +198,7 @@ def test_a_device_that_reports_all_the_time_and_stops_is_silent_after_200_ms() -
         hand.time.now += 0.19
         assert hand.read().trouble == ""
         hand.time.now += 0.02
-        hand.until_trouble("Logitech Dual Action: has not reported for 0.2 s")
+        hand.until_trouble("Logitech Dual Action: no report for 0.2 s")
         pad.told(REST)
         hand.until(lambda held: held.trouble == "")
 
@@ -218,10 +218,10 @@ def test_one_that_is_held_over_and_does_not_answer_is_silent() -> None:
         pad.told(RIGHT)
         hand.until(lambda held: pan(held) == 1)
         hand.time.now += 0.21
-        hand.until_trouble("has not reported for 0.2 s")
+        hand.until_trouble("no report for 0.2 s")
         wait_until(lambda: pad.asked)
         hand.time.now += 10
-        hand.until_trouble("has not reported for 0.2 s")
+        hand.until_trouble("no report for 0.2 s")
         assert len(pad.asked) == 1
 
 
@@ -230,7 +230,7 @@ def test_one_that_is_held_over_and_answers_is_alive(reports: str) -> None:
     answer = [REST]
     pad = f310(answers=lambda _number: answer[0])
     with in_hand(FakeBackend(pad), {"reports": reports}) as hand:
-        hand.until_trouble("is finding its centre: let it go")
+        hand.until_trouble("finding its center: release the sticks")
         hand.time.now += 0.3
         hand.until(lambda held: held.deflections == CENTRED)
         answer[0] = RIGHT
@@ -248,7 +248,7 @@ def test_one_that_is_said_to_report_all_the_time_is_not_asked() -> None:
     with in_hand(FakeBackend(pad), {"reports": "continuous"}) as hand:
         hand.settle(pad)
         hand.time.now += 0.21
-        hand.until_trouble("has not reported for 0.2 s")
+        hand.until_trouble("no report for 0.2 s")
         assert pad.asked == []
 
 
@@ -270,7 +270,7 @@ def test_the_very_same_report_for_ten_seconds_is_a_frozen_device_while_it_is_def
             hand.until(lambda held: pan(held) == 1)
         hand.time.now += 0.15
         pad.told(RIGHT)
-        hand.until_trouble("Logitech Dual Action: has reported the very same for 10 s")
+        hand.until_trouble("Logitech Dual Action: reports unchanged for 10 s")
         pad.told(bytes.fromhex("fe7f7f7f08000000"))
         hand.until(lambda held: held.trouble == "")
 
@@ -279,7 +279,7 @@ def test_a_stop_counts_even_of_a_device_that_is_not_trusted() -> None:
     pad = f310()
     with in_hand(FakeBackend(pad), {"reports": "continuous"}) as hand:
         pad.told(REST, STOP)
-        hand.until_trouble("is finding its centre: let it go")
+        hand.until_trouble("finding its center: release the sticks")
         hand.until(lambda _held: hand.presses)
         assert hand.presses == [Press(Command.STOP)]
 
@@ -288,12 +288,12 @@ def test_a_stick_that_is_held_while_a_mapping_is_guessed_is_left_out_and_said() 
     pad = f310(ids=(0x1111, 0x2222))
     with in_hand(FakeBackend(pad)) as hand:
         pad.told(RIGHT)
-        hand.until_trouble("is finding its centre: let it go")
+        hand.until_trouble("finding its center: release the sticks")
         hand.time.now += 0.3
         hand.until(lambda held: held.trouble == "")
         assert pan(hand.read()) is None
         assert hand.notes == [
-            "Logitech Dual Action: X was not in its middle and is left out; let it go and plug it in again"
+            "Logitech Dual Action: X was not centered and is ignored; release it and plug the device in again"
         ]
 
 
@@ -303,7 +303,7 @@ def test_a_pads_two_right_sticks_are_told_from_triggers_by_where_they_rest() -> 
     pad = FakeDevice(bytes.fromhex(ds4["descriptor"]), (0x1111, 0x2222))
     with in_hand(FakeBackend(pad)) as hand:
         pad.told(rest)
-        hand.until_trouble("is finding its centre: let it go")
+        hand.until_trouble("finding its center: release the sticks")
         hand.time.now += 0.3
         assert hand.until(lambda held: held.trouble == "").deflections == CENTRED
         pad.told(bytes.fromhex("0180808000080000" + "ff80" + "00" * 54))
@@ -321,17 +321,17 @@ def test_what_is_mapped_to_a_control_that_is_not_there_is_said_once() -> None:
     }
     with in_hand(FakeBackend(pad), section) as hand:
         pad.told(REST)
-        hand.until_trouble("is finding its centre: let it go")
+        hand.until_trouble("finding its center: release the sticks")
         hand.time.now += 0.3
         hand.until(lambda held: held.deflections == {Axis.TILT: 0})
-        assert hand.notes == ["Pan bars: it has no Slider; what is mapped to that does nothing"]
+        assert hand.notes == ["Pan bars: no control Slider: its mapping is ignored"]
 
 
 def test_a_device_that_may_not_be_opened_is_said_until_it_may() -> None:
     pad = f310()
     pad.may_be_opened = False
     with in_hand(FakeBackend(pad)) as hand:
-        hand.until_trouble("Logitech Dual Action cannot be opened (open failed): is there a udev rule? teleop doctor")
+        hand.until_trouble("Logitech Dual Action cannot be opened (open failed): check its udev rule: teleop doctor")
         pad.may_be_opened = True
         hand.settle(pad)
 
@@ -355,7 +355,7 @@ def test_keyboards_are_taken_only_by_their_ids() -> None:
         hand.until_trouble("not plugged in", 1)
         assert keyboard.opened == 0
     with in_hand(backend, {"device": {"vendor": 1, "product": 2}}) as hand:
-        hand.until_trouble("has not reported yet")
+        hand.until_trouble("no report yet")
 
 
 def test_a_backend_that_cannot_say_what_a_device_is_for_offers_only_known_ones() -> None:
@@ -379,7 +379,7 @@ def test_two_inputs_do_not_share_a_device_and_the_first_has_the_choice() -> None
         wait_until(lambda: other.opened)
         assert (one.opened, other.opened) == (1, 1)
         for index in (0, 1):
-            hand.until_trouble("Logitech Dual Action: has not reported yet", index)
+            hand.until_trouble("Logitech Dual Action: no report yet", index)
 
 
 def test_an_enable_button_is_off_when_nothing_is_known() -> None:
@@ -455,9 +455,9 @@ def test_a_trigger_that_the_profile_takes_for_a_stick_is_said() -> None:
     pad = f310()
     with in_hand(FakeBackend(pad), {"controls": {"X": {"axis": "focus"}}}) as hand:
         pad.told(bytes.fromhex("007f7f7f08000000"))
-        hand.until_trouble("is finding its centre: let it go")
+        hand.until_trouble("finding its center: release the sticks")
         hand.time.now += 0.3
         hand.until(lambda _held: hand.notes)
         assert hand.notes == [
-            "Logitech Dual Action: X was not in its middle; a trigger or a throttle wants rest: low or high"
+            "Logitech Dual Action: X was not centered; a trigger or a throttle needs rest: low or high"
         ]

@@ -89,8 +89,8 @@ def test_everything_is_still_when_nothing_moves_and_no_button_is_held() -> None:
 def test_the_rigs_axes_are_asked_for_and_a_way_back_where_one_is_needed() -> None:
     asked = questions([Axis.PAN, Axis.FOCUS])
     assert [question.axis for question in asked if question.axis] == [Axis.PAN, Axis.FOCUS]
-    assert asked[0].text == "Move what is to pan to the right"
-    assert other_way(asked[1]).text == "Move what is to focus nearer"
+    assert asked[0].text == "Move the control for: pan right"
+    assert other_way(asked[1]).text == "Move the control for: focus nearer"
     assert {question.press for question in asked} >= {Command.STOP, Command.CLEAR, Command.RECALL}
     assert asked[-1].enable
 

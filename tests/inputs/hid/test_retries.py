@@ -53,7 +53,7 @@ def test_a_device_that_cannot_be_read_is_opened_a_few_times_a_minute(monkeypatch
     assert min(pause.waits) >= LOOK_EVERY
     assert max(pause.waits) == LOOKS_APART * LOOK_EVERY
     assert reader.refused == (
-        "Pad opens, but cannot be read ([Errno 5] Input/output error): unplug it, and plug it in again"
+        "Pad opens, but cannot be read ([Errno 5] Input/output error): unplug it and plug it in again"
     )
     assert reader.last is None, "it was never there"
 
