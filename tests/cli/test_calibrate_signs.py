@@ -16,6 +16,7 @@ from teleop.config.sinks_section import GimbalSection
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.message import Message
 from teleop.sim.gimbal.device import SimulatedGimbal
+from teleop.sim.gimbal.firmware import DOCUMENTED
 
 PROFILE = """\
 name: Signs
@@ -36,7 +37,7 @@ class Turned(SimulatedGimbal):
     last: Turned
 
     def __init__(self, speed: tuple[int, int, int], report: tuple[int, int, int], **settings: Any) -> None:
-        super().__init__(boot=BOOT, **settings)
+        super().__init__(**{**settings, "boot": BOOT, "firmware": DOCUMENTED})  # whatever the profile claims
         Turned.last = self
         self.farthest = 0.0
         handlers = dict(self._handlers)
