@@ -15,7 +15,7 @@ from contextlib import ExitStack
 
 from teleop.app.program import Job, ProgramSource
 from teleop.config.profile import Profile
-from teleop.core.axes import STICKS, Axis
+from teleop.core.axes import Axis
 from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import DeviceError, TeleopError
@@ -32,7 +32,7 @@ class Session:
 
     def __init__(self, profile: Profile, virtual: bool) -> None:
         self.profile = profile
-        self.axes = [axis for axis in profile.axes if axis not in STICKS]
+        self.axes = [axis for axis in profile.axes if not axis.is_stick]
         self.program = ProgramSource()
         self._virtual = virtual
         self._turning = threading.RLock()  # on the virtual clock, the thread that turns the loop

@@ -22,7 +22,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
-from teleop.core.axes import STICKS, Axis, Limits, Motion, Reading, State
+from teleop.core.axes import Axis, Limits, Motion, Reading, State
 from teleop.core.errors import DeviceError, Interrupted, LeaveAtOnce, TeleopError
 from teleop.core.events import Tick, TickEvent
 from teleop.core.guard_stop import stop_phases, stop_state
@@ -163,7 +163,7 @@ class ControlLoop:
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (RunState.RUNNING, RunState.STOPPING):
             self._fault(StallError(f"the computer stalled for {late:.2f} s"))
-            measured = {axis: state for axis, state in self._motion.items() if axis not in STICKS}
+            measured = {axis: state for axis, state in self._motion.items() if not axis.is_stick}
             self._lost = StallRecovery(measured, self._time(self._ticks))
             return self._time(self._ticks), 1
         return self._time(self._ticks), 1 if self._resting else elapsed

@@ -60,7 +60,7 @@ class SequenceSource:
     ) -> None:
         self.staging = staging or Cycle(performance.preroll, back_to_one=performance.back_to_one)
         self.duration = performance.duration
-        self.flies = any(axis.value.startswith("stick_") for axis in performance.move.tracks)
+        self.flies = any(axis.is_stick for axis in performance.move.tracks)
         self._move = performance.move
         self._limits = {axis: limits[axis] for axis in self._move.tracks}
         self._key_times = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})
