@@ -12,9 +12,9 @@ from contextlib import ExitStack
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import MOVES
 from teleop.core.axes import Axis
-from teleop.core.control_loop import FIRST_REPORT, PERIOD
 from teleop.core.errors import DeviceError, LinkError, TeleopError
 from teleop.core.interfaces import Clock
+from teleop.core.timing import FIRST_REPORT, PERIOD
 from teleop.devices.gimbal.position import Angles
 from teleop.devices.rig import DRONE_FIRST_REPORT, Device, Rig, open_rig
 

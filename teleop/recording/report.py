@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
-from teleop.core.control_loop import PERIOD
+from teleop.core.timing import PERIOD
 from teleop.monitors.delay_estimate import EARLIEST, LATEST, estimate
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take

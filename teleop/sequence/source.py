@@ -14,11 +14,11 @@ from concurrent.futures import Executor
 from enum import Enum, auto
 
 from teleop.core.axes import Axis, Limits, Motion, State
-from teleop.core.control_loop import KEEP_ALIVE
 from teleop.core.errors import DeviceError
 from teleop.core.events import Action, DeviceCommand, TickEvent
 from teleop.core.run_status import NextCue, NextKey, RunStatus
 from teleop.core.setpoints import Demand, StateTarget
+from teleop.core.timing import KEEP_ALIVE
 from teleop.planner.rest_to_rest import ease
 from teleop.planner.trajectory import Move
 from teleop.sequence.compile import CompiledSequence
