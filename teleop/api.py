@@ -28,7 +28,7 @@ from teleop.app.program import BusyError, EventJob, JogJob, MoveJob, SourceJob, 
 from teleop.app.session import Session, shortest_seconds
 from teleop.config.document import DocumentError, UnplayableError
 from teleop.config.profile import Profile, load_profile
-from teleop.core.axes import STICKS, Axis, State
+from teleop.core.axes import Axis, State
 from teleop.core.errors import DeviceError, LinkError, TeleopError, UsageError
 from teleop.core.events import Action
 from teleop.core.run_state import Result
@@ -328,7 +328,7 @@ class Rig:
             raise UsageError(f"{call}: every axis needs a number") from None
 
     def _refuse(self, compiled: CompiledSequence) -> None:
-        if flown := [axis for axis in compiled.move.tracks if axis in STICKS]:
+        if flown := [axis for axis in compiled.move.tracks if axis.is_stick]:
             raise UsageError(f"play: {', '.join(flown)} fly a drone, which needs an operator: use `teleop play`")
         if missing := [axis for axis in compiled.move.tracks if axis not in self._session.axes]:
             raise UnplayableError([f"{compiled.title}: {self.name} has no axis {', '.join(missing)}"])

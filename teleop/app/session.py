@@ -44,6 +44,7 @@ class Session:
         self.axes = [axis for axis in profile.axes if axis not in STICKS]
         if not self.axes:
             raise UsageError(f"{profile.name} has no axis that a program can move: a drone needs an operator")
+        self.axes = [axis for axis in profile.axes if not axis.is_stick]
         self.program = ProgramSource()
         self._turning = threading.RLock()  # on the virtual clock, the thread that turns the loop
         self._closing = threading.Lock()

@@ -19,9 +19,10 @@ from teleop.config.profile import Profile
 from teleop.config.sinks_section import Angle, GimbalSection
 from teleop.config.wiring import Wiring
 from teleop.core.axes import Axis
-from teleop.core.control_loop import PERIOD, ControlLoop
+from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import UsageError
 from teleop.core.run_state import Result
+from teleop.core.timing import PERIOD
 from teleop.devices.gimbal.position import Angles
 from teleop.devices.rig import open_rig
 from teleop.planner.live import Live

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.screens.run_view import UNITS
 from teleop.core.errors import TeleopError, UsageError
 
 if TYPE_CHECKING:
@@ -81,7 +80,7 @@ class TrimReport:
 
     def print(self) -> None:
         offsets = self._trimming.offsets.items()
-        words = [f"{axis} {o.position + 0.0:+.3f} {UNITS.get(axis, '')}".rstrip() for axis, o in offsets]
+        words = [f"{axis} {o.position + 0.0:+.3f} {axis.unit}".rstrip() for axis, o in offsets]
         file = self._finished()
         print(f"trim: {', '.join(words)}{f'; written to {file}' if file else ''}")
         if self.failure:

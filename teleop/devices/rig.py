@@ -24,9 +24,10 @@ from teleop.config.sinks_section import (
     VirtualRcSection,
 )
 from teleop.core.axes import Axis, Limits
-from teleop.core.control_loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, ControlLoop
+from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import LinkError, TeleopError
 from teleop.core.interfaces import Clock, Reporter, Sink, Source
+from teleop.core.timing import FIRST_REPORT, KEEP_ALIVE, PERIOD
 from teleop.devices.camera import CameraSink
 from teleop.devices.connection import Connection
 from teleop.devices.drone.control_mode import ControlMode

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from teleop.config.inputs_section import DRONE
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
-from teleop.core.axes import STICKS, Axis, Limits, Motion
+from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.events import Action, DeviceCommand, DialInput, Tick, TickEvent
 from teleop.core.interfaces import Source
 from teleop.core.operator_input import Command, Input, Press
@@ -145,7 +145,7 @@ class Operator:
 
     @property
     def _moving(self) -> bool:
-        moved = (state for axis, state in self._motion.items() if axis not in STICKS)
+        moved = (state for axis, state in self._motion.items() if not axis.is_stick)
         return any(state.velocity or state.acceleration for state in moved)
 
     def _stop(self, hand: Interlock, _press: Press) -> None:
@@ -181,7 +181,7 @@ class Operator:
         if preset is None:
             self.say(f"there is no preset {press.number} yet")
             return
-        known = {axis: to for axis, to in preset.positions.items() if axis in self._limits and axis not in STICKS}
+        known = {axis: to for axis, to in preset.positions.items() if axis in self._limits and not axis.is_stick}
         self._send(hand, f"preset {press.number}", known)
 
     def _recenter(self, hand: Interlock, _press: Press) -> None:
@@ -190,7 +190,7 @@ class Operator:
     def _send(self, hand: Interlock, title: str, positions: Mapping[Axis, float]) -> None:
         """Begin to take the axes somewhere, if the hand that asks may."""
         held = [each.said.deflections for each in self._hands if each.trusted]
-        deflected = any(value for said in held for axis, value in said.items() if axis not in STICKS)
+        deflected = any(value for said in held for axis, value in said.items() if not axis.is_stick)
         refusal = "STOP is not cleared" if self._stopped else hand.waits_for
         refusal = refusal or ("let the stick go first" if deflected else "")
         if refusal:
@@ -204,7 +204,7 @@ class Operator:
             self.say(f"{title} in {self._seconds:g} s")
 
     def _store(self, _hand: Interlock, press: Press) -> None:
-        where = {axis: state.position for axis, state in self._motion.items() if axis not in STICKS}
+        where = {axis: state.position for axis, state in self._motion.items() if not axis.is_stick}
         self._presets.store(press.number, where)
         self.say(f"preset {press.number} stored")
 

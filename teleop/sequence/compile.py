@@ -23,7 +23,6 @@ from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.keys import Keys
 from teleop.sequence.model import PREROLL, SequenceModel
 from teleop.sequence.reader import SequenceReader
-from teleop.sequence.rules import STICKS
 from teleop.sequence.timeline import Timed
 
 
@@ -88,7 +87,7 @@ def load_performance(
     warnings = [*script.remarks, *(script.places[remark.last].line(str(remark)) for remark in remarks)]
     if factor > 1:
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
-        if sticks := [axis for axis in move.tracks if axis in STICKS]:
+        if sticks := [axis for axis in move.tracks if axis.is_stick]:
             warnings.append(document.problem(("fit",), f"does so to {', '.join(sticks)} too: the drone flies further"))
     title, preroll = sheet.called(document.name), seconds(sheet.preroll, sheet.fps)
     done = [timed.cue for timed in cues]
@@ -107,7 +106,7 @@ def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
     """A line for each cue that needs rest and has none, with what would be right."""
     places = rests(move)
     for (at, action), needs_rest, place in cues:
-        held = [axis for axis, state in move.at(at).items() if axis in STICKS and abs(state.position) > SAME]
+        held = [axis for axis, state in move.at(at).items() if axis.is_stick and abs(state.position) > SAME]
         if needs_rest and not any(rest.start - SAME <= at <= rest.end + SAME for rest in places):
             yield place.line(f"{path_text(place.location)} {_elsewhere(move, places, at)}")
         elif isinstance(action, Wait) and held:

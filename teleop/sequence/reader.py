@@ -16,9 +16,9 @@ from teleop.config.document import Document, DocumentError, mapping, numbered, s
 from teleop.config.quantities import percentage, seconds
 from teleop.config.resources import find, is_bare
 from teleop.config.yaml_loader import read_document
-from teleop.core.axes import Axis, Limits
+from teleop.core.axes import STICKS, Axis, Limits
 from teleop.sequence.model import SequenceModel
-from teleop.sequence.rules import STICKS, file_rules, rig_rules
+from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import is_timelapse
 from teleop.sequence.timeline import Block, Place, Timeline, finish, joined
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from teleop.config.document import Location, Wrong, mapping, number, numbered, sequence
 from teleop.config.quantities import frame_rate, frames, percentage, seconds
-from teleop.core.axes import Axis, Limits
+from teleop.core.axes import STICKS, Axis, Limits
 from teleop.sequence.cues import cue_rules
 from teleop.sequence.easing import ease_rules
 from teleop.sequence.panorama import panorama_limits, panorama_rules
@@ -17,7 +17,6 @@ from teleop.sequence.timelapse_section import is_timelapse, timelapse_rules
 
 AXES = tuple(axis.value for axis in Axis)
 When = Callable[[Any], float]  # a time as written -> seconds, or output frames
-STICKS = tuple(axis for axis in Axis if axis.value.startswith("stick_"))
 SLOWEST, FASTEST = 0.01, 10.0  # of an included move
 DEVICES = {"camera": "camera", "follow": "gimbal", "send": "gimbal"}  # what performs a cue
 

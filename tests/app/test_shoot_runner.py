@@ -17,12 +17,12 @@ from teleop.app import shoot_runner as shooting
 from teleop.config.profile import ShootingSection, load_profile
 from teleop.core.axes import Axis
 from teleop.core.clock import SystemClock
-from teleop.core.control_loop import PERIOD
 from teleop.core.errors import UsageError
 from teleop.core.events import Tick
 from teleop.core.operator_input import Command as Key
 from teleop.core.operator_input import Press
 from teleop.core.run_state import Result
+from teleop.core.timing import PERIOD
 from teleop.dji.gimbal.camera import CameraCommand, Command
 from teleop.timelapse.compile import load_timelapse
 from teleop.timelapse.journal import Frame, Note
