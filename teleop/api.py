@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -211,7 +211,9 @@ class Rig:
         """The last measured position of every axis, by its name: degrees, and 0..1 for focus."""
         self._session.check()
         tick = self._session.program.tick
-        reported = {} if tick is None else tick.reported
+        if tick is None:
+            return {}
+        reported = tick.reported
         return {axis.value: reported[axis].position for axis in self._session.axes if axis in reported}
 
     def move(self, *, seconds: float | None = None, **axes: float) -> None:
@@ -334,7 +336,7 @@ class Rig:
             raise UnplayableError([f"{compiled.title}: {self.name} has no axis {', '.join(missing)}"])
 
     @contextmanager
-    def _recorded(self, take: str | Path | None, title: str) -> Iterator[Any]:
+    def _recorded(self, take: str | Path | None, title: str) -> Generator[Any]:
         from teleop.recording.writer import recording
 
         limits = {axis: self._session.profile.limits[axis] for axis in self._session.axes}

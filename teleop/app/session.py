@@ -17,7 +17,7 @@ from contextlib import ExitStack
 
 from teleop.app.program import Job, ProgramSource
 from teleop.config.profile import Profile
-from teleop.core.axes import STICKS, Axis, State
+from teleop.core.axes import Axis, State
 from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import DeviceError, Interrupted, TeleopError, UsageError
@@ -41,10 +41,9 @@ class Session:
 
     def __init__(self, profile: Profile, virtual: bool) -> None:
         self.profile = profile
-        self.axes = [axis for axis in profile.axes if axis not in STICKS]
+        self.axes = [axis for axis in profile.axes if not axis.is_stick]
         if not self.axes:
             raise UsageError(f"{profile.name} has no axis that a program can move: a drone needs an operator")
-        self.axes = [axis for axis in profile.axes if not axis.is_stick]
         self.program = ProgramSource()
         self._turning = threading.RLock()  # on the virtual clock, the thread that turns the loop
         self._closing = threading.Lock()
