@@ -53,7 +53,9 @@ class Operator:
         self._motion: Motion = {}
         self._now = -math.inf
         self._range = sticks.start_range - 1
-        self._stopped = self._done = self._recording = False
+        self._stopped = self._done = False
+        self._recording = False  # what the camera was asked for last
+        self._filming = False  # what it has confirmed
         self.reason = ""  # that the run is stopped, for its report if it ends now
         self._hands_on = self._beneath_trusted = True
         self._dial = 0.0
@@ -95,6 +97,16 @@ class Operator:
         """The gimbal has done what it was told in these words."""
         if words.startswith(FOLLOW):
             self._follow = words.removeprefix(FOLLOW)
+
+    def camera_answered(self, action: Action, done: bool) -> None:
+        """The camera has done this, or it did not: it refused, is silent, or there is none."""
+        if action is Action.RECORD:
+            self._filming = done
+            self._recording = self._recording and done
+        elif action is Action.STOP and done:
+            self._filming = False
+        elif action is Action.STOP:
+            self._recording = self._filming  # the next press asks it to stop once more
 
     def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
         seconds, self._now, self._actions = now - self._now, now, []
@@ -258,7 +270,7 @@ class Operator:
             self._hands_on,
             recall.title if recall else "",
             recall.end if recall else 0.0,
-            self._recording,
+            self._filming,
             self._follow,
             self._driving.deflections,
             self._presets.names,
