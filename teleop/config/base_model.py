@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
@@ -25,6 +26,9 @@ class Section(BaseModel):
     """A mapping in a file, as an immutable object."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+    RENAMED: ClassVar[Mapping[str, str]] = {}
+    """Old names of keys, and what they are called now: an old one is refused with its new name."""
 
 
 class PositionsSection(Section):

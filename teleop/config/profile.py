@@ -17,6 +17,7 @@ from pydantic import Field
 from teleop.config.base_model import Finite, Section
 from teleop.config.document import Document, DocumentError, Wrong, mapping, number
 from teleop.config.enable_rules import enable_rules
+from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import InputSection, input_rules
 from teleop.config.operator_settings import PresetsSection, SticksSection
 from teleop.config.resources import find
@@ -125,6 +126,7 @@ def load_profile(name: str, links: Mapping[str, str] | None = None) -> Profile:
     Raises DocumentError with a line for everything wrong with it.
     """
     document = read_document(*find(name, "profiles", "rig"))
+    refuse_other_kind(document, "profile")
     profile = document.check(Profile, _rules(document.data))
     return _with_links(profile, document, links or {})
 

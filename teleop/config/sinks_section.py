@@ -217,14 +217,14 @@ def sink_rules(data: Any) -> Iterator[Wrong]:
         moves = [axis for axis in mapping(sink, "mapping").values() if isinstance(axis, str)] or MOVES[kind]
         moved = [axis for axis in moves if axis in axes]
         if moves and not moved:
-            yield ("sinks", index), f"moves {', '.join(moves)}, and axes has none of them"
+            yield ("sinks", index), f": it drives {', '.join(moves)}, and `axes` has none of them"
         for axis in moved:
             if axis in mover:
-                yield ("sinks", index), f"moves {axis}, and so does sinks[{mover[axis]}]"
+                yield ("sinks", index), f": {axis} is already driven by sinks[{mover[axis]}]"
             mover[axis] = index
     for axis in axes:
         if axis in AXES and axis not in mover:
-            yield ("axes", axis), "has no sink that moves it"
+            yield ("axes", axis), ": no sink drives it"
 
     for axis in STICKS:
         low, high = (number(mapping(axes, axis).get(end)) for end in ("min", "max"))

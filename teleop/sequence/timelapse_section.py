@@ -120,7 +120,7 @@ def _mapping_rules(
     value = section[name]
     for key in value:
         if key not in known:
-            yield ("timelapse", name, key), f"is not known here; there are {' and '.join(known)}"
+            yield ("timelapse", name, key), f": unknown key; the keys are {' and '.join(known)}"
     for key, positive in known.items():
         if key not in value:
             yield ("timelapse", name, key), "is missing"

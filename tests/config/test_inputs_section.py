@@ -77,7 +77,7 @@ def test_a_rig_without_inputs_has_none(tmp_path: Path) -> None:
         (
             "{controls: {X: {axs: pan}}}",
             21,
-            "controls.X.axs is not known here; did you mean axis?",
+            "controls.X: unknown key `axs`; did you mean `axis`?",
         ),
         (
             "{controls: {X: {}}}",

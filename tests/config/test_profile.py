@@ -55,7 +55,7 @@ def test_a_good_profile_gives_the_limits_of_each_axis(tmp_path: Path) -> None:
             "min: null",
             "rig.yaml:6:10: axes.tilt.min and max must both be numbers, or both null for a continuous axis",
         ),
-        ("name: Test rig", "nme: Test rig", "rig.yaml:1:1: nme is not known here; did you mean name?"),
+        ("name: Test rig", "nme: Test rig", "rig.yaml:1:1: unknown key `nme`; did you mean `name`?"),
         (
             "mode: position",
             "mode: warp",
@@ -88,22 +88,22 @@ def test_a_good_profile_gives_the_limits_of_each_axis(tmp_path: Path) -> None:
             "type: [1]",
             "rig.yaml:12:5: sinks[0] type must be one of gimbal, focus, camera, virtual-rc, flight, not '[1]'",
         ),
-        ("  tilt:\n", "  focus:\n", "rig.yaml:6:5: axes.focus has no sink that moves it"),
+        ("  tilt:\n", "  focus:\n", "rig.yaml:6:5: axes.focus: no sink drives it"),
         (
             "  - {type: gimbal,",
             "  - {type: focus, link: gimbal, rate: 50}\n  - {type: gimbal,",
-            "rig.yaml:12:5: sinks[0] moves focus, and axes has none of them",
+            "rig.yaml:12:5: sinks[0]: it drives focus, and `axes` has none of them",
         ),
         (
             "rate: 50",
             "rate: 50, mapping: {pitch: tilt, yaw: tilt}",
-            "rig.yaml:12:5: sinks[0] moves tilt, and so does sinks[0]",
+            "rig.yaml:12:5: sinks[0]: tilt is already driven by sinks[0]",
         ),
-        ("rate: 50", "rate: 50, mapping: {pitch: tilt}", "rig.yaml:4:10: axes.pan has no sink that moves it"),
+        ("rate: 50", "rate: 50, mapping: {pitch: tilt}", "rig.yaml:4:10: axes.pan: no sink drives it"),
         (
             "  - {type: gimbal,",
             "  - {type: gimbal, link: gimbal, mode: speed, rate: 50}\n  - {type: gimbal,",
-            "rig.yaml:13:5: sinks[1] moves pan, and so does sinks[0]",
+            "rig.yaml:13:5: sinks[1]: pan is already driven by sinks[0]",
         ),
     ],
 )
