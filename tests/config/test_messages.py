@@ -59,3 +59,44 @@ def test_a_suggestion_is_a_key_of_the_level_at_hand() -> None:
     assert unknown_key("yaw", ["at", "link"], {}) == "unknown key `yaw`"
     assert unknown_key("speed", ["acceleration", "velocity"], {}) == "unknown key `speed`; did you mean `velocity`?"
     assert unknown_key("old", ["new"], {"old": "new"}) == "`old` is called `new` now"
+
+
+SINKS = "name: R\nlinks: {g: 'sim:', d: 'sim:'}\naxes: {}\nsinks:\n  - "
+OLD_SINKS = [
+    ("{type: gimbal, link: g, mode: position, rate: 50, follow: 5}", "follow", "max_following_error"),
+    ("{type: focus, link: g, rate: 50, follow: 0.1}", "follow", "max_following_error"),
+    ("{type: flight, link: d, mode: tilt, full: {horizontal: 1, vertical: 1, yaw: 1}}", "full", "full_scale"),
+]
+OLD_INPUTS = [
+    ("{frozen: 10}", "frozen", "stuck_timeout"),
+    ("{controls: {X: {axis: pan, reads: absolute}}}", "reads", "value_type"),
+    ("{controls: {X: {axis: pan, centre: 0}}}", "centre", "center"),
+    ("{controls: {Button 1: {press: tell, words: gimbal recenter}}}", "words", "command"),
+    ("{controls: {Hat: {up: {press: tell, words: gimbal recenter}}}}", "words", "command"),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new"),
+    [(SINKS + text, old, new) for text, old, new in OLD_SINKS]
+    + [(SINKS + OLD_SINKS[0][0] + f"\ninputs:\n  - {text}", old, new) for text, old, new in OLD_INPUTS],
+)
+def test_an_old_key_of_a_profile_is_refused_with_its_new_name(tmp_path: Path, text: str, old: str, new: str) -> None:
+    (tmp_path / "rig.yaml").write_text(text + "\n")
+    with pytest.raises(DocumentError) as caught:
+        load_profile(str(tmp_path / "rig.yaml"))
+    about = [problem for problem in caught.value.problems if f"`{new}`" in problem]
+    assert len(about) == 1
+    assert about[0].endswith(f": `{old}` is called `{new}` now")
+    assert not [problem for problem in caught.value.problems if problem.endswith(f"{new} is missing")]
+
+
+def test_an_old_key_of_a_timelapse_is_refused_with_its_new_name(tmp_path: Path) -> None:
+    (tmp_path / "dusk.yaml").write_text(
+        "timelapse: {frames: 3, interval: 5s, exposure: 1, camera_fault: go-on}\nkeyframes: [{at: 0, pan: 1}]\n"
+    )
+    with pytest.raises(DocumentError) as caught:
+        load_performance(str(tmp_path / "dusk.yaml"), load_profile("sim").limits, "sim")
+    assert caught.value.problems == [
+        f"{tmp_path}/dusk.yaml:1:51: timelapse: `camera_fault` is called `on_camera_fault` now"
+    ]

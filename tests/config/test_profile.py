@@ -152,7 +152,7 @@ axes:
   stick_pitch: {min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}
 sinks:
   - {type: gimbal, link: gimbal, mode: position, rate: 50}
-  - {type: flight, link: drone, mode: velocity-body, full: {horizontal: 3, vertical: 1, yaw: 30}}
+  - {type: flight, link: drone, mode: velocity-body, full_scale: {horizontal: 3, vertical: 1, yaw: 30}}
 """
 
 
@@ -161,14 +161,18 @@ sinks:
     [
         ("link: drone", "link: gimbal", "drone.yaml:10:26: sinks[1].link must be the drone's alone, and gimbal is on"),
         ("serial:/dev/ttyUSB0@230400", "slcan:/dev/ttyACM1", "drone.yaml:3:16: links.drone must be a serial line"),
-        ("horizontal: 3", "horizontal: 11", "sinks[1].full.horizontal must be at most 10 m/s in this mode"),
-        ("velocity-body, full: {horizontal: 3", "tilt, full: {horizontal: 31", "must be at most 30 deg in this mode"),
-        ("yaw: 30", "yaw: 101", "sinks[1].full.yaw must be at most 100 deg/s in this mode"),
-        ("vertical: 1", "vertical: 4.5", "sinks[1].full.vertical must be at most 4 m/s in this mode"),
+        ("horizontal: 3", "horizontal: 11", "sinks[1].full_scale.horizontal must be at most 10 m/s in this mode"),
+        (
+            "velocity-body, full_scale: {horizontal: 3",
+            "tilt, full_scale: {horizontal: 31",
+            "must be at most 30 deg in this mode",
+        ),
+        ("yaw: 30", "yaw: 101", "sinks[1].full_scale.yaw must be at most 100 deg/s in this mode"),
+        ("vertical: 1", "vertical: 4.5", "sinks[1].full_scale.vertical must be at most 4 m/s in this mode"),
         ("velocity-body", "thrust", "sinks[1].mode must be one of velocity-body, velocity-ground, tilt"),
         (
-            "flight, link: drone, mode: velocity-body, full:",
-            "virtual-rc, link: drone, rate: 50, full:",
+            "flight, link: drone, mode: velocity-body, full_scale:",
+            "virtual-rc, link: drone, rate: 50, full_scale:",
             "sinks[1].rate must be one of 20",
         ),
         ("stick_roll:  {min: -1", "stick_roll:  {min: 0.2", "axes.stick_roll is a stick: its min and max must be"),
