@@ -235,11 +235,12 @@ def _gimbal(section: GimbalSection, connection: Connection, limits: Mapping[Axis
             full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
             sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, guard.sent)
     reporter = Angles(connection, wiring, section.legacy_angles)
-    return Device(list(own), sink, reporter, section.follow, section.delay, guard)
+    return Device(list(own), sink, reporter, section.max_following_error, section.delay, guard)
 
 
 def _focus(section: FocusSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
-    return Device(MOVES[section.type], FocusSink(connection, section.rate), FocusReporter(connection), section.follow)
+    sink, reporter = FocusSink(connection, section.rate), FocusReporter(connection)
+    return Device(MOVES[section.type], sink, reporter, section.max_following_error)
 
 
 def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
@@ -254,7 +255,7 @@ def _virtual_rc(section: VirtualRcSection, connection: Connection, limits: Mappi
 
 def _flight(section: FlightSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
     site = Site(section.guidance, section.indoors)
-    grip = MovementControl(connection, section.combination, section.frame, section.full.model_dump(), site)
+    grip = MovementControl(connection, section.combination, section.frame, section.full_scale.model_dump(), site)
     return _drone(section, grip, connection)
 
 

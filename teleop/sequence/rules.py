@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from teleop.config.document import Location, Wrong, mapping, number, numbered, sequence
+from teleop.config.messages import ALIASES, missing_space
 from teleop.config.quantities import frame_rate, frames, percentage, seconds
 from teleop.core.axes import STICKS, Axis, Limits
 from teleop.sequence.cues import cue_rules
@@ -51,8 +52,10 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
     before: tuple[int, float] | None = None
     free: dict[str, tuple[int, float]] = {}  # axis -> the keyframe that holds it, and until when
     for index, frame in enumerate(sequence(data, "keyframes")):
+        if missing_space(frame):
+            continue
         frame = mapping(frame)
-        if all(frame.get(axis) is None for axis in AXES):
+        if all(frame.get(axis) is None for axis in AXES) and not any(ALIASES.get(key) in AXES for key in frame):
             yield ("keyframes", index), f"names no axis ({', '.join(AXES[:4])})"
         at, wrong = _time(frame, "at", when)
         hold, wrong_hold = _time(frame, "hold", when)

@@ -153,8 +153,8 @@ class HidInput:
             return "is finding its centre: let it go"
         if now - state.last > SILENT and (deflected or not plugged.on_change):
             return f"has not reported for {SILENT:g} s"
-        if deflected and now - state.differed > plugged.chosen.frozen:
-            return f"has reported the very same for {plugged.chosen.frozen:g} s"
+        if deflected and now - state.differed > plugged.chosen.stuck_timeout:
+            return f"has reported the very same for {plugged.chosen.stuck_timeout:g} s"
         return ""
 
     def _judge(self, plugged: Plugged) -> Iterator[str]:
