@@ -198,8 +198,9 @@ class _Reading:
 
 def _is_bare(key_node: yaml.Node, value_node: yaml.Node) -> bool:
     """Whether a key has no value and no colon of its own: a word between two commas."""
-    scalars = isinstance(key_node, yaml.ScalarNode) and isinstance(value_node, yaml.ScalarNode)
-    return scalars and not key_node.style and not value_node.style and not value_node.value
+    if not isinstance(key_node, yaml.ScalarNode) or not isinstance(value_node, yaml.ScalarNode):
+        return False
+    return not key_node.style and not value_node.style and not value_node.value
 
 
 def _start(node: yaml.Node) -> Place:
