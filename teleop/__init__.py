@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from teleop.api import (
         AxisReport,
+        BusyError,
         DeviceError,
         DocumentError,
         LinkError,
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AxisReport",
+    "BusyError",
     "DeviceError",
     "DocumentError",
     "LinkError",

@@ -11,25 +11,28 @@ Angles are degrees, focus is 0 (near) .. 1 (far), times are seconds. Everything 
 thread at a time moves a rig. Nothing is printed, and no terminal or signal handler is touched.
 """
 
+# pyright: strict
+
 from __future__ import annotations
 
+import math
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, cast
 
-from teleop.app.program import EventJob, JogJob, MoveJob, SourceJob, StoppedError
+from teleop.app.program import BusyError, EventJob, JogJob, MoveJob, SourceJob, StoppedError
 from teleop.app.session import Session, shortest_seconds
 from teleop.config.document import DocumentError, UnplayableError
 from teleop.config.profile import Profile, load_profile
-from teleop.core.axes import STICKS, Axis, State
+from teleop.core.axes import Axis, State
 from teleop.core.errors import DeviceError, LinkError, TeleopError, UsageError
 from teleop.core.events import Action
 from teleop.core.run_state import Result
-from teleop.monitors.tracking_error import TrackingErrorMonitor
+from teleop.monitors.tracking_error import Score, TrackingErrorMonitor
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
 from teleop.sequence.compile import CompiledSequence, load_performance
@@ -41,6 +44,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AxisReport",
+    "BusyError",
     "DeviceError",
     "DocumentError",
     "LinkError",
@@ -207,7 +211,9 @@ class Rig:
         """The last measured position of every axis, by its name: degrees, and 0..1 for focus."""
         self._session.check()
         tick = self._session.program.tick
-        reported = {} if tick is None else tick.reported
+        if tick is None:
+            return {}
+        reported = tick.reported
         return {axis.value: reported[axis].position for axis in self._session.axes if axis in reported}
 
     def move(self, *, seconds: float | None = None, **axes: float) -> None:
@@ -219,13 +225,17 @@ class Rig:
         targets = self._known(axes, "move")
         for axis, target in targets.items():
             limits = self._session.profile.limits[axis]
-            if not limits.minimum <= target <= limits.maximum:
+            if not (limits.minimum <= target <= limits.maximum and math.isfinite(target)):
                 raise UsageError(
                     f"move: {axis}={target:g} is beyond its soft limits, {limits.minimum:g} to {limits.maximum:g}"
                 )
         if seconds is not None:
+            if not 0 <= seconds < math.inf:
+                raise UsageError(f"move: seconds={seconds:g} must be a time, 0 or longer")
+            self._session.check()
             least = shortest_seconds(self._session, targets)
             if seconds < least - 1e-6:
+                least = math.ceil(least * 100) / 100  # what is named is long enough
                 raise UsageError(f"move: seconds={seconds:g} is too short: this move needs {least:.2f} s")
         self._session.run(MoveJob(targets, seconds))
 
@@ -239,7 +249,7 @@ class Rig:
             most = self._session.profile.limits[axis].velocity
             if not abs(velocity) <= most:
                 raise UsageError(f"jog: {axis}={velocity:g} is faster than its limit, {most:g}")
-        if not 0 < seconds < float("inf"):
+        if not 0 < seconds < math.inf:
             raise UsageError(f"jog: seconds={seconds:g} must be above 0")
         self._session.run(JogJob(velocities, seconds))
 
@@ -253,6 +263,9 @@ class Rig:
         from teleop.planner.keyframes.findings import PlanError
         from teleop.sequence.source import SequenceSource
 
+        if not 0 < speed < math.inf:
+            raise UsageError(f"play: speed={speed:g} must be above 0")
+        self._session.check()
         compiled = sequence.compiled if isinstance(sequence, Move) else _compiled(sequence, self._session.profile)
         self._refuse(compiled)
         try:
@@ -260,20 +273,21 @@ class Rig:
         except PlanError as error:
             raise UnplayableError([f"speed {speed:g}: {error}"]) from None
         monitor = TrackingErrorMonitor(lambda: source.begin)
-        reason = ""
+        if self.stopped:
+            return _report(compiled, monitor, "STOPPED: call clear() first", None)
+        reason, result = "", Result.INTERRUPTED
         with self._recorded(take, compiled.title) as recorder:
-            self._session.program.observers = (monitor,) if recorder is None else (monitor, recorder)
             try:
-                self._session.run(SourceJob(source))
-            except (StoppedError, DeviceError, LinkError) as error:
+                self._session.run(SourceJob(source), (monitor,) if recorder is None else (monitor, recorder))
+                result = Result.DONE
+            except StoppedError as error:
                 reason = str(error)
+            except (DeviceError, LinkError) as error:
+                reason, result = str(error), Result.FAILED
             finally:
-                self._session.program.observers = ()
                 if recorder is not None:
-                    ended = Result.INTERRUPTED if self.stopped else Result.FAILED if reason else Result.DONE
-                    recorder.finish(ended, [reason] if reason else [])
-        scores = {axis.value: AxisReport(each.readings, each.rms, each.peak) for axis, each in monitor.scores.items()}
-        return Report(not reason, reason, monitor.seconds, scores, None if take is None else Path(take))
+                    recorder.finish(result, [reason] if reason else [])
+        return _report(compiled, monitor, reason, None if take is None else Path(take))
 
     def record(self) -> None:
         """Start recording on the camera; returns once it has confirmed. Raises DeviceError when it refuses."""
@@ -310,22 +324,34 @@ class Rig:
         unknown = [name for name in axes if name not in self._session.axes]
         if unknown:
             raise UsageError(f"{call}: {self.name} has no axis {unknown[0]}; it has {', '.join(self._session.axes)}")
-        return {Axis(name): float(value) for name, value in axes.items()}
+        try:
+            return {Axis(name): float(value) for name, value in axes.items()}
+        except (TypeError, ValueError):
+            raise UsageError(f"{call}: every axis needs a number") from None
 
     def _refuse(self, compiled: CompiledSequence) -> None:
-        if flown := [axis for axis in compiled.move.tracks if axis in STICKS]:
+        if flown := [axis for axis in compiled.move.tracks if axis.is_stick]:
             raise UsageError(f"play: {', '.join(flown)} fly a drone, which needs an operator: use `teleop play`")
         if missing := [axis for axis in compiled.move.tracks if axis not in self._session.axes]:
             raise UnplayableError([f"{compiled.title}: {self.name} has no axis {', '.join(missing)}"])
 
     @contextmanager
-    def _recorded(self, take: str | Path | None, title: str) -> Iterator[Any]:
+    def _recorded(self, take: str | Path | None, title: str) -> Generator[Any]:
         from teleop.recording.writer import recording
 
         limits = {axis: self._session.profile.limits[axis] for axis in self._session.axes}
         path = None if take is None else Path(take)
         with recording(path, self.name, title, limits, patient=self._session.is_virtual) as recorder:
             yield recorder
+
+
+def _report(compiled: CompiledSequence, monitor: TrackingErrorMonitor, reason: str, take: Path | None) -> Report:
+    """Of a run that ended for `reason`, "" for its own end; it has every axis of the move, and no other."""
+    axes: dict[str, AxisReport] = {}
+    for axis in compiled.move.tracks:
+        score = monitor.scores.get(axis, Score())
+        axes[axis.value] = AxisReport(score.readings, score.rms, score.peak)
+    return Report(not reason, reason, monitor.seconds, axes, take)
 
 
 def _compiled(sequence: Source, profile: Profile) -> CompiledSequence:
@@ -346,7 +372,11 @@ def _compiled_content(content: Mapping[str, Any], profile: Profile) -> CompiledS
 
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "sequence.yaml"
-        file.write_text(yaml.safe_dump(_plain(content), sort_keys=False), encoding="utf-8")
+        try:
+            text = yaml.safe_dump(_plain(content), sort_keys=False)
+        except yaml.YAMLError as error:
+            raise UsageError(f"sequence: {' '.join(map(str, error.args))}") from None
+        file.write_text(text, encoding="utf-8")
         try:
             return _compiled(file, profile)
         except DocumentError as error:
@@ -357,12 +387,12 @@ def _compiled_content(content: Mapping[str, Any], profile: Profile) -> CompiledS
 def _plain(value: Any) -> Any:
     """What YAML can hold, from mappings, sequences and numbers of any kind (numpy's included)."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(each) for key, each in value.items()}
-    if isinstance(value, str):
+        return {str(key): _plain(each) for key, each in cast("Mapping[Any, Any]", value).items()}
+    if isinstance(value, str | Path):
         return str(value)
     if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
-    return value.item() if hasattr(value, "item") else value
+        return [_plain(each) for each in cast("list[Any]", value)]
+    return value.tolist() if hasattr(value, "tolist") else value
 
 
 def _refuse_real_links(profile: Profile) -> None:

@@ -11,10 +11,10 @@ from contextlib import ExitStack
 
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import MOVES
-from teleop.core.axes import STICKS, Axis
-from teleop.core.control_loop import FIRST_REPORT, PERIOD
+from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError, LinkError, TeleopError
 from teleop.core.interfaces import Clock
+from teleop.core.timing import FIRST_REPORT, PERIOD
 from teleop.devices.gimbal.position import Angles
 from teleop.devices.rig import DRONE_FIRST_REPORT, Device, Rig, open_rig
 
@@ -77,7 +77,7 @@ def _answer(device: Device, now: float, begin: float) -> TeleopError | bool:
         return error
     if any(axis in readings for axis in device.moves):
         return True
-    drone = any(axis in STICKS for axis in device.moves)
+    drone = any(axis.is_stick for axis in device.moves)
     if now - begin > (DRONE_FIRST_REPORT if drone else FIRST_REPORT):
         return DeviceError(f"the {'drone' if drone else 'focus motor'} does not answer")
     return False

@@ -16,7 +16,7 @@ from teleop.core.events import TickEvent
 from teleop.core.run_status import RunStatus
 from teleop.core.setpoints import Demand, Setpoint, StateTarget
 
-PERIOD = 4.0  # s for one swing, or longer where the axis's limits ask for it
+SWING_SECONDS = 4.0  # s for one swing, or longer where the axis's limits ask for it
 LONGEST = 30.0  # s for one swing
 SHARE = 0.8  # of the axis's limits that a swing may use
 REST = 1.0  # s at rest before and after, so that what is late is seen to its end
@@ -32,7 +32,7 @@ class CalibrationMove:
         self.begin = math.inf
         self._axis, self._limits, self._reach, self._swings = axis, limits, reach, swings
         self._rest, self._side = 0.0, 1.0
-        self.period = PERIOD
+        self.period = SWING_SECONDS
         while not self._legal():
             self.period *= 1.25
             if self.period > LONGEST:

@@ -1,13 +1,11 @@
 """The files that people write, as JSON Schema (draft 2020-12), so that an editor completes and checks them.
 
-Made of the very sections that check a file, so that it cannot say something else. What stands in their docstrings as
-"`key`: what it is" becomes the key's description. What lies between values (times in order, limits of a rig, links that
-exist) no schema can say; `teleop check` does.
+Made from the sections that check a file; the docstrings of their fields are the descriptions. What lies between values
+(times in order, limits of a rig, links that exist) is outside a schema; `teleop check` finds it.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
@@ -43,11 +41,8 @@ def schema(kind: str) -> dict[str, Any]:
     made = KINDS[kind]().model_json_schema(by_alias=True)
     for part in _objects(made):
         part.pop("title", None)
-        for name, text in _described(part.get("description", "")):
-            if name in part.get("properties", {}):
-                part["properties"][name].setdefault("description", text)
         if "description" in part:
-            part["description"] = part["description"].partition("\n\n")[0].replace("\n", " ")
+            part["description"] = " ".join(part["description"].split())
     return {"$schema": DIALECT, "title": f"teleop {kind}", **made}
 
 
@@ -64,14 +59,3 @@ def _objects(part: Any) -> Iterator[dict[str, Any]]:
             yield from _objects(inner)
     for key in ("items", "additionalProperties", "propertyNames"):
         yield from _objects(part.get(key))
-
-
-def _described(text: str) -> Iterator[tuple[str, str]]:
-    """Each key that a docstring says something of, and the sentence that does."""
-    for sentence in re.split(r"(?<=\.)\s+(?=[A-Z`])", text):
-        whole = " ".join(sentence.split())
-        names, colon, rest = whole.partition(": ")
-        said = rest if colon and re.fullmatch(r"(`\w+`(, )?)+", names) else whole
-        said = said.replace("`", "")
-        for name in re.findall(r"`(\w+)`", whole):
-            yield name, said[:1].upper() + said[1:]

@@ -126,57 +126,85 @@ class EventJob:
         return not self._events and not self._waiting()
 
 
+class BusyError(TeleopError):
+    """Another thread moves the rig; one at a time may."""
+
+
 class ProgramSource:
-    """A source, and an observer of each tick. `submit`, `stop` and `clear` may be called from any thread."""
+    """A source, and an observer of each tick. `submit`, `stop` and `clear` may be called from any thread.
+
+    A job that is stopped or canceled is over only once every axis rests.
+    """
 
     def __init__(self) -> None:
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()  # reentrant: a signal handler may call `stop` in the thread that holds it
         self._motion: Motion = {}
         self._job: Job | None = None
+        self._observers: tuple[Sink, ...] = ()  # of the job in hand
         self._fresh = False  # the job has not begun yet
+        self._ending: TeleopError | None = None  # what the job in hand ends with, once every axis rests
         self._finished = threading.Event()
         self._error: TeleopError | None = None
-        self._ended = False
+        self._over = False  # the run has ended: no job is taken any more
         self.stopped = False
         self.running = threading.Event()  # set by the first tick
         self.tick: Tick | None = None
-        self.observers: tuple[Sink, ...] = ()  # of the job in hand; replaced whole, never changed
 
     # --- for the program's threads
 
-    def submit(self, job: Job) -> None:
-        """Hand `job` over; raises StoppedError after a STOP, TeleopError while another job is in hand."""
+    def submit(self, job: Job, observers: Sequence[Sink] = ()) -> None:
+        """Hand `job` over; `observers` see each tick until it ends.
+
+        Raises StoppedError after a STOP, BusyError while another job is in hand, DeviceError once the run has ended.
+        """
         with self._lock:
+            if self._over:
+                raise DeviceError(f"the run has ended: {self._error or 'closed'}")
             if self.stopped:
                 raise StoppedError("STOPPED: call clear() first")
             if self._job is not None:
-                raise TeleopError("the rig is busy: another thread moves it")
-            self._job, self._fresh, self._error = job, True, None
+                raise BusyError("the rig is busy: another thread moves it")
             self._finished.clear()
+            self._error = self._ending = None
+            self._job, self._observers, self._fresh = job, tuple(observers), True
 
     @property
     def finished(self) -> bool:
         return self._finished.is_set()
 
     def wait(self) -> None:
-        """Until the job in hand is complete or has failed."""
+        """Wait until the job in hand is complete or has failed."""
         self._finished.wait()
 
     def result(self) -> None:
-        """Raises what the last job ended with, if it failed."""
+        """Raise what the last job ended with, if it failed."""
         if self._error is not None:
             raise self._error
 
     def stop(self) -> None:
-        self.stopped = True
+        """Latch a STOP, and end the job in hand with StoppedError."""
+        with self._lock:
+            self.stopped = True
+            self.cancel(StoppedError("STOPPED"))
+
+    def cancel(self, error: TeleopError) -> None:
+        """End the job in hand with `error`, once every axis rests."""
+        with self._lock:
+            if self._job is not None and self._ending is None:
+                self._ending = error
 
     def clear(self) -> None:
         self.stopped = False
 
     def end(self, error: TeleopError) -> None:
-        """The run is over: whoever waits for a job gets `error`."""
-        self._ended = True
-        self._finish(error)
+        """The run is over: a job in hand ends with `error`."""
+        with self._lock:
+            self._over = True
+            if self._job is not None or self._error is None:
+                self._error = error
+            self._job, self._observers = None, ()
+        self.running.set()
+        self._finished.set()
 
     # --- for the control thread
 
@@ -184,15 +212,14 @@ class ProgramSource:
         self._motion = motion
 
     def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
-        job = self._job
-        if self.stopped:
-            if job is not None:
-                self._finish(StoppedError("STOPPED"))
+        with self._lock:
+            job, fresh, ending = self._job, self._fresh, self._ending
+            self._fresh = False
+        if self.stopped or ending is not None:
             return {axis: Stop() for axis in self._motion}, ()
         if job is None:
             return {}, ()
-        if self._fresh:
-            self._fresh = False
+        if fresh:
             job.start(now, self._motion)
         return job.read(now)
 
@@ -202,10 +229,15 @@ class ProgramSource:
     def write(self, tick: Tick) -> None:
         self._motion, self.tick = tick.motion, tick
         self.running.set()
-        for observer in self.observers:
+        with self._lock:
+            job, fresh, ending, observers = self._job, self._fresh, self._ending, self._observers
+        for observer in observers:
             observer.write(tick)
-        job = self._job
-        if job is None or self._fresh:
+        if job is None or fresh:
+            return
+        if ending is not None:
+            if all(not state.velocity and not state.acceleration for state in tick.motion.values()):
+                self._finish(ending)
             return
         try:
             if job.done(tick):
@@ -218,7 +250,6 @@ class ProgramSource:
 
     def _finish(self, error: TeleopError | None) -> None:
         with self._lock:
-            if self._job is not None or error is not None:
-                self._error = error
-            self._job = None
+            self._error = error
+            self._job, self._observers, self._ending = None, (), None
         self._finished.set()

@@ -7,24 +7,33 @@ motion every time.
 
 from __future__ import annotations
 
-import math
+import atexit
+import logging
 import sys
 import threading
-from collections.abc import Callable
+import weakref
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 
 from teleop.app.program import Job, ProgramSource
 from teleop.config.profile import Profile
-from teleop.core.axes import STICKS, Axis
+from teleop.core.axes import Axis, State
 from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.control_loop import ControlLoop
-from teleop.core.errors import DeviceError, TeleopError
+from teleop.core.errors import DeviceError, Interrupted, TeleopError, UsageError
 from teleop.core.events import Action
+from teleop.core.interfaces import Sink
 from teleop.core.run_state import Result, RunState
+from teleop.devices.gimbal.commands import CommandSink
 from teleop.devices.rig import Rig, open_rig
+from teleop.planner.ruckig_solver import PositionSolver
 
 SWITCH_INTERVAL = 0.0005  # s: how long another thread of the program may hold up the control thread
 CLOSING = 15.0  # s until a run that is told to end is left to itself; the loop's own deadlines are shorter
+IMPATIENT = 2  # interrupts while closing, after which devices are released without a ramp
+CTRL_C = "Ctrl-C"
+
+log = logging.getLogger(__name__)
 
 
 class Session:
@@ -32,101 +41,183 @@ class Session:
 
     def __init__(self, profile: Profile, virtual: bool) -> None:
         self.profile = profile
-        self.axes = [axis for axis in profile.axes if axis not in STICKS]
+        self.axes = [axis for axis in profile.axes if not axis.is_stick]
+        if not self.axes:
+            raise UsageError(f"{profile.name} has no axis that a program can move: a drone needs an operator")
         self.program = ProgramSource()
-        self._virtual = virtual
         self._turning = threading.RLock()  # on the virtual clock, the thread that turns the loop
+        self._closing = threading.Lock()
         self._stack = ExitStack()
         self.clock = VirtualClock() if virtual else SystemClock()
+        self.is_virtual = virtual
         self._thread: threading.Thread | None = None
-        self._closed = False
+        self._closed = self._interrupted = False
+        self._loop: ControlLoop | None = None
         try:
             self.rig: Rig = self._stack.enter_context(open_rig(profile.in_use(self.axes, [Action.RECORD]), self.clock))
-            self._loop: ControlLoop = self.rig.loop(self.axes, [self.program], [self.program])
+            self._loop = self.rig.loop(self.axes, [self.program], [*self._commands(), self.program])
+            self._supervisor = self._loop.supervisor
+            _sessions.add(self)
             self._begin()
         except BaseException:
-            self._stack.close()
+            self.close()
             raise
 
     @property
-    def is_virtual(self) -> bool:
-        return self._virtual
-
-    @property
     def over(self) -> bool:
-        return self._loop.supervisor.state is RunState.OVER
+        return self._supervisor.state is RunState.OVER
 
     @property
     def reason(self) -> str:
         """Why the run ended, "" while it goes on."""
-        return "; ".join(self._loop.supervisor.reasons)
+        return "; ".join(self._supervisor.reasons)
 
-    def run(self, job: Job) -> None:
-        """Hand `job` over and wait until it is complete; raises what went wrong."""
+    def run(self, job: Job, observers: Sequence[Sink] = ()) -> None:
+        """Hand `job` over and wait until it is complete; raises what went wrong.
+
+        An exception in the waiting thread, such as KeyboardInterrupt, first brings the axes to rest.
+        """
         self.check()
-        self.program.submit(job)
-        self._until(lambda: self.program.finished)
+        self.program.submit(job, observers)
+        try:
+            self._until(lambda: self.program.finished, self.program.wait)
+        except BaseException:
+            self.program.cancel(Interrupted("interrupted"))
+            self._until(lambda: self.program.finished, self.program.wait)
+            raise
+        if self._supervisor.state is not RunState.RUNNING:  # a device failed in the tick in which the job ended
+            self._until(lambda: self.over, self._join)
+            self._raise_interrupt()
+            raise DeviceError(self.reason or "the run has ended")
         self.program.result()
 
     def check(self) -> None:
-        """Raises DeviceError once the run is over."""
+        """Raises TeleopError once the rig is closed, DeviceError once its run is over."""
         if self._closed:
             raise TeleopError("the rig is closed")
-        if self.over:
+        if self._supervisor.state is not RunState.RUNNING:
             raise DeviceError(f"the run has ended: {self.reason or 'closed'}")
 
     def close(self) -> None:
-        """Ramp to rest, release every device, close the links. May be called again."""
-        if self._closed:
-            return
-        self._closed = True
-        try:
-            self._loop.interrupt("closed by the program")
-            if self._thread is None:
-                self._until(lambda: self.over)
-            else:
-                self._thread.join(CLOSING)
-        finally:
-            self._stack.close()
+        """Ramp to rest, release every device, close the links. May be called again, from any thread."""
+        with self._closing:
+            if self._closed:
+                return
+            self._closed = True
+            try:
+                if self._loop is not None:
+                    self._loop.interrupt("closed by the program")
+                    self._until(lambda: self.over, self._join)
+            finally:
+                self._stack.close()
+                self._loop = None  # the planner's objects end here, not with the interpreter
+                _sessions.discard(self)
+        self._raise_interrupt()
+
+    def _commands(self) -> list[Sink]:
+        """What gives the gimbal the commands that a sequence has for it."""
+        links = [section.link for section in self.profile.sinks if section.type == "gimbal"]
+        return [CommandSink(self.rig.connections[link], log.info) for link in links[:1]]
 
     def _begin(self) -> None:
-        if not self._virtual:
-            self._stack.callback(sys.setswitchinterval, sys.getswitchinterval())
-            sys.setswitchinterval(SWITCH_INTERVAL)
+        if not self.is_virtual:
+            self._stack.enter_context(_short_switch_interval)
             self._thread = threading.Thread(target=self._turn_all, name="teleop control", daemon=True)
             self._thread.start()
-        self._until(lambda: self.program.running.is_set() or self.over)
+        self._until(lambda: self.program.running.is_set(), self.program.running.wait)
+        self._raise_interrupt()
         if self.over:
             raise DeviceError(self.reason)
 
     def _turn_all(self) -> None:
-        self._loop.run()
-        self._ended()
+        loop = self._loop
+        try:
+            if loop is not None:
+                loop.run()
+        finally:
+            self._ended()
 
     def _ended(self) -> None:
-        self.program.running.set()
-        result = self._loop.supervisor.result
-        self.program.end(DeviceError(self.reason or ("done" if result is Result.DONE else "the run has ended")))
+        done = self._supervisor.result is Result.DONE
+        self.program.end(DeviceError(self.reason or ("done" if done else "the run has ended")))
 
-    def _until(self, condition: Callable[[], bool]) -> None:
-        """Wait for `condition`: on the virtual clock by turning the loop, else for what the control thread sets."""
-        if self._thread is None:
-            with self._turning:
-                while not condition() and not self.over:
-                    self._loop.turn()
-                if self.over:
-                    self._ended()
+    def _until(self, condition: Callable[[], bool], wait: Callable[[], object]) -> None:
+        """Wait for `condition`: on the virtual clock by turning the loop, else with `wait`."""
+        if not self.is_virtual:
+            wait()
             return
-        waiting = self.program.wait if self.program.running.is_set() else self.program.running.wait
-        waiting()
+        with self._turning:
+            while not self.over and not condition() and self._loop is not None:
+                self._loop.turn()
+            if self.over:
+                self._ended()
+
+    def _join(self) -> None:
+        """Wait for the control thread's end, through a Ctrl-C too; the next one releases without a ramp."""
+        interrupts = 0
+        while self._thread is not None and interrupts < IMPATIENT:
+            try:
+                self._thread.join(CLOSING)
+                return
+            except KeyboardInterrupt:
+                interrupts += 1
+                self._interrupted = True
+        if self._loop is not None:
+            self._loop.release_at_once()
+
+    def _raise_interrupt(self) -> None:
+        """Raise, once, the KeyboardInterrupt that the loop, or the wait for its end, has taken for the program."""
+        if self._interrupted or (self.is_virtual and CTRL_C in self._supervisor.reasons):
+            self._interrupted = False
+            if CTRL_C in self._supervisor.reasons:
+                self._supervisor.reasons[self._supervisor.reasons.index(CTRL_C)] = "interrupted"
+            raise KeyboardInterrupt
+
+
+class _SwitchInterval:
+    """The interpreter's switch interval, short while any rig is open, and then as it was found."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._users = 0
+        self._found = 0.0
+
+    def __enter__(self) -> None:
+        with self._lock:
+            if not self._users:
+                self._found = sys.getswitchinterval()
+                sys.setswitchinterval(SWITCH_INTERVAL)
+            self._users += 1
+
+    def __exit__(self, *_: object) -> None:
+        with self._lock:
+            self._users -= 1
+            if not self._users:
+                sys.setswitchinterval(self._found)
+
+
+_short_switch_interval = _SwitchInterval()
+_sessions: weakref.WeakSet[Session] = weakref.WeakSet()
+
+
+@atexit.register
+def _close_all() -> None:
+    """A rig that the program has left open is brought to rest and released as the interpreter ends."""
+    for session in list(_sessions):
+        session.close()
 
 
 def shortest_seconds(session: Session, targets: dict[Axis, float]) -> float:
-    """The least time in which every axis can reach its target from rest where it is now."""
-    from teleop.planner.rest_to_rest import ease
-
+    """The least time in which every axis can be at rest at its target together, by the jerk-limited planner."""
     tick = session.program.tick
     if tick is None:
-        return math.nan
-    here = {axis: tick.motion[axis] for axis in targets}
-    return ease(here, targets, session.profile.limits, 1.0).duration
+        return 0.0
+    limits = [session.profile.limits[axis] for axis in targets]
+    trajectory = PositionSolver(len(targets)).solve(
+        [tick.motion[axis] for axis in targets],
+        [State(target) for target in targets.values()],
+        [of.velocity for of in limits],
+        [of.acceleration for of in limits],
+        [of.jerk for of in limits],
+    )
+    return 0.0 if trajectory is None else trajectory.duration

@@ -65,6 +65,8 @@ class SignProbe:
         self._last_read: dict[Axis, float] = {}
         self._taken = False
         self._zeros = ZEROS
+        self._halted = False
+        self._begins: dict[Axis, float] = {}  # where each axis was before the first move, as reported
         self._steps = self._script(axes)
 
     def start(self, now: float, motion: Motion) -> None:
@@ -81,6 +83,36 @@ class SignProbe:
     def next_change(self, now: float) -> float:
         return math.inf if self.done else now
 
+    resumable, pauses, quits = True, False, False  # a pause would spoil a measurement: the axis is measured anew
+
+    @property
+    def busy(self) -> bool:
+        """Whether speed control is still being released after a halt."""
+        return self._taken
+
+    def pause(self, now: float) -> bool | None:  # noqa: ARG002 - see `pauses`
+        return False
+
+    def suspend(self, now: float) -> None:
+        """Hold every axis where it is; a move that was sent has half a degree left at most."""
+        if self._halted:
+            return
+        self._halted, self._now, self._zeros, self._wake = True, now, ZEROS, now
+        if not self._taken:
+            self._send(gimbal.Position(0.0, 0.0, 0.0, False, time_for_action=0.1))
+
+    def linger(self, now: float) -> Sequence[TickEvent]:
+        """Zero speed three times, then speed control is released."""
+        if self._taken and now >= self._wake - 1e-6:
+            again = self.release(now)
+            self._wake = now if again is None else again
+        return ()
+
+    def resume(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - it measures by what is reported
+        """Measure the axis that was being measured anew, then the others."""
+        self._halted, self._wake, self._zeros = False, now, ZEROS
+        self._steps = self._script([axis for axis in self._readings if axis not in self.signs])
+
     def write(self, tick: Tick) -> None:
         """Raises DeviceError when an axis does not move, or runs away."""
         self._now = tick.time
@@ -92,7 +124,7 @@ class SignProbe:
                 if abs(moved := reading.position - self._start[axis].position) > RUNAWAY:
                     self.done = True
                     raise DeviceError(f"{axis} moved {abs(moved):.1f} deg where {REACH:g} were sent")
-        while not self.done and tick.time >= self._wake - 1e-6:
+        while not self.done and not self._halted and tick.time >= self._wake - 1e-6:
             wait = next(self._steps, None)
             self.done = wait is None
             self._wake = tick.time + (wait or 0.0)
@@ -112,7 +144,7 @@ class SignProbe:
     def _script(self, axes: Sequence[Axis]) -> Iterator[float]:
         """One axis after the other; what is yielded is how many s to wait."""
         for axis in axes:
-            begin = yield from self._place(axis)
+            begin = self._begins.setdefault(axis, (yield from self._place(axis)))
             position = yield from self._shift(axis, REACH)
             if not position:
                 raise DeviceError(f"{axis} did not move by a position command: is it held by hand, locked or asleep?")

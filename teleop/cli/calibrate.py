@@ -7,7 +7,6 @@ and signals. The profile's own delay and gains are left out meanwhile, because t
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from statistics import fmean, stdev
@@ -24,19 +23,15 @@ from teleop.cli.running import EXIT_CODES
 from teleop.cli.screens.folded import complain, tell
 from teleop.cli.screens.run_view import RunView
 from teleop.cli.signals import signals_to
-from teleop.cli.stop_inputs import open_stop_inputs
+from teleop.cli.stop_inputs import guarded
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import Angle, GainsSection, GimbalSection
 from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError, UsageError
-from teleop.core.interfaces import Clock
 from teleop.core.run_state import Result, RunStateMachine
 from teleop.core.run_status import Hint
 from teleop.devices.link_notes import LinkNotes
 from teleop.devices.rig import open_rig
-from teleop.inputs.keyboard import Keyboard, terminal
-from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
-from teleop.manual.stop_guard import Relay, StopGuard
 
 if TYPE_CHECKING:
     from teleop.monitors.delay_estimate import Delay, Traces
@@ -73,7 +68,7 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
     traces = Traces(moved)
     warnings: list[str] = []
     with ExitStack() as stack:
-        guard, keys = _guarded(stack, swing, profile, clock, fast)
+        guard, keys = guarded(stack, swing, profile, clock, fast)
         hints = HINTS if keys else ()
         display = RunView(
             title,
@@ -96,16 +91,6 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
     delays = _delays(swing, traces)
     _say(axis, mode, delays, options.json)
     return 0
-
-
-def _guarded(
-    stack: ExitStack, swing: CalibrationMove, profile: Profile, clock: Clock, fast: bool
-) -> tuple[StopGuard, Sequence[Keyboard]]:
-    """The test move under every STOP that there is, and the keys of the terminal, which are to be entered."""
-    descriptor = None if fast else terminal()
-    keys = [] if descriptor is None else [Keyboard(descriptor, PlayKeys(RUN_KEYS))]
-    devices = [] if fast else open_stop_inputs(stack, profile, clock)
-    return StopGuard(swing, [Relay(each) for each in (*devices, *keys)]), keys
 
 
 def _undelayed(profile: Profile, axis: Axis) -> tuple[Profile, str]:

@@ -7,21 +7,24 @@ operator's eyes: no reading can tell.
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 
 from teleop.app.sign_probe import REACH, SignProbe, Signs
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, the_clock
 from teleop.cli.running import EXIT_CODES
+from teleop.cli.screens.folded import complain
 from teleop.cli.signals import signals_to
+from teleop.cli.stop_inputs import guarded
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import Angle, GimbalSection
 from teleop.config.wiring import Wiring
 from teleop.core.axes import Axis
-from teleop.core.control_loop import PERIOD, ControlLoop
+from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import UsageError
 from teleop.core.run_state import Result
+from teleop.core.timing import PERIOD
 from teleop.devices.gimbal.position import Angles
 from teleop.devices.rig import open_rig
 from teleop.planner.live import Live
@@ -42,22 +45,30 @@ def signs(*, axis: Angle | None = None, fast: Fast = False, options: Options = D
     clock = the_clock(fast, profile)
     limits = {each: profile.limits[each] for each in axes}
     full = None if section.mode != "stick" else lambda each: section.full(each, profile.limits[each].velocity)
-    with open_rig(profile, clock) as rig:
+    with ExitStack() as stack:
+        rig = stack.enter_context(open_rig(profile.in_use(axes), clock))
         connection = rig.connections[section.link]
         probe = SignProbe(connection, axes, section.wiring, limits, full)
         reporter = Angles(connection, Wiring(section.axes), section.legacy_angles)
-        loop = ControlLoop(clock, Live(limits, PERIOD), limits, [probe], [probe], [reporter])
+        guard, keys = guarded(stack, probe, profile, clock, fast)
+        guard.say = complain
+        loop = ControlLoop(clock, Live(limits, PERIOD), limits, [guard], [probe, guard, *keys], [reporter])
         if not options.json:
-            print(f"measuring the signs of {', '.join(axes)}: {REACH:g} deg to one side and back", file=sys.stderr)
-        with signals_to(loop.interrupt, loop.release_at_once):
+            complain(f"measuring the signs of {', '.join(axes)}: {REACH:g} deg to one side and back")
+            if keys:
+                complain("space STOP   p pause   q end")
+        for each in keys:
+            stack.enter_context(each)
+        with signals_to(loop.interrupt, loop.release_at_once, complain):
             ended = loop.run()
+    ended.reasons += [guard.reason] if guard.reason else []
     if ended.result is Result.DONE:
         _tell(section, probe.signs, options.json)
     elif options.json:
         print(json.dumps({"result": ended.result.name.lower(), "reasons": ended.reasons}))
     else:
         for reason in ended.reasons:
-            print(f"teleop: stopped: {reason}", file=sys.stderr)
+            complain(f"teleop: stopped: {reason}")
     return EXIT_CODES[ended.result]
 
 

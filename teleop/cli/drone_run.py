@@ -13,7 +13,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from teleop.config.profile import Profile
-from teleop.core.axes import STICKS, Axis
+from teleop.core.axes import Axis
 from teleop.core.errors import UsageError
 from teleop.devices.drone.sink import DroneSink
 from teleop.devices.drone.state import DroneState
@@ -33,7 +33,7 @@ Understood = Annotated[
 
 
 def is_flown(axes: Collection[Axis]) -> bool:
-    return any(axis in STICKS for axis in axes)
+    return any(axis.is_stick for axis in axes)
 
 
 def ask_to_fly(what: str, axes: Collection[Axis], understood: bool) -> None:

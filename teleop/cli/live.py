@@ -18,7 +18,7 @@ from teleop.cli.drone_run import Aboard, Understood, ask_to_fly, is_flown, refus
 from teleop.cli.open_inputs import open_devices
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, Take, the_clock
-from teleop.cli.running import camera_answers, commands, perform
+from teleop.cli.running import commands, perform
 from teleop.cli.screens.live_view import LiveView
 from teleop.cli.screens.run_view import RunView, timed
 from teleop.cli.screens.take_summary import take_words
@@ -29,6 +29,7 @@ from teleop.core.axes import Axis
 from teleop.core.errors import UsageError
 from teleop.core.events import Action
 from teleop.core.interfaces import Clock, Sink
+from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.rig import Rig, open_rig
 from teleop.inputs.keyboard import Keyboard, terminal
 from teleop.inputs.recorded_sticks import Sticks, SticksSource, read_sticks
@@ -115,7 +116,8 @@ def live(
             aboard.state,
         )
         watchers: list[Sink] = [
-            *(operator, *commands(rig, axes, operator.say, operator.confirmed), camera_answers(rig, operator.say)),
+            *(operator, *commands(rig, axes, operator.say, operator.confirmed)),
+            CameraAnswers(rig.camera, operator.say, operator.camera_answered, lenient=replay is None),
             *([] if keyboard is None else [keyboard]),
         ]
         tally = TrackingErrorMonitor(lambda: operator.begin)

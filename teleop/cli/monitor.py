@@ -37,7 +37,7 @@ from teleop.dji.registry import Registry
 from teleop.links import FAR_END, Listener, open_listener, parse
 from teleop.links.can import GIMBAL_ID, HOST_ID
 
-PERIOD = 0.002  # s between looks at the bus, and so the precision of the times
+POLL_PERIOD = 0.002  # s between looks at the bus, and so the precision of the times
 _MOST_NAMED = 5  # foreign ids in the summary
 _REDRAWS = 4  # of the status line, a second
 _HIDDEN: Mapping[str, str] = {"drone.activate": "app_id"}
@@ -83,7 +83,7 @@ def monitor(
             while not stop.is_set() and due - begin <= seconds:
                 clock.sleep_until(due)
                 watch.look(clock.now() - begin)
-                due = max(due + PERIOD, clock.now())
+                due = max(due + POLL_PERIOD, clock.now())
     finally:
         listener.close()
         print(watch.summary(), file=sys.stderr)

@@ -15,7 +15,6 @@ from teleop.cli.signals import signals_to
 from teleop.core.axes import Axis
 from teleop.core.interfaces import Sink, Source
 from teleop.core.run_state import Result, RunStateMachine
-from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.gimbal.commands import CommandSink, Unheard
 from teleop.devices.link_notes import LinkNotes
 from teleop.devices.rig import Rig
@@ -79,12 +78,6 @@ def perform(
         print_links({name: connection.counts for name, connection in rig.connections.items()})
         print_take(take)
     return EXIT_CODES[ended.result]
-
-
-def camera_answers(rig: Rig, say: Callable[[str], object]) -> CameraAnswers:
-    """What says a line for all that the rig's camera confirms, or that there is none."""
-    links = [section.link for section in rig.profile.sinks if section.type == "camera"]
-    return CameraAnswers(rig.connections[links[0]] if links else None, say)
 
 
 def print_links(links: Mapping[str, Mapping[str, int]]) -> None:

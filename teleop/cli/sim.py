@@ -19,7 +19,7 @@ from teleop.sim.drone.device import SimulatedDrone
 from teleop.sim.gimbal.device import SimulatedGimbal
 from teleop.sim.gimbal.foreign_traffic import ForeignTraffic
 
-PERIOD = 0.002  # s between looks at the bus: a real gimbal answers within 5 ms
+POLL_PERIOD = 0.002  # s between looks at the bus: a real gimbal answers within 5 ms
 STATUS = 1.0  # s between status lines
 BAUD = 230400  # of the Matrice 100: docs/protocol-facts.md; a pseudo-terminal does not mind
 
@@ -97,7 +97,7 @@ def serve(
         if sys.stderr.isatty() and now - said >= STATUS:
             said = now
             print(*(status(name, device) for name, device in devices.items()), sep="   ", file=sys.stderr)
-        due = max(due + PERIOD, now)
+        due = max(due + POLL_PERIOD, now)
         clock.sleep_until(due)
 
 

@@ -18,6 +18,9 @@ from teleop.inputs.hid.backend import Hidapi
 from teleop.inputs.hid.device import HidInput, open_inputs
 from teleop.inputs.hid.pads import may_stop
 from teleop.inputs.hid.reader import wanted
+from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
+from teleop.manual.stop_guard import Relay, Resumable, StopGuard
 
 
 def open_stop_inputs(stack: ExitStack, profile: Profile, clock: Clock) -> Sequence[HidInput]:
@@ -41,6 +44,16 @@ def open_stop_inputs(stack: ExitStack, profile: Profile, clock: Clock) -> Sequen
     for each in absent:
         _warn(f"{each.name or each.device}: not plugged in, so its STOP does not count")
     return stack.enter_context(open_inputs(sections, clock.now, backend, stop_only=True))
+
+
+def guarded(
+    stack: ExitStack, source: Resumable, profile: Profile, clock: Clock, fast: bool
+) -> tuple[StopGuard, Sequence[Keyboard]]:
+    """`source` under every STOP that there is, and the keys of the terminal, which are to be entered."""
+    descriptor = None if fast else terminal()
+    keys = [] if descriptor is None else [Keyboard(descriptor, PlayKeys(RUN_KEYS))]
+    devices = [] if fast else open_stop_inputs(stack, profile, clock)
+    return StopGuard(source, [Relay(each) for each in (*devices, *keys)]), keys
 
 
 def _warn(text: str) -> None:

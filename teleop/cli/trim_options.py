@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.screens.run_view import UNITS
 from teleop.core.errors import TeleopError, UsageError
 
 if TYPE_CHECKING:
+    from teleop.core.axes import Axis, State
     from teleop.core.events import Tick
     from teleop.manual.live_offset import LiveOffset
     from teleop.sequence.trim_export import TrimmedFile
 
 SHARE = "25%"
+PATIENCE = 10.0  # s for the file at the end of a run
 
 
 @Parameter(name="*")
@@ -64,7 +66,6 @@ class TrimReport:
 
     def __init__(self, trimming: LiveOffset, file: TrimmedFile | None) -> None:
         self._trimming, self._file = trimming, file
-        self._writer = ThreadPoolExecutor(1, thread_name_prefix="trim")
         self._written: Future[None] | None = None
         self._untold: Future[None] | None = None  # to the operator
         self.failure = ""
@@ -81,17 +82,16 @@ class TrimReport:
 
     def print(self) -> None:
         offsets = self._trimming.offsets.items()
-        words = [f"{axis} {o.position + 0.0:+.3f} {UNITS.get(axis, '')}".rstrip() for axis, o in offsets]
+        words = [f"{axis} {o.position + 0.0:+.3f} {axis.unit}".rstrip() for axis, o in offsets]
         file = self._finished()
         print(f"trim: {', '.join(words)}{f'; written to {file}' if file else ''}")
         if self.failure:
             print(f"teleop: {self.failure}", file=sys.stderr)
 
     def _write(self) -> str:
-        """Begin to write the trim as it is now; the control thread does not wait for a disk."""
+        """Begin to write the trim as it is now; neither the control thread nor the program's end waits for a disk."""
         assert self._file is not None
-        self._written = self._writer.submit(self._file.write, dict(self._trimming.offsets))
-        self._untold = self._written
+        self._written = self._untold = _in_background(self._file.write, dict(self._trimming.offsets), self._written)
         return f"writing the trim to {self._file.target}"
 
     def write(self, tick: Tick) -> None:  # noqa: ARG002 - as a watcher: whether the file is there by now
@@ -104,7 +104,10 @@ class TrimReport:
         return None
 
     def _failure(self, written: Future[None]) -> str:
-        error = written.exception()
+        try:
+            error = written.exception(PATIENCE)
+        except TimeoutError:
+            return f"{'' if self._file is None else self._file.target}: cannot be written: the disk does not answer"
         if error is None or self._file is None:
             return ""
         return str(error) if isinstance(error, TeleopError) else f"{self._file.target}: cannot be written: {error}"
@@ -118,6 +121,29 @@ class TrimReport:
         assert self._written is not None
         self.failure = self._failure(self._written)
         return None if self.failure else str(self._file.target)
+
+
+def _in_background(
+    write: Callable[[Mapping[Axis, State]], None], offsets: Mapping[Axis, State], after: Future[None] | None
+) -> Future[None]:
+    """Call `write`, once `after` is over, in a thread that ends with the program whatever the disk does.
+
+    An executor's thread would be waited for.
+    """
+    future: Future[None] = Future()
+
+    def work() -> None:
+        try:
+            if after is not None:
+                after.exception()
+            write(offsets)
+        except BaseException as error:  # noqa: BLE001 - whatever it is, the one who asks for the result gets it
+            future.set_exception(error)
+        else:
+            future.set_result(None)
+
+    Thread(target=work, name="trim", daemon=True).start()
+    return future
 
 
 NO_TRIM = TrimOptions()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
@@ -24,17 +25,28 @@ NoTruth = BeforeValidator(_no_truth)
 class Section(BaseModel):
     """A mapping in a file, as an immutable object."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True)
+
+    RENAMED: ClassVar[Mapping[str, str]] = {}
+    """Old names of keys, and what they are called now: an old one is refused with its new name."""
 
 
 class PositionsSection(Section):
     """Positions of axes by their names, in the axes' units; None for one that is not given."""
 
     pan: Finite | None = None
+    """Pan in deg; + is right."""
     tilt: Finite | None = None
+    """Tilt in deg; + is up."""
     roll: Finite | None = None
+    """Roll in deg; + is clockwise seen from behind the camera."""
     focus: Finite | None = None
+    """Focus, 0 (near) to 1 (far)."""
     stick_roll: Finite | None = None
+    """Right stick of the drone sideways, -1 to 1; + is right."""
     stick_pitch: Finite | None = None
+    """Right stick of the drone forward, -1 to 1; + is forward."""
     stick_throttle: Finite | None = None
+    """Left stick of the drone up, -1 to 1; + is up."""
     stick_yaw: Finite | None = None
+    """Left stick of the drone sideways, -1 to 1; + turns clockwise seen from above."""

@@ -107,7 +107,7 @@ def _problems(document: Document) -> Iterator[str]:
             if value is not None and not _is_key(value):
                 yield document.problem((name,), _KEY)
         else:
-            yield document.problem((name,), "is not known here; there are app_id and key", key=True)
+            yield document.key_problem((name,), f"unknown key `{name}`; the keys are app_id and key")
 
 
 def _is_key(value: object) -> bool:

@@ -7,11 +7,11 @@ is said together, in the file's order, and in the words of whoever wrote it. How
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from teleop.config.messages import PHRASES, nearest
+from teleop.config.messages import PHRASES, likely_key, missing_space, unknown_key
 from teleop.core.errors import UsageError
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Checked = TypeVar("Checked", bound=BaseModel)
 
-MOST_TOLD = 200  # of what pydantic finds: to say it in words takes a millisecond each
+MOST_REPORTED = 200  # of pydantic's errors: the text of each takes a millisecond
 
 Location = tuple[str | int, ...]
 Place = tuple[int, int]  # line and column, from 1
@@ -59,11 +59,23 @@ class UnplayableError(DocumentError):
     """A file that is right in itself and asks for what this rig cannot do."""
 
 
+class Flaw(NamedTuple):
+    """An error in the text of a file that leaves no value behind: a duplicate key, a tag, a missing space."""
+
+    place: Place
+    text: str
+    duplicate: Location | None = None  # the key that is in the mapping twice
+
+    def is_duplicate_in(self, path: Location) -> bool:
+        """Whether it is a duplicate key of the mapping at `path`."""
+        return self.duplicate is not None and self.duplicate[:-1] == path
+
+
 @dataclass
 class Document:
-    """A YAML file as plain values, which knows where each of them stands. `note` ends every line about it.
+    """A YAML file as plain values, with the line and column of each. `note` ends every error line.
 
-    `flaws` are what its text has that is not used here: they are no values, and `check` reports them.
+    `check` reports its `flaws`.
     """
 
     name: str
@@ -71,7 +83,7 @@ class Document:
     places: dict[Location, Place] = field(default_factory=dict)
     keys: dict[Location, Place] = field(default_factory=dict)
     note: str = ""
-    flaws: list[tuple[Place, str]] = field(default_factory=list)
+    flaws: list[Flaw] = field(default_factory=list)
 
     def line(self, path: Location, text: str) -> str:
         """One line for what is said elsewhere of something that stands at `path`."""
@@ -84,7 +96,7 @@ class Document:
         while around and not any(around in known for known in places):
             around = around[:-1]
         place = next((known[around] for known in places if around in known), (1, 1))
-        return self._line(place, f"{path_text(path)} {text}" if path else text)
+        return self._line(place, joined(path_text(path), text))
 
     def check(self, model: type[Checked], wrong: Iterable[Wrong] = ()) -> Checked:
         """The document as a `model`; raises DocumentError with a line for everything wrong with it.
@@ -99,32 +111,51 @@ class Document:
         try:
             checked = model.model_validate(self.data)
         except ValidationError as error:
-            known = sorted(set(_property_names(model.model_json_schema())))
-            found += [self._explain(detail, known) for detail in error.errors(include_url=False)[:MOST_TOLD]]
-            more = max(0, error.error_count() - MOST_TOLD)
+            details = _without_misspelled(model, error.errors(include_url=False)[:MOST_REPORTED])
+            found += [self._explain(detail, model) for detail in details]
+            found = self._without_duplicates_below(details, found)
+            more = max(0, error.error_count() - MOST_REPORTED)
         if checked is None or found:
             raise DocumentError(sorted(found, key=_place_in), more)
         return checked
 
     def flawed(self) -> list[str]:
-        """A line for each of the flaws: for whoever reads the data without a model."""
-        return [self._line(place, text) for place, text in self.flaws]
+        """A line for each flaw, for a caller that checks the data without a model."""
+        return [self._line(flaw.place, flaw.text) for flaw in self.flaws]
 
     def _line(self, place: Place, text: str) -> str:
         line, column = place
         return f"{self.name}:{line}:{column}: {text}{self.note}"
 
-    def _explain(self, detail: ErrorDetails, known: Sequence[str]) -> str:
-        context = detail.get("ctx", {})
+    def _explain(self, detail: ErrorDetails, model: type[BaseModel]) -> str:
+        context, value = detail.get("ctx", {}), detail["input"]
         is_key = detail["loc"][-1:] == ("[key]",)
         path = self._path(detail["loc"][:-1] if is_key else detail["loc"])
         kind = detail["type"]
         if kind == "extra_forbidden":
-            others = [name for name in known if name != path[-1]]  # it is known, but elsewhere
-            return self.problem(path, "is not known here" + nearest(str(path[-1]), others), key=True)
+            from teleop.config.model_keys import keys_at, renamed_at
+
+            level, key = detail["loc"][:-1], str(path[-1])
+            return self.key_problem(path, unknown_key(key, keys_at(model, level), renamed_at(model, level)))
+        if kind == "model_type" and (text := missing_space(value)):
+            return self.problem(path, f": {text}")
         phrase = PHRASES.get(kind)
-        text = phrase(context, detail["input"]) if phrase else f"is wrong: {detail['msg']}"
+        text = phrase(context, value) if phrase else f"is wrong: {detail['msg']}"
         return self.problem(path, text, key=is_key)
+
+    def key_problem(self, path: Location, text: str) -> str:
+        """One line at the key where `path` ends, about the mapping that has it: `key 1: unknown key ...`."""
+        around = path_text(path[:-1])
+        return self._line(self.keys.get(path, (1, 1)), f"{around}: {text}" if around else text)
+
+    def _without_duplicates_below(self, details: Sequence[ErrorDetails], found: list[str]) -> list[str]:
+        """Without the duplicate keys of a list whose entries lack their `- `: those are one mistake, not many."""
+        for detail in details:
+            if detail["type"] == "list_type" and isinstance(detail["input"], dict):
+                path = self._path(detail["loc"])
+                lines = {self._line(flaw.place, flaw.text) for flaw in self.flaws if flaw.is_duplicate_in(path)}
+                found = [line for line in found if line not in lines]
+        return found
 
     def _path(self, location: Location) -> Location:
         """pydantic's location without the parts that name a union's member and stand in no file."""
@@ -140,6 +171,26 @@ class Document:
                     continue
             path += (part,)
         return path
+
+
+def joined(subject: str, text: str) -> str:
+    """`key 1: pan` and what is wrong; text that begins with a colon is a sentence of its own."""
+    if not subject:
+        return text.removeprefix(": ")
+    return f"{subject}{text}" if text.startswith(":") else f"{subject} {text}"
+
+
+def _without_misspelled(model: type[BaseModel], details: Sequence[ErrorDetails]) -> list[ErrorDetails]:
+    """Without "at is missing" where `time` is an unknown key: a key under a wrong name is one error."""
+    from teleop.config.model_keys import keys_at, renamed_at
+
+    named: set[Location] = set()
+    for detail in details:
+        if detail["type"] == "extra_forbidden":
+            *level, key = detail["loc"]
+            renamed = renamed_at(model, level)
+            named.add((*level, renamed.get(str(key)) or likely_key(str(key), keys_at(model, level))))
+    return [detail for detail in details if detail["type"] != "missing" or detail["loc"] not in named]
 
 
 def mapping(data: Any, *keys: str) -> Mapping[str, Any]:
@@ -169,15 +220,3 @@ def _place_in(problem: str) -> Place:
     """The place that a problem's text begins with, so that a file's errors stand in its order."""
     found = re.search(r":(\d+):(\d+): ", problem)
     return (int(found[1]), int(found[2])) if found else (0, 0)
-
-
-def _property_names(schema: Any) -> Iterator[str]:
-    if isinstance(schema, dict):
-        properties = schema.get("properties")
-        if isinstance(properties, dict):
-            yield from properties
-        for value in schema.values():
-            yield from _property_names(value)
-    elif isinstance(schema, list):
-        for value in schema:
-            yield from _property_names(value)

@@ -8,7 +8,7 @@ kinds of control it could have been; what belongs together is checked by rules o
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, field_validator
 
@@ -20,7 +20,7 @@ from teleop.core.operator_input import Command
 
 PADS = "profiles/pads"  # where the shipped mappings lie
 DIRECTIONS = ("up", "right", "down", "left")
-FROZEN = 10.0  # s
+STUCK_TIMEOUT = 10.0  # s
 
 Id = Annotated[int, Field(ge=0, le=0xFFFF)]
 DeadZone = Annotated[float, Field(ge=0, le=0.3)]
@@ -38,8 +38,11 @@ class DeviceSection(Section):
     """A device by its ids, or by its name with * for any letters; with neither, any joystick."""
 
     vendor: Id | None = None
+    """USB vendor id, 0 to 0xFFFF."""
     product: Id | None = None
+    """USB product id, 0 to 0xFFFF; any product of the vendor without it."""
     name: Annotated[str, Field(min_length=1)] | None = None
+    """Name of the device; * matches any letters."""
 
     @property
     def any(self) -> bool:
@@ -53,65 +56,90 @@ class DeviceSection(Section):
 
 
 class ActionSection(Section):
-    """What a button, a direction of a hat or any other control does.
+    """What a button, a direction of a hat or another control does."""
 
-    `press` is asked for when it is pressed, `hold` instead when it is held for a second. `speed` is the most that it
-    moves its axis by, as a share of full deflection.
-    """
+    RENAMED: ClassVar = {"words": "command"}
 
     axis: AxisName | None = None
+    """The axis that it moves."""
     press: CommandName | None = None
+    """What a press does."""
     hold: CommandName | None = None
+    """What a press of one second does instead of `press`."""
     number: Annotated[int, Field(ge=1, le=99)] | None = None
-    words: str = ""
+    """Number of the preset, for recall, store and delete."""
+    command: str = ""
+    """Command in the words of `teleop send`, for tell: `gimbal follow lock`."""
     invert: bool = False
+    """Turn the direction round."""
     speed: Annotated[float, Field(gt=0, le=1)] = 1.0
+    """Largest deflection, as a share of full deflection."""
 
 
 class ControlSection(ActionSection):
-    """What a control does.
+    """What a control does."""
 
-    `reads` overrides what the descriptor says of it: a jog wheel that calls itself relative may send a running
-    `counter`. `rest` is where it lies when nobody touches it, `range` and `centre` are in the device's own numbers.
-    `coarse` and `fine` (while `fine_button` is held) are what a click is worth: in units of its axis by position, in
-    deflection for one click per second by rate; of a control that is no wheel, a factor.
-    """
+    RENAMED: ClassVar = {**ActionSection.RENAMED, "reads": "value_type", "centre": "center"}
 
     dial: bool = False
+    """Whether it turns the gimbal's own dial."""
     by: Literal["rate", "position"] | None = None
-    reads: Literal["absolute", "relative", "counter"] | None = None
+    """Whether it sets a rate or a position of its axis."""
+    value_type: Literal["absolute", "relative", "counter"] | None = None
+    """What its values are, where the device describes them wrongly: a jog wheel may send a counter."""
     rest: Literal["low", "middle", "high"] | None = None
+    """Where it lies when it is released."""
     dead_zone: DeadZone | None = None
+    """As `dead_zone` of `sticks`, for this control."""
     expo: Expo | None = None
+    """As `expo` of `sticks`, for this control."""
     range: Annotated[list[Finite], Field(min_length=2, max_length=2)] | None = None
-    centre: Finite | None = None
+    """Its lowest and highest value, in the device's own numbers."""
+    center: Finite | None = None
+    """Its value at rest, in the device's own numbers."""
     coarse: Amount | None = None
+    """One click in units of its axis (by position) or deflection per click/s (by rate); else a factor."""
     fine: Amount | None = None
+    """As `coarse`, while `fine_button` is held."""
     fine_button: str | None = None
+    """Name of the button for `fine`."""
     up: ActionSection | None = None
+    """What the hat does upward."""
     right: ActionSection | None = None
+    """What the hat does to the right."""
     down: ActionSection | None = None
+    """What the hat does downward."""
     left: ActionSection | None = None
+    """What the hat does to the left."""
 
 
 Controls = dict[str, ControlSection | None]  # None: what the pad has it do is left out
 
 
 class _MappedSection(Section):
-    """What a profile's input and a shipped pad have in common; `frozen`: s without any change while deflected."""
+    """The keys that a profile's input and a shipped pad share."""
+
+    RENAMED: ClassVar = {"frozen": "stuck_timeout"}
 
     reports: Literal["auto", "continuous", "on-change"] | None = None
-    frozen: Annotated[float, Field(gt=0, le=3600)] | None = None
+    """When the device sends reports: continuously, on change, or found out by itself."""
+    stuck_timeout: Annotated[float, Field(gt=0, le=3600)] | None = None
+    """Time in s without any change while deflected, after which the device counts as stuck."""
     controls: Controls = Field(default_factory=dict)
+    """What each control does, by its name; null leaves one out that the pad has."""
 
 
 class InputSection(_MappedSection):
-    """A device in the hand. `pad` is a shipped mapping to begin with, `enable` a control to be held while moving."""
+    """A joystick, pad or dial."""
 
     device: DeviceSection = DeviceSection()
+    """The device by its ids or name; `any` for any joystick."""
     name: str = ""
+    """Name of the input on screens."""
     pad: str | None = None
+    """Shipped mapping or file to start from; `controls` changes it."""
     enable: str | None = None
+    """Button that must be held for the device to move anything."""
 
     @field_validator("device", mode="before", json_schema_input_type=DeviceSection | Literal["any"])
     @classmethod
@@ -123,8 +151,11 @@ class PadSection(_MappedSection):
     """A shipped mapping: the devices it is for, or why they cannot be read."""
 
     name: str
+    """Name of the pad."""
     devices: Annotated[list[DeviceSection], Field(min_length=1)]
+    """The devices that the mapping is for."""
     unreadable: str = ""
+    """Why the reports of these devices cannot be read; empty where they can."""
 
 
 def input_rules(data: Any) -> Iterator[Wrong]:
@@ -187,13 +218,13 @@ def _action_rules(action: Mapping[str, Any], here: Location, axes: Mapping[str, 
         yield here, f"needs a number: which preset to {' or '.join(sorted(asked & _NUMBERED))}"
     if "number" in action and not asked & _NUMBERED:
         yield (*here, "number"), "is for recall, store and delete"
-    words = action.get("words")
-    if press == "engage" or (press == "tell" and isinstance(words, str) and words.startswith(DRONE)):
+    command = action.get("command")
+    if press == "engage" or (press == "tell" and isinstance(command, str) and command.startswith(DRONE)):
         yield here, "must be held: a drone is engaged, and told, by hold, with a press beside it (press: disengage)"
-    if press == "tell" and not action.get("words"):
-        yield here, "needs words to tell: gimbal follow lock"
-    if "words" in action and "tell" not in asked:
-        yield (*here, "words"), "are for tell"
+    if press == "tell" and not action.get("command"):
+        yield here, "needs a command: gimbal follow lock"
+    if "command" in action and "tell" not in asked:
+        yield (*here, "command"), "is for tell"
     if "hold" in action and press is None:
         yield (*here, "hold"), "needs a press beside it, for when it is let go sooner"
 

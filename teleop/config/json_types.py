@@ -6,6 +6,7 @@ types say to `teleop schema` what the functions accept, out of the same patterns
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 from pydantic import WithJsonSchema
@@ -26,23 +27,35 @@ def _share_to(most: float) -> dict[str, Any]:
     return {"type": "string", "pattern": pattern}
 
 
+def _described(schema: Mapping[str, Any], description: str) -> dict[str, Any]:
+    return {**schema, "description": description}
+
+
 def _mapping(required: list[str], **properties: Any) -> dict[str, Any]:
     return {"type": "object", "properties": properties, "required": required, "additionalProperties": False}
 
 
 _RAMP = {"anyOf": [{"enum": [SMOOTH, *NAMES]}, _share_to(LONGEST_SHARE), *_TIME["anyOf"]]}
 _SPAN = {"anyOf": [{"type": "number", "exclusiveMinimum": 0, "maximum": LONGEST}, _TIME["anyOf"][1]]}
+_ARRIVE = _described(_RAMP, "Ramp to the stop here.")
+_LEAVE = _described(_RAMP, "Ramp away from here.")
+_FROM = _described(_SPAN, "Interval of the first frame.")
+_TO = _described(_SPAN, "Interval of the last frame.")
+_BELOW = _described({"type": "number", "exclusiveMinimum": 0}, "Speed in deg/s below which the gimbal counts as still.")
+_AT_MOST = _described(_TIME, "Longest wait for that.")
 
 Time = Annotated[Any, WithJsonSchema({**_TIME, "examples": [4, "4s", "1m30s", "96f", "00:00:04:00"]})]
 Percentage = Annotated[Any, WithJsonSchema({"type": "string", "pattern": PERCENTAGE_WRITTEN, "examples": ["30%"]})]
 Overlap = Annotated[Any, WithJsonSchema({**_share_to(MOST_OVERLAP), "examples": ["30%"]})]
 Ease = Annotated[
     Any,
-    WithJsonSchema({"anyOf": [*_RAMP["anyOf"], _mapping([], arrive=_RAMP, leave=_RAMP)], "examples": ["1.5s", "25%"]}),
+    WithJsonSchema(
+        {"anyOf": [*_RAMP["anyOf"], _mapping([], arrive=_ARRIVE, leave=_LEAVE)], "examples": ["1.5s", "25%"]}
+    ),
 ]
 Interval = Annotated[
     Any,
-    WithJsonSchema({"anyOf": [*_SPAN["anyOf"], _mapping(["from", "to"], **{"from": _SPAN, "to": _SPAN})]}),
+    WithJsonSchema({"anyOf": [*_SPAN["anyOf"], _mapping(["from", "to"], **{"from": _FROM, "to": _TO})]}),
 ]
 Settle = Annotated[
     Any,
@@ -50,7 +63,7 @@ Settle = Annotated[
         {
             "anyOf": [
                 *_TIME["anyOf"],
-                _mapping(["below", "at_most"], below={"type": "number", "exclusiveMinimum": 0}, at_most=_TIME),
+                _mapping(["below", "at_most"], below=_BELOW, at_most=_AT_MOST),
             ]
         }
     ),

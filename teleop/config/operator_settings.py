@@ -28,20 +28,22 @@ def _rising(ranges: list[float]) -> list[float]:
 
 
 class SticksSection(Section):
-    """How a deflection becomes a velocity.
-
-    `dead_zone` and `expo` shape it (None: not given), `speed` is full stick's share of an axis's velocity, `ranges`
-    are the shares of that on the speed button, `start_range` (from 1) is the one to begin with. Full speed takes
-    `ramp` s to reach and to leave where the axis's own limits allow it; `low_pass` is a time constant in s.
-    """
+    """How a deflection becomes a velocity."""
 
     dead_zone: Annotated[float, Field(ge=0, le=0.3)] | None = None
+    """Share of the deflection around the center that counts as 0. Default 0.06; recorded sticks: none."""
     expo: Annotated[float, Field(ge=0, le=0.75)] | None = None
+    """How much finer a stick is near its center, 0 to 0.75. Default 0.4; recorded sticks: none."""
     speed: Share = 1.0
+    """Share of an axis's velocity that a full stick gives."""
     ranges: Annotated[list[Share], Field(min_length=1), AfterValidator(_rising)] = Field(default_factory=RANGES.copy)
+    """Speed ranges of the speed button as shares of `speed`, slowest first."""
     start_range: Annotated[int, Field(ge=1)] = 1
+    """The speed range to begin with, counted from 1."""
     ramp: Annotated[float, Field(ge=0, le=5)] = 0.3
+    """Time from rest to full speed and back in s, where the axis's limits allow it."""
     low_pass: Annotated[float, Field(ge=0, le=1)] = 0.05
+    """Time constant of the low-pass filter on deflections, in s."""
 
     @model_validator(mode="after")
     def _starts_in_range(self) -> SticksSection:
@@ -58,6 +60,7 @@ def _positive_time(value: Any) -> float:
 
 
 class PresetsSection(Section):
-    """`recall`: how long it takes to a preset, as a time is written (`3s`)."""
+    """How presets are recalled."""
 
     recall: Annotated[Time, AfterValidator(_positive_time)] = 3.0
+    """Time that a recall takes: `3s`."""

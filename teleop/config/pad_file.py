@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import PADS, PadSection, control_rules
 from teleop.config.resources import find
 from teleop.config.yaml_loader import read_document
@@ -10,6 +11,7 @@ from teleop.config.yaml_loader import read_document
 def load_pad(name: str) -> PadSection:
     """A shipped mapping, or one at a path; raises DocumentError with a line for everything wrong with it."""
     document = read_document(*find(name, PADS, "pad"))
+    refuse_other_kind(document, "pad")
     data = document.data if isinstance(document.data, dict) else {}
     controls = data.get("controls")
     return document.check(

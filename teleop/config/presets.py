@@ -37,10 +37,12 @@ class PresetSection(PositionsSection):
     """What stands in the file: positions in the axes' units, and what to call them."""
 
     name: str = ""
+    """Name of the preset on screens."""
 
 
 class PresetsFile(Section):
     presets: dict[str, PresetSection] = Field(default_factory=dict)
+    """The presets by their numbers."""
 
 
 @dataclass(frozen=True)

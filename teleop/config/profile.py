@@ -17,6 +17,7 @@ from pydantic import Field
 from teleop.config.base_model import Finite, Section
 from teleop.config.document import Document, DocumentError, Wrong, mapping, number
 from teleop.config.enable_rules import enable_rules
+from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import InputSection, input_rules
 from teleop.config.operator_settings import PresetsSection, SticksSection
 from teleop.config.resources import find
@@ -39,13 +40,18 @@ AxisName = Annotated[Axis, Field(strict=False)]
 
 
 class AxisSection(Section):
-    """One axis: its soft limits, null for none, and the most it may do."""
+    """One axis: its soft limits and its maximum velocity, acceleration and jerk."""
 
     min: Finite | None
+    """Lower soft limit in deg (focus and sticks: no unit); null for an axis that turns without end."""
     max: Finite | None
+    """Upper soft limit in deg (focus and sticks: no unit); null for an axis that turns without end."""
     velocity: Magnitude
+    """Maximum velocity in deg/s (focus and sticks: per s)."""
     acceleration: Magnitude
+    """Maximum acceleration in deg/s2 (focus and sticks: per s2)."""
     jerk: Magnitude
+    """Maximum jerk in deg/s3 (focus and sticks: per s3)."""
 
     def limits(self) -> Limits:
         low = -math.inf if self.min is None else self.min
@@ -54,22 +60,31 @@ class AxisSection(Section):
 
 
 class ShootingSection(Section):
-    """How a timelapse is shot on this rig: `wait_for_link` waits for a lost link and goes on by itself."""
+    """How a timelapse is shot on this rig."""
 
     wait_for_link: bool = False
+    """Wait for a lost link and continue, instead of ending the shoot."""
 
 
 class Profile(Section):
-    """A rig. `links` are URLs by the names that sinks use; sinks are served in their order."""
+    """A rig: links, axes, and the sinks that drive them in their order."""
 
     name: Annotated[str, Field(min_length=1)]
+    """Name of the rig on screens and in errors."""
     links: dict[str, str]
+    """URL of each link by its name: `socketcan:can0`, `serial:/dev/ttyUSB0@230400`, `sim:`."""
     axes: Annotated[dict[AxisName, AxisSection], Field(min_length=1)]
+    """The axes of the rig, each with its soft limits and maximum velocity, acceleration and jerk."""
     sinks: list[Annotated[SinkSection, Field(discriminator="type")]]
+    """The devices that move the axes or obey cues, each on one of the links."""
     sticks: SticksSection = SticksSection()
+    """How stick deflection becomes velocity."""
     presets: PresetsSection = PresetsSection()
+    """Settings of presets: how long a recall takes."""
     inputs: list[InputSection] = Field(default_factory=list)
+    """Joysticks, pads and dials, and what each of their controls does."""
     timelapse: ShootingSection = ShootingSection()
+    """Settings of every timelapse on this rig."""
 
     @property
     def drones(self) -> frozenset[str]:
@@ -125,6 +140,7 @@ def load_profile(name: str, links: Mapping[str, str] | None = None) -> Profile:
     Raises DocumentError with a line for everything wrong with it.
     """
     document = read_document(*find(name, "profiles", "rig"))
+    refuse_other_kind(document, "profile")
     profile = document.check(Profile, _rules(document.data))
     return _with_links(profile, document, links or {})
 

@@ -9,7 +9,7 @@ import re
 from typing import Any
 
 from teleop.config.frame_rates import drops, exact, exact_rate, frame_of, is_dropped, shown_rate, whole_rate
-from teleop.config.messages import shown
+from teleop.config.messages import decimal_comma, shown
 
 _PARTS = re.compile(r"(?:([0-9]+(?:\.[0-9]+)?)h)?(?:([0-9]+(?:\.[0-9]+)?)m)?(?:([0-9]+(?:\.[0-9]+)?)s)?")
 _FRAMES = re.compile(r"([0-9]+)f")
@@ -51,6 +51,8 @@ def _seconds(value: Any, fps: float | None) -> float:
     if match := _TIMECODE.fullmatch(text):
         hours, minutes, whole, mark, number = match.groups()
         return _timecode(text, (int(hours), int(minutes), int(whole), int(number)), _needed(fps, text), mark == ";")
+    if comma := decimal_comma(value):
+        raise ValueError(f": {comma}")
     raise ValueError(f"must be a time ({_WRITTEN}), not {shown(value)}")
 
 

@@ -7,7 +7,7 @@ the file, and not in the air. How fast it flies has no defaults, because only it
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -51,40 +51,48 @@ MOVES: Mapping[str, Sequence[Axis]] = {
 
 
 class GainsSection(Section):
-    """How hard the measured error is worked against: deg/s per deg, and deg/s2 per deg; 0 does not."""
+    """How strongly the measured error is corrected."""
 
     proportional: Annotated[float, Field(ge=0, le=20)] = 3.0
+    """Correction in deg/s per deg of error; 0 turns it off."""
     integral: Annotated[float, Field(ge=0, le=20)] = 2.0
+    """Correction in deg/s2 per deg of error; 0 turns it off."""
 
 
 class GimbalSection(Section):
-    """Pan, tilt and roll over the R SDK.
+    """Pan, tilt and roll of a gimbal over the R SDK."""
 
-    `delay` is how much later than commanded the gimbal moves, in s. `signs` turns an axis whose firmware counts the
-    other way; `speed_signs` and `report_signs` are for a gimbal that counts its speeds, or the angles that it reports,
-    otherwise than the positions it is sent: both are as `signs` where they are absent. `legacy_angles` is the order of
-    the angles in replies of old firmware. `mapping` says which axis each of the gimbal's angles is; one that is left
-    out is not driven. `gains` are those of the modes speed and stick. `follow` is how far from commanded an axis may
-    stay, in deg. `full_stick` is what full deflection gives with the gimbal's own joystick settings, in deg/s, for mode
-    stick; an axis that is not named there reaches its velocity.
-    """
+    RENAMED: ClassVar = {"follow": "max_following_error"}
 
     type: Literal["gimbal"]
+    """Pan, tilt and roll of a DJI gimbal over the R SDK."""
     link: str
+    """Name of the link that the device is on."""
     mode: Literal["position", "speed", "stick"]
+    """The command stream: positions, speeds, or deflections of the gimbal's joystick."""
     rate: Rate
+    """Commands per second (Hz)."""
     delay: Annotated[float, Field(ge=0, le=0.5)] = 0.0
+    """How much later than commanded the gimbal moves, in s."""
     gains: GainsSection = GainsSection()
-    follow: Annotated[float, Field(gt=0, le=180)] = 5.0
+    """Gains of the correction from measured angles, for the modes speed and stick."""
+    max_following_error: Annotated[float, Field(gt=0, le=180)] = 5.0
+    """Largest permitted distance between commanded and measured angle, in deg; beyond it a run stops."""
     signs: dict[Angle, Sign] = Field(default_factory=dict)
+    """-1 for an axis whose firmware counts the other way."""
     speed_signs: dict[Angle, Sign] = Field(default_factory=dict)
+    """As `signs`, for speeds only; needed where the gimbal counts speeds otherwise than positions."""
     report_signs: dict[Angle, Sign] = Field(default_factory=dict)
+    """As `signs`, for reported angles only; needed where they are counted otherwise than positions."""
     legacy_angles: Literal["yaw-roll-pitch", "yaw-pitch-roll"] = "yaw-roll-pitch"
+    """Order of the angles in replies of old firmware."""
     mapping: dict[Literal["yaw", "roll", "pitch"], Angle] = Field(
         default_factory=lambda: {"yaw": "pan", "roll": "roll", "pitch": "tilt"}
     )
+    """The axis of each of the gimbal's angles; an angle that is left out is not driven."""
 
     full_stick: dict[Angle, Magnitude] = Field(default_factory=dict)
+    """Speed at full deflection by the gimbal's own settings, in deg/s, for mode stick."""
 
     @property
     def axes(self) -> Sequence[Axis | None]:
@@ -114,43 +122,57 @@ class GimbalSection(Section):
 
 
 class FocusSection(Section):
-    """The focus motor on the gimbal's bus. `follow` is how far from commanded it may be found for long."""
+    """The focus motor on the gimbal's bus."""
+
+    RENAMED: ClassVar = {"follow": "max_following_error"}
 
     type: Literal["focus"]
+    """The focus motor on the gimbal's bus."""
     link: str
+    """Name of the link that the device is on."""
     rate: Rate
-    follow: Share = 0.1
+    """Commands per second (Hz)."""
+    max_following_error: Share = 0.1
+    """Largest permitted distance between commanded and measured focus, 0 to 1; beyond it a run stops."""
 
 
 class CameraSection(Section):
     """The camera that the gimbal controls: record, stop, shutter."""
 
     type: Literal["camera"]
+    """The camera that the gimbal controls: record, stop, shutter."""
     link: str
+    """Name of the link that the device is on."""
 
 
 class VirtualRcSection(Section):
-    """A Matrice 100 flown as by a remote control. `go_home` is what that channel says for going home, if any.
-
-    With `back_to_rc` the drone obeys its RC again when virtual RC ends, and otherwise behaves as without any. At
-    `low_battery` (%) it is given back. `encrypted` is by the app's key (credentials).
-    """
+    """A Matrice 100 flown by virtual RC."""
 
     type: Literal["virtual-rc"]
+    """A Matrice 100 flown as by its remote control."""
     link: str
+    """Name of the link that the device is on."""
     encrypted: bool = False
+    """Encrypt what is sent, with the app's key."""
     back_to_rc: bool = True
+    """Whether the drone obeys its RC again when virtual RC ends; false: as if it had lost its RC."""
     rate: Literal[20] = 20  # Hz: docs/protocol-facts.md
+    """Stick commands per second (Hz): always 20."""
     low_battery: LowBattery = 25
+    """Battery level in % below which the drone is not taken and control is released."""
     go_home: Channel | None = None
+    """Channel value that sends the drone home, 364 to 1684; null for none."""
 
 
-class FullSection(Section):
-    """What a full stick gives: m/s, deg or m, then m/s, then deg/s or deg."""
+class FullScaleSection(Section):
+    """What a full stick gives."""
 
     horizontal: Magnitude
+    """A full right stick: m/s, deg or m, by `mode`."""
     vertical: Magnitude
+    """A full throttle stick: m/s or m, by `vertical`."""
     yaw: Magnitude
+    """A full yaw stick: deg/s or deg, by `yaw`."""
 
 
 class FlightSection(Section):
@@ -163,17 +185,30 @@ class FlightSection(Section):
     `guidance` is whether Guidance is on board and set up, `indoors` whether it flies there.
     """
 
+    RENAMED: ClassVar = {"full": "full_scale"}
+
     type: Literal["flight"]
+    """A drone flown by movement commands."""
     link: str
+    """Name of the link that the device is on."""
     encrypted: bool = False
+    """Encrypt what is sent, with the app's key."""
     mode: Literal["velocity-body", "velocity-ground", "tilt", "tilt-ground", "offset-body", "offset-ground"]
+    """What the horizontal sticks command: velocity, tilt or an offset, by the drone or by the ground."""
     vertical: Literal["velocity", "height"] = "velocity"
+    """What the throttle stick commands: a velocity, or a height from where the drone was taken."""
     yaw: Literal["rate", "angle"] = "rate"
-    full: FullSection
+    """What the yaw stick commands: a rate, or an angle from where the drone was taken."""
+    full_scale: FullScaleSection
+    """What full deflection of each stick gives."""
     rate: Literal[50] = 50  # Hz: docs/protocol-facts.md
+    """Movement commands per second (Hz): always 50."""
     guidance: bool = False
+    """Whether Guidance is on board and set up."""
     indoors: bool = False
+    """Whether the drone flies indoors."""
     low_battery: LowBattery = 25
+    """Battery level in % below which the drone is not taken and control is released."""
 
     @property
     def frame(self) -> Frame:
@@ -217,14 +252,14 @@ def sink_rules(data: Any) -> Iterator[Wrong]:
         moves = [axis for axis in mapping(sink, "mapping").values() if isinstance(axis, str)] or MOVES[kind]
         moved = [axis for axis in moves if axis in axes]
         if moves and not moved:
-            yield ("sinks", index), f"moves {', '.join(moves)}, and axes has none of them"
+            yield ("sinks", index), f": it drives {', '.join(moves)}, and `axes` has none of them"
         for axis in moved:
             if axis in mover:
-                yield ("sinks", index), f"moves {axis}, and so does sinks[{mover[axis]}]"
+                yield ("sinks", index), f": {axis} is already driven by sinks[{mover[axis]}]"
             mover[axis] = index
     for axis in axes:
         if axis in AXES and axis not in mover:
-            yield ("axes", axis), "has no sink that moves it"
+            yield ("axes", axis), ": no sink drives it"
 
     for axis in STICKS:
         low, high = (number(mapping(axes, axis).get(end)) for end in ("min", "max"))
@@ -251,9 +286,9 @@ def _drone_rules(sink: Mapping[str, Any], kind: str, here: Location, data: Any) 
             return
         ranges = _combination(mode, vertical, yaw).ranges
         for name, of in (("horizontal", "x"), ("vertical", "z"), ("yaw", "yaw")):
-            full, most = number(mapping(sink, "full").get(name)), ranges[of].high
+            full, most = number(mapping(sink, "full_scale").get(name)), ranges[of].high
             if full is not None and most is not None and full > most:
-                yield (*here, "full", name), f"must be at most {most:g} {ranges[of].unit} in this mode"
+                yield (*here, "full_scale", name), f"must be at most {most:g} {ranges[of].unit} in this mode"
 
 
 def _is_bus(url: Any) -> bool:

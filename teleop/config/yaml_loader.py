@@ -15,7 +15,8 @@ from typing import Any
 
 import yaml
 
-from teleop.config.document import Document, DocumentError, Location, Place, path_text
+from teleop.config.document import Document, DocumentError, Flaw, Location, Place, joined, path_text
+from teleop.config.messages import decimal_comma, missing_space
 from teleop.config.yaml_nodes import TooMuchError, compose
 
 MAX_BYTES = 4_000_000  # a sequence of 2000 keys is 0.2 MB
@@ -82,6 +83,8 @@ def parse_document(text: str, name: str) -> Document:
         document.data = _Reading(document).value(node, (), 0)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
+        if problem := _missing_space(error, text):
+            raise DocumentError([f"{name}:{problem}"]) from None
         place = f":{mark.line + 1}:{mark.column + 1}" if mark else ""
         raise DocumentError([f"{name}{place}: {_what(error, text)}"]) from None
     except yaml.YAMLError as error:
@@ -113,6 +116,18 @@ def _what(error: yaml.MarkedYAMLError, text: str) -> str:
     return f"not YAML: {problem}"
 
 
+def _missing_space(error: yaml.MarkedYAMLError, text: str) -> str:
+    """Place and text of a key without a space behind its colon, which PyYAML finds only in the line after it."""
+    lines = _BREAK.split(text)
+    marks = [mark for mark in (error.context_mark, error.problem_mark) if mark]
+    numbers = {mark.line + offset for mark in marks for offset in (-1, 0)}
+    for number in sorted(number for number in numbers if 0 <= number < len(lines)):
+        word = lines[number].lstrip(" -")
+        if found := missing_space(word.split(" #")[0].rstrip()):
+            return f"{number + 1}:{len(lines[number]) - len(word) + 1}: {found}"
+    return ""
+
+
 class _Reading:
     """One walk over the nodes of a file, filling a document's values and places."""
 
@@ -138,6 +153,7 @@ class _Reading:
 
     def _mapping(self, node: yaml.MappingNode, path: Location, depth: int) -> dict[str, Any]:
         result: dict[str, Any] = {}
+        before: tuple[str, yaml.Node] | None = None
         for key_node, value_node in node.value:
             key = key_node.value
             if not isinstance(key, str) or not key.isprintable() or not key:
@@ -147,14 +163,44 @@ class _Reading:
             if key == "<<" and not key_node.style:
                 self._flaw(key_node, here, "would merge, which YAML 1.2 does not: write out what it adds")
                 continue
+            if _is_bare(key_node, value_node):
+                if before and self._is_decimal_comma(before, key_node, path, result):
+                    continue
+                if text := missing_space(key):
+                    self._flaw(key_node, path, f": {text}")
+                    key, _, rest = key.partition(":")
+                    self._document.keys[*path, key] = self._document.places[*path, key] = _start(key_node)
+                    result.setdefault(key, _scalar(rest))
+                    continue
             self._document.keys[here] = _start(key_node)
             if key in result:
-                self._flaw(key_node, here, "stands here for the second time")
+                self._flaw(key_node, here, ": duplicate key", duplicate=here)
             result[key] = self.value(value_node, here, depth + 1)
+            before = key, value_node
         return result
 
-    def _flaw(self, node: yaml.Node, path: Location, text: str) -> None:
-        self._document.flaws.append((_start(node), f"{path_text(path)} {text}".strip()))
+    def _is_decimal_comma(
+        self, before: tuple[str, yaml.Node], key_node: yaml.Node, path: Location, result: dict[str, Any]
+    ) -> bool:
+        """Whether this key is the 5 of `{pan: 20,5}`; the number is then taken as 20.5, so that one error is one."""
+        name, value_node = before
+        written = f"{value_node.value},{key_node.value}"
+        adjacent = value_node.end_mark.index + 1 == key_node.start_mark.index
+        text = decimal_comma(written) if adjacent else ""
+        if text:
+            self._flaw(value_node, (*path, name), f": {text}")
+            result[name] = _scalar(written.replace(",", "."))
+        return bool(text)
+
+    def _flaw(self, node: yaml.Node, path: Location, text: str, duplicate: Location | None = None) -> None:
+        self._document.flaws.append(Flaw(_start(node), joined(path_text(path), text), duplicate))
+
+
+def _is_bare(key_node: yaml.Node, value_node: yaml.Node) -> bool:
+    """Whether a key has no value and no colon of its own: a word between two commas."""
+    if not isinstance(key_node, yaml.ScalarNode) or not isinstance(value_node, yaml.ScalarNode):
+        return False
+    return not key_node.style and not value_node.style and not value_node.value
 
 
 def _start(node: yaml.Node) -> Place:

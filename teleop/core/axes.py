@@ -26,9 +26,25 @@ class Axis(StrEnum):
     STICK_THROTTLE = "stick_throttle"
     STICK_YAW = "stick_yaw"
 
+    @property
+    def is_angle(self) -> bool:
+        """Measured in degrees, so that a whole turn leads back to the same place."""
+        return self in _ANGLES
 
+    @property
+    def is_stick(self) -> bool:
+        """A drone's stick: it has a spring, and goes to 0 when released. Every other axis stays where it is."""
+        return self in STICKS
+
+    @property
+    def unit(self) -> str:
+        """The unit of positions, as shown to people: "deg", or "" for shares of the full range."""
+        return "deg" if self.is_angle else ""
+
+
+_ANGLES = (Axis.PAN, Axis.TILT, Axis.ROLL)
 STICKS = (Axis.STICK_ROLL, Axis.STICK_PITCH, Axis.STICK_THROTTLE, Axis.STICK_YAW)
-"""The axes that have a spring: left alone they go to 0, where every other axis stays where it is."""
+"""The axes of a drone's sticks, in the order of the remote controller's channels."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
-from teleop.core.axes import STICKS, Axis, Limits, Motion, Reading, State
+from teleop.core.axes import Axis, Limits, Motion, Reading, State
 from teleop.core.errors import DeviceError, Interrupted, LeaveAtOnce, TeleopError
 from teleop.core.events import Tick, TickEvent
 from teleop.core.guard_stop import stop_phases, stop_state
@@ -31,14 +31,11 @@ from teleop.core.run_state import RunEvent, RunState, RunStateMachine
 from teleop.core.setpoints import Demand, Setpoint, Stop
 from teleop.core.shutdown import Shutdown
 from teleop.core.stall_recovery import PATIENCE, StallRecovery
+from teleop.core.timing import FIRST_REPORT, KEEP_ALIVE, PERIOD, RATE
 
-RATE = 100  # Hz
-PERIOD = 1 / RATE  # s
 LEAD = 0.002  # s before its moment a tick is prepared, so that commands leave evenly however long they took to make
 ON_GRID = 1e-3  # of a tick: so near is on it; floats are off by a hundredth of that after thirty years of uptime
-KEEP_ALIVE = 0.4  # s: the longest a resting loop sleeps; a gimbal forgets a speed after 0.5 s
 STALL = 0.25  # s: a tick later than this was not lateness but a stall; the gimbal has long stopped following
-FIRST_REPORT = 2.0  # s to wait for the first report of every axis in use
 STOP_SHARE, STOP_EXTRA = 2.0, 1.0  # a planner has so many times the fastest stop, and so many s, to come to rest
 AT_ONCE = 0.4  # s for releasing every device without a ramp: three zero speeds, release, and the reply
 STOP_SLACK = 1.0  # s beyond all of these after which the run no longer waits for rest
@@ -163,7 +160,7 @@ class ControlLoop:
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (RunState.RUNNING, RunState.STOPPING):
             self._fault(StallError(f"the computer stalled for {late:.2f} s"))
-            measured = {axis: state for axis, state in self._motion.items() if axis not in STICKS}
+            measured = {axis: state for axis, state in self._motion.items() if not axis.is_stick}
             self._lost = StallRecovery(measured, self._time(self._ticks))
             return self._time(self._ticks), 1
         return self._time(self._ticks), 1 if self._resting else elapsed

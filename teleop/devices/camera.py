@@ -8,7 +8,7 @@ it leaves: nobody else knows that the card is filling. So it is with a focus tha
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from teleop.core.errors import DeviceError
 from teleop.core.events import Action, Tick
@@ -32,14 +32,21 @@ TRIES = 3  # how often it is said without a reply; the shutter once
 
 
 class CameraSink:
-    """Performs the camera actions of a tick, and says when the camera would not."""
+    """Performs the camera actions of a tick.
+
+    `on_done` is called with each action that the camera has confirmed. An action that the camera refuses, or does not
+    answer, ends the run; where `on_failed` is set it is called with the action and the reason instead. On leaving, a
+    camera that may still be recording is a fault in any case.
+    """
 
     def __init__(self, connection: Connection) -> None:
         self._connection = connection
         self._pending: dict[int, tuple[Action, int]] = {}  # sequence -> what was asked, for the how manieth time
         self._again: list[tuple[Action, int]] = []
-        self._fault = ""
+        self._fault: tuple[Action, str] | None = None
         self._lasting: set[Action] = set()
+        self.on_done: Callable[[Action], object] = lambda _action: None
+        self.on_failed: Callable[[Action, str], object] | None = None
         connection.on_answer(camera.Command, self._answered)
 
     @property
@@ -52,7 +59,12 @@ class CameraSink:
         again, self._again = self._again, []
         for action, attempt in [*again, *((action, 1) for action in tick.actions if isinstance(action, Action))]:
             self._ask(action, attempt, tick.time)
-        self._say_fault()
+        self._report_fault(self.on_failed)
+
+    def poll(self, now: float) -> None:
+        """Read the link while an answer is due: where no axis of the run is on it, nothing else does."""
+        if self.waiting:
+            self._connection.poll(now)
 
     def release(self, now: float) -> float | None:
         """Stop what still records, and wait for the camera's word; raises as `write` does."""
@@ -62,7 +74,7 @@ class CameraSink:
         for action, attempt in asked:
             self._ask(action, attempt, now)
         self._connection.poll(now)
-        self._say_fault()
+        self._report_fault(None)
         waits = self._again or any(action in ENDS.values() for action, _ in self._pending.values())
         return now + LISTEN if waits else None
 
@@ -73,10 +85,14 @@ class CameraSink:
         sequence = self._connection.request(camera.Command(COMMANDS[action]), now)
         self._pending[sequence] = (action, attempt)
 
-    def _say_fault(self) -> None:
-        if self._fault:
-            fault, self._fault = self._fault, ""
-            raise DeviceError(fault)
+    def _report_fault(self, report: Callable[[Action, str], object] | None) -> None:
+        if self._fault is None:
+            return
+        (action, reason), self._fault = self._fault, None
+        if report is None:
+            raise DeviceError(reason)
+        self._lasting |= {lasting for lasting, end in ENDS.items() if end is action}  # to be ended on leaving
+        report(action, reason)
 
     def _answered(self, answer: Answer) -> None:
         asked = self._pending.pop(answer.sequence, None)
@@ -84,11 +100,15 @@ class CameraSink:
             return
         action, attempt = asked
         if isinstance(answer.reply, Result) and answer.reply.return_code:
-            self._fault = f"the camera refused to {_said(action)} (return code {answer.reply.return_code:#04x})"
+            self._lasting.discard(action)
+            code = f"return code {answer.reply.return_code:#04x}"
+            self._fault = action, f"the camera refused to {_said(action)} ({code})"
+        elif isinstance(answer.reply, Result):
+            self.on_done(action)
         elif answer.reply is None and action is not Action.SHUTTER and attempt < TRIES:
             self._again.append((action, attempt + 1))
         elif answer.reply is None:
-            self._fault = f"the camera did not answer when asked to {_said(action)}"
+            self._fault = action, f"the camera did not answer when asked to {_said(action)}"
 
 
 def _said(action: Action) -> str:

@@ -1,44 +1,56 @@
 """What the camera answers to an operator who has it record or shoot, in a line: it is not seen to do so otherwise.
 
-A refusal, and no answer, end the run, and the camera's own sink says why; here only what was done is said.
+A run by hand goes on when the camera refuses or is absent: the operator is told, and drives on. A move that plays by
+itself ends instead, because a move that is not filmed is not worth finishing.
 """
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 
 from teleop.core.events import Action, Tick
-from teleop.devices.connection import Answer, Connection
-from teleop.dji.gimbal import camera
-from teleop.dji.message import Result
+from teleop.devices.camera import CameraSink
 
 DONE = {Action.RECORD: "camera: recording", Action.STOP: "camera: stopped", Action.SHUTTER: "camera: shutter released"}
 ABSENT = {Action.RECORD: "record", Action.STOP: "stop", Action.SHUTTER: "shutter"}
 
 
 class CameraAnswers:
-    """A watcher; `connection` is the camera's, None where the rig has no camera."""
+    """An observer; `camera` is the rig's, None where it has none.
 
-    def __init__(self, connection: Connection | None, say: Callable[[str], object]) -> None:
-        self._connection, self._say = connection, say
-        self._asked: deque[Action] = deque()
-        if connection is not None:
-            connection.on_answer(camera.Command, self._answered)
+    `notify` gets a line for each answer, and `answered` the action with whether the camera has done it. With `lenient`
+    a refusal, or no answer, does not end the run.
+    """
+
+    def __init__(
+        self,
+        camera: CameraSink | None,
+        notify: Callable[[str], object],
+        answered: Callable[[Action, bool], object] = lambda _action, _done: None,
+        lenient: bool = False,
+    ) -> None:
+        self._camera, self._notify, self._answered = camera, notify, answered
+        if camera is not None:
+            camera.on_done = self._done
+            if lenient:
+                camera.on_failed = self._failed
 
     def write(self, tick: Tick) -> None:
+        if self._camera is not None:
+            self._camera.poll(tick.time)
+            return
         for act in tick.actions:
-            if isinstance(act, Action) and self._connection is None and act in ABSENT:
-                self._say(f"{ABSENT[act]}: this rig has no camera")
-            elif isinstance(act, Action):
-                self._asked.append(act)
-        if self._asked and self._connection is not None:
-            self._connection.poll(tick.time)  # where no axis of the run is on this link, nobody else does
+            if isinstance(act, Action) and act in ABSENT:
+                self._notify(f"{ABSENT[act]}: this rig has no camera")
+                self._answered(act, False)
 
     def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
         return None
 
-    def _answered(self, answer: Answer) -> None:
-        if not self._asked or not isinstance(answer.reply, Result) or answer.reply.return_code:
-            return
-        self._say(DONE.get(self._asked.popleft(), "camera: done"))
+    def _done(self, action: Action) -> None:
+        self._notify(DONE.get(action, "camera: done"))
+        self._answered(action, True)
+
+    def _failed(self, action: Action, reason: str) -> None:
+        self._notify(reason)
+        self._answered(action, False)

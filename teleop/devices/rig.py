@@ -24,9 +24,10 @@ from teleop.config.sinks_section import (
     VirtualRcSection,
 )
 from teleop.core.axes import Axis, Limits
-from teleop.core.control_loop import FIRST_REPORT, KEEP_ALIVE, PERIOD, ControlLoop
+from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import LinkError, TeleopError
 from teleop.core.interfaces import Clock, Reporter, Sink, Source
+from teleop.core.timing import FIRST_REPORT, KEEP_ALIVE, PERIOD
 from teleop.devices.camera import CameraSink
 from teleop.devices.connection import Connection
 from teleop.devices.drone.control_mode import ControlMode
@@ -39,6 +40,7 @@ from teleop.devices.drone.virtual_rc import VirtualRcControl
 from teleop.devices.focus import FocusReporter, FocusSink
 from teleop.devices.gimbal.pi_correction import Gains
 from teleop.devices.gimbal.position import Angles, PositionSink
+from teleop.devices.gimbal.profile_firmware import profile_firmware
 from teleop.devices.gimbal.speed import SpeedSink
 from teleop.devices.gimbal.stick import StickSink
 from teleop.dji.drone.encryption import Cipher
@@ -198,7 +200,8 @@ class _Opening:
         if name in profile.drones:
             far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
         else:
-            far = self._simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile))
+            firmware = profile_firmware(profile, name)
+            far = self._simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile), firmware=firmware)
         return Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
 
 
@@ -232,11 +235,12 @@ def _gimbal(section: GimbalSection, connection: Connection, limits: Mapping[Axis
             full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
             sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, guard.sent)
     reporter = Angles(connection, wiring, section.legacy_angles)
-    return Device(list(own), sink, reporter, section.follow, section.delay, guard)
+    return Device(list(own), sink, reporter, section.max_following_error, section.delay, guard)
 
 
 def _focus(section: FocusSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
-    return Device(MOVES[section.type], FocusSink(connection, section.rate), FocusReporter(connection), section.follow)
+    sink, reporter = FocusSink(connection, section.rate), FocusReporter(connection)
+    return Device(MOVES[section.type], sink, reporter, section.max_following_error)
 
 
 def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
@@ -251,7 +255,7 @@ def _virtual_rc(section: VirtualRcSection, connection: Connection, limits: Mappi
 
 def _flight(section: FlightSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
     site = Site(section.guidance, section.indoors)
-    grip = MovementControl(connection, section.combination, section.frame, section.full.model_dump(), site)
+    grip = MovementControl(connection, section.combination, section.frame, section.full_scale.model_dump(), site)
     return _drone(section, grip, connection)
 
 

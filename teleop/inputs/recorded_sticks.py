@@ -16,7 +16,7 @@ from pathlib import Path
 
 from teleop.config.document import DocumentError
 from teleop.config.messages import nearest
-from teleop.core.axes import STICKS, Axis, Motion
+from teleop.core.axes import Axis, Motion
 from teleop.core.events import TickEvent
 from teleop.core.setpoints import Demand, PositionTarget, Setpoint, VelocityTarget
 
@@ -114,7 +114,7 @@ class SticksSource:
     @property
     def resumable(self) -> bool:
         """A drone's sticks, held for longer, fly it somewhere else."""
-        return not any(axis in STICKS for axis in self._sticks.axes)
+        return not any(axis.is_stick for axis in self._sticks.axes)
 
     def pause(self, now: float) -> bool | None:  # noqa: ARG002 - see `pauses`
         return False
@@ -137,11 +137,11 @@ class SticksSource:
         """The deflections of the last row whose time has come, as velocities."""
         row = bisect.bisect_right(self._sticks.times, now - self.begin + 1e-9) - 1
         if row < 0 or row == len(self._sticks.times) - 1:
-            return {axis: PositionTarget(0.0) for axis in self._sticks.axes if axis in STICKS}, ()
+            return {axis: PositionTarget(0.0) for axis in self._sticks.axes if axis.is_stick}, ()
         held = zip(self._sticks.axes, self._sticks.deflections[row], strict=True)
         demand: dict[Axis, Setpoint] = {}
         for axis, deflection in held:
-            if axis in STICKS:
+            if axis.is_stick:
                 demand[axis] = PositionTarget(deflection)
             elif velocity := self._velocity(axis, deflection):
                 demand[axis] = VelocityTarget(velocity)

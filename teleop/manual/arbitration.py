@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from teleop.config.operator_settings import SticksSection
-from teleop.core.axes import STICKS, Axis, Limits, Motion
+from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.setpoints import PositionTarget, Setpoint, VelocityTarget
 from teleop.manual.interlock import Interlock
 from teleop.manual.jog import Jog
@@ -37,9 +37,9 @@ class Arbitration:
         say: Callable[[str], object],
     ) -> None:
         self._limits, self._hands, self._say = limits, hands, say
-        self._sticks = [axis for axis in limits if axis in STICKS]
+        self._sticks = [axis for axis in limits if axis.is_stick]
         self._steering = {
-            axis: VelocityShaping(of, sticks.ramp, sticks.low_pass) for axis, of in limits.items() if axis not in STICKS
+            axis: VelocityShaping(of, sticks.ramp, sticks.low_pass) for axis, of in limits.items() if not axis.is_stick
         }
         self._jog = Jog(limits)
         self.recall: Recall | None = None
@@ -86,7 +86,7 @@ class Arbitration:
     @property
     def deflected(self) -> Axis | None:
         """An axis that a stick moves, a drone's own sticks apart."""
-        return next((axis for axis in self.drivers if axis not in STICKS), None)
+        return next((axis for axis in self.drivers if not axis.is_stick), None)
 
     def _merge(self) -> None:
         """Which hand drives which axis: the first one trusted that deflects it. A stick ends what was under way."""
@@ -119,7 +119,7 @@ class Arbitration:
             self._say(f"{hand.name} is locked: {hand.waits_for}")
         elif axis not in self._limits:
             self._say(f"{axis} is not an axis of this rig")
-        elif axis in STICKS:
+        elif axis.is_stick:
             self._say(f"{axis} moves only while a stick is held")
         elif axis not in self.drivers:
             if self.recall:

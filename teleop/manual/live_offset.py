@@ -12,8 +12,8 @@ from collections.abc import Mapping, Sequence
 
 from teleop.config.operator_settings import SticksSection
 from teleop.core.axes import Axis, Limits, State
-from teleop.core.control_loop import PERIOD
 from teleop.core.operator_input import Input, Press
+from teleop.core.timing import PERIOD
 from teleop.manual.arbitration import Arbitration
 from teleop.manual.interlock import Interlock
 from teleop.manual.recall import Recall, at_rest

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from teleop.config.inputs_section import DRONE
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
-from teleop.core.axes import STICKS, Axis, Limits, Motion
+from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.events import Action, DeviceCommand, DialInput, Tick, TickEvent
 from teleop.core.interfaces import Source
 from teleop.core.operator_input import Command, Input, Press
@@ -53,7 +53,9 @@ class Operator:
         self._motion: Motion = {}
         self._now = -math.inf
         self._range = sticks.start_range - 1
-        self._stopped = self._done = self._recording = False
+        self._stopped = self._done = False
+        self._recording = False  # what the camera was asked for last
+        self._filming = False  # what it has confirmed
         self.reason = ""  # that the run is stopped, for its report if it ends now
         self._hands_on = self._beneath_trusted = True
         self._dial = 0.0
@@ -95,6 +97,16 @@ class Operator:
         """The gimbal has done what it was told in these words."""
         if words.startswith(FOLLOW):
             self._follow = words.removeprefix(FOLLOW)
+
+    def camera_answered(self, action: Action, done: bool) -> None:
+        """The camera has done this, or it did not: it refused, is silent, or there is none."""
+        if action is Action.RECORD:
+            self._filming = done
+            self._recording = self._recording and done
+        elif action is Action.STOP and done:
+            self._filming = False
+        elif action is Action.STOP:
+            self._recording = self._filming  # the next press asks it to stop once more
 
     def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
         seconds, self._now, self._actions = now - self._now, now, []
@@ -145,7 +157,7 @@ class Operator:
 
     @property
     def _moving(self) -> bool:
-        moved = (state for axis, state in self._motion.items() if axis not in STICKS)
+        moved = (state for axis, state in self._motion.items() if not axis.is_stick)
         return any(state.velocity or state.acceleration for state in moved)
 
     def _stop(self, hand: Interlock, _press: Press) -> None:
@@ -183,7 +195,7 @@ class Operator:
         if preset is None:
             self.say(f"there is no preset {press.number} yet")
             return
-        known = {axis: to for axis, to in preset.positions.items() if axis in self._limits and axis not in STICKS}
+        known = {axis: to for axis, to in preset.positions.items() if axis in self._limits and not axis.is_stick}
         self._send(hand, f"preset {press.number}", known)
 
     def _recenter(self, hand: Interlock, _press: Press) -> None:
@@ -192,7 +204,7 @@ class Operator:
     def _send(self, hand: Interlock, title: str, positions: Mapping[Axis, float]) -> None:
         """Begin to take the axes somewhere, if the hand that asks may."""
         held = [each.said.deflections for each in self._hands if each.trusted]
-        deflected = any(value for said in held for axis, value in said.items() if axis not in STICKS)
+        deflected = any(value for said in held for axis, value in said.items() if not axis.is_stick)
         refusal = "STOP is not cleared" if self._stopped else hand.waits_for
         refusal = refusal or ("release the stick first" if deflected else "")
         if refusal:
@@ -206,7 +218,7 @@ class Operator:
             self.say(f"{title} in {self._seconds:g} s")
 
     def _store(self, _hand: Interlock, press: Press) -> None:
-        where = {axis: state.position for axis, state in self._motion.items() if axis not in STICKS}
+        where = {axis: state.position for axis, state in self._motion.items() if not axis.is_stick}
         self._presets.store(press.number, where)
         self.say(f"preset {press.number} stored")
 
@@ -260,7 +272,7 @@ class Operator:
             self._hands_on,
             recall.title if recall else "",
             recall.end if recall else 0.0,
-            self._recording,
+            self._filming,
             self._follow,
             self._driving.deflections,
             self._presets.names,

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from teleop.core.axes import STICKS, Axis, Limits, Motion, State
+from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.guard_stop import inevitable_velocity
 from teleop.core.setpoints import Demand, PositionTarget, StateTarget, VelocityTarget
 from teleop.planner.axis_planner import INSET, AxisPlanner
@@ -96,7 +96,7 @@ class Live:
                     else:
                         drive.state = state
                     continue
-                if drive.axis in STICKS and not isinstance(wish, PositionTarget):
+                if drive.axis.is_stick and not isinstance(wish, PositionTarget):
                     wish = HOME
                 if isinstance(wish, PositionTarget):
                     presets.append((drive, wish))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.plots.downsample import QUANTITIES, Curve, curve
-from teleop.plots.style import COLOURS, PER, UNITS, mark
+from teleop.plots.style import COLOURS, PER, UNIT_SIGNS, mark
 from teleop.sequence.compile import CompiledSequence, Cue
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def _panel(panel: Axes, row: int, performance: CompiledSequence, profile: Profil
     quantity = QUANTITIES[row]
     scales: dict[str, Any] = {}
     for number, (axis, (times, rows)) in enumerate(curves.items()):
-        unit = UNITS[axis]
+        unit = UNIT_SIGNS[axis.unit]
         if unit not in scales:
             scales[unit] = panel.twinx() if scales else panel
         scale = scales[unit]
@@ -77,7 +77,7 @@ def _panel(panel: Axes, row: int, performance: CompiledSequence, profile: Profil
     for unit, scale in scales.items():
         measure = (unit or "1") + PER[quantity] if unit or PER[quantity] else ""
         scale.set_ylabel(f"{quantity} {measure}".strip())
-        of_unit = {axis: profile.limits[axis] for axis in curves if UNITS[axis] == unit}
+        of_unit = {axis: profile.limits[axis] for axis in curves if UNIT_SIGNS[axis.unit] == unit}
         _limits(scale, of_unit, quantity)
         if row > 0 and len(scales) > 1:  # 0 at the same height in both
             reach = max(map(abs, scale.get_ylim()))

@@ -18,7 +18,7 @@ from typing import Any
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.plots.downsample import QUANTITIES, curve
-from teleop.plots.style import COLOURS, PER, UNITS, mark
+from teleop.plots.style import COLOURS, PER, UNIT_SIGNS, mark
 from teleop.sequence.compile import CompiledSequence
 
 _WEB = Path(__file__).parent / "web"
@@ -74,7 +74,7 @@ def _axis(axis: Axis, performance: CompiledSequence, limits: Limits) -> dict[str
     return {
         "name": axis.value.replace("_", " "),
         "colour": COLOURS[axis],
-        "unit": UNITS[axis],
+        "unit": UNIT_SIGNS[axis.unit],
         "limits": {"position": [finite(limits.minimum), finite(limits.maximum)], **reach},
         "peaks": {
             "position": [short(peaks.minimum), short(peaks.maximum)],

@@ -16,7 +16,7 @@ from teleop.core.axes import Axis
 from teleop.planner.polynomial import Array
 from teleop.plots.downsample import MOST, outline
 from teleop.plots.page import assembled, finite, short
-from teleop.plots.style import COLOURS, PER, UNITS
+from teleop.plots.style import COLOURS, PER, UNIT_SIGNS
 from teleop.recording.reader import Take
 from teleop.recording.report import AxisReport
 
@@ -76,7 +76,7 @@ def _axis(take: Take, axis: Axis, found: AxisReport) -> Mapping[str, Any]:
     return {
         "name": axis.value.replace("_", " "),
         "colour": COLOURS[axis],
-        "unit": UNITS[axis],
+        "unit": UNIT_SIGNS[axis.unit],
         "limits": {"position": [finite(limits.minimum), finite(limits.maximum)], "error": [], **reach},
         "peaks": {
             "position": [short(float(position.min())), short(float(position.max()))],

@@ -8,7 +8,7 @@ from teleop.core.axes import Axis
 from teleop.planner.polynomial import Array
 from teleop.plots.drawing import CUE, MARGIN, STYLE, TEXT
 from teleop.plots.report_html import QUANTITIES, ROWS, curves, marks
-from teleop.plots.style import COLOURS, PER, UNITS
+from teleop.plots.style import COLOURS, PER, UNIT_SIGNS
 from teleop.recording.reader import Take
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def _panel(panel: Axes, quantity: str, lines: Curves) -> None:
     """One quantity of all axes, each unit on a scale of its own."""
     scales: dict[str, Axes] = {}
     for axis, (times, rows) in lines.items():
-        unit = UNITS[axis]
+        unit = UNIT_SIGNS[axis.unit]
         if unit not in scales:
             scales[unit] = panel.twinx() if scales else panel
         name = axis.value.replace("_", " ")

@@ -18,9 +18,8 @@ COLOURS: Mapping[Axis, str] = {
     Axis.STICK_YAW: "#ff8787",
 }
 
-DEGREES, SHARE = "°", ""
-UNITS: Mapping[Axis, str] = {axis: DEGREES if axis in (Axis.PAN, Axis.TILT, Axis.ROLL) else SHARE for axis in Axis}
-"""Axes of one unit share a scale: focus and the sticks, 0..1 and -1..1, would be flat lines among degrees."""
+UNIT_SIGNS: Mapping[str, str] = {"deg": "°", "": ""}
+"""By `Axis.unit`. Axes of one unit share a scale: focus and the sticks would be flat lines among degrees."""
 
 PER: Mapping[str, str] = {"position": "", "error": "", "velocity": "/s", "acceleration": "/s²", "jerk": "/s³"}
 

@@ -5,6 +5,7 @@ Six hours of four axes are a quarter of a gigabyte this way; what is not motion 
 
 from __future__ import annotations
 
+import importlib
 import json
 from array import array
 from collections.abc import Mapping, Sequence
@@ -15,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from teleop.core.axes import Axis, State
+from teleop.core.errors import UsageError
 from teleop.planner.polynomial import Array
 from teleop.recording.format import CUT, About
 from teleop.recording.messages import Ending, Messages, understood, was_cut
@@ -61,6 +63,24 @@ class Take:
     def state(self, axis: Axis, index: int) -> State:
         """Where the axis was commanded to be at tick `index`."""
         return State(*self.motion[axis][:, index].tolist())
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame indexed by time (s): per axis position, velocity, acceleration and measured, in units.
+
+        The columns are `pan`, `pan_velocity`, `pan_acceleration` and `pan_measured`; what was measured is drawn
+        straight between readings, and NaN before the first and after the last. Raises UsageError without pandas.
+        """
+        try:
+            pandas = importlib.import_module("pandas")
+        except ImportError:
+            raise UsageError("to_frame needs pandas: pip install pandas") from None
+        columns: dict[str, Array] = {}
+        for axis, (position, velocity, acceleration) in self.motion.items():
+            columns |= {axis.value: position, f"{axis}_velocity": velocity, f"{axis}_acceleration": acceleration}
+            if axis in self.measured:
+                times, positions = self.measured[axis]
+                columns[f"{axis}_measured"] = np.interp(self.times, times, positions, left=np.nan, right=np.nan)
+        return pandas.DataFrame(columns, index=pandas.Index(self.times, name="time"))
 
 
 def read_take(path: Path) -> Take:

@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from teleop.config.document import UnplayableError
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, State
-from teleop.core.control_loop import PERIOD
 from teleop.core.events import Action
 from teleop.core.guard_stop import stop_phases, stop_state
+from teleop.core.timing import PERIOD
 from teleop.planner.polynomial import Array
 from teleop.planner.trajectory import Move, Peaks, Track
 from teleop.recording.legality import ALLOWED, Excess, excess

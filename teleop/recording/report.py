@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
-from teleop.core.control_loop import PERIOD
+from teleop.core.timing import PERIOD
 from teleop.monitors.delay_estimate import EARLIEST, LATEST, estimate
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
 
-LEAST_WAY = {True: 2.0, False: 0.05}  # units, of an angle or not: less is a matter of the grid of the readings
+LEAST_WAY = {"deg": 2.0, "": 0.05}  # by unit: less is a matter of the grid of the readings
 SURE = 0.01  # s of doubt at most
 FAITHFUL = 0.5, 1.5  # times as far as commanded
 MOST_READINGS = 5000  # of those in motion: a few minutes tell as much as hours
@@ -95,7 +95,7 @@ def _delay(take: Take, axis: Axis) -> tuple[float | None, str]:
     before, after = moved_at[nearest - 1], moved_at[np.minimum(nearest, len(moved_at) - 1)]
     during = np.minimum(np.abs(read_at - before), np.abs(read_at - after)) <= AROUND
     read_at, read = read_at[during][:MOST_READINGS], read[during][:MOST_READINGS]
-    if not len(read) or np.ptp(read) < LEAST_WAY[axis in (Axis.PAN, Axis.TILT, Axis.ROLL)]:
+    if not len(read) or np.ptp(read) < LEAST_WAY[axis.unit]:
         return None, "it hardly moved"
     commanded = np.array([take.times, take.motion[axis][0]]).T
     found = estimate(commanded.tolist(), np.array([read_at, read]).T.tolist(), float(read_at[0]), float(read_at[-1]))

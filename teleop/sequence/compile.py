@@ -23,7 +23,6 @@ from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.keys import Keys
 from teleop.sequence.model import PREROLL, SequenceModel
 from teleop.sequence.reader import SequenceReader
-from teleop.sequence.rules import STICKS
 from teleop.sequence.timeline import Timed
 
 
@@ -88,7 +87,7 @@ def load_performance(
     warnings = [*script.remarks, *(script.places[remark.last].line(str(remark)) for remark in remarks)]
     if factor > 1:
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
-        if sticks := [axis for axis in move.tracks if axis in STICKS]:
+        if sticks := [axis for axis in move.tracks if axis.is_stick]:
             warnings.append(document.problem(("fit",), f"does so to {', '.join(sticks)} too: the drone flies further"))
     title, preroll = sheet.called(document.name), seconds(sheet.preroll, sheet.fps)
     done = [timed.cue for timed in cues]
@@ -107,18 +106,19 @@ def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
     """A line for each cue that needs rest and has none, with what would be right."""
     places = rests(move)
     for (at, action), needs_rest, place in cues:
-        held = [axis for axis, state in move.at(at).items() if axis in STICKS and abs(state.position) > SAME]
+        held = [axis for axis, state in move.at(at).items() if axis.is_stick and abs(state.position) > SAME]
         if needs_rest and not any(rest.start - SAME <= at <= rest.end + SAME for rest in places):
-            yield place.line(f"{path_text(place.location)} {_elsewhere(move, places, at)}")
+            yield place.line(f"{path_text(place.location)} {_where_it_may_be(move, places, at)}")
         elif isinstance(action, Wait) and held:
             text = f"would hold {' and '.join(held)} deflected, and the drone would fly on: let it be 0 by then"
             yield place.line(f"{path_text(place.location)} {text}")
 
 
-def _elsewhere(move: Move, places: Sequence[Rest], at: float) -> str:
-    """Why a cue may not be there, and where the nearest place is."""
+def _where_it_may_be(move: Move, places: Sequence[Rest], at: float) -> str:
+    """Why a cue may not be `at` its time (s), and the nearest rests before and after it."""
     moving = [axis for axis, state in move.at(at).items() if abs(state.velocity) > SAME] or list(move.tracks)
-    nearest = min(places, key=lambda rest: max(rest.start - at, at - rest.end))
-    where = nearest.start if nearest.start > at else nearest.end
+    before = max((rest.end for rest in places if rest.end < at), default=None)
+    after = min((rest.start for rest in places if rest.start > at), default=None)
+    times = " or ".join(f"{time:g} s" for time in (before, after) if time is not None)
     what = f"{' and '.join(moving)} move{'' if len(moving) > 1 else 's'}"
-    return f"is at {at:g} s, where {what}; all rest at {where:g} s, and would here with pass: stop in a key of each"
+    return f"is at {at:g} s, while {what}; put it at {times}, or add a key with `pass: stop` at {at:g} s"

@@ -43,21 +43,22 @@ _CAMERA = {
 
 
 class CueSection(Section):
-    """Something done once: one of these.
-
-    `at`: when, from the start. `camera`: what the camera is told; a focus on the centre holds until end_focus.
-    `follow`: what the gimbal does when its handle is turned. `recenter`: pan, tilt and roll go to 0 within this time.
-    `send`: a command in the words of teleop send. `wait`: everything holds until the operator says go.
-    """
+    """Something that happens once; exactly one action."""
 
     model_config = ConfigDict(json_schema_extra={"oneOf": [{"required": [kind]} for kind in KINDS]})
 
     at: Time
+    """Time from the start: `4`, `4s`, `1m30s`; with `fps` also `96f` and `00:00:04:00`."""
     camera: Literal["record", "stop", "shutter", "focus", "end_focus"] | None = None
+    """Camera command; a focus on the center holds until end_focus."""
     follow: Literal["lock", "pan", "yaw", "sport"] | None = None
+    """Follow mode of the gimbal: what turning its handle moves."""
     recenter: Time = None
+    """Pan, tilt and roll go to 0 within this time: `3s`."""
     send: str | None = None
+    """A command in the words of `teleop send`."""
     wait: Literal["operator"] | None = None
+    """Hold everything until the operator continues."""
 
     @property
     def kind(self) -> str:

@@ -80,7 +80,7 @@ def _wrong(where: tuple[str | int, ...], value: Any, fps: float | None) -> Itera
     ends = {(*where, key): end for key, end in value.items()} if isinstance(value, Mapping) else {where: value}
     for place, end in ends.items():
         if isinstance(value, Mapping) and place[-1] not in ENDS:
-            yield place, f"is not known here; there are {' and '.join(ENDS)}"
+            yield place, f": unknown key; the keys are {' and '.join(ENDS)}"
             continue
         try:
             ramp(end, fps)

@@ -28,75 +28,81 @@ def one_of(*names: str) -> ConfigDict:
 
 
 class Keyframe(PositionsSection):
-    """Where some axes are at a time; an axis that is not named has no key here.
-
-    `at`: when, from the start. `hold`: how long the axes stay. `pass`: through, or stop there. `ease`: the ramps to a
-    stop here and away from it. `pan`: deg, + is right. `tilt`: deg, + is up. `roll`: deg, + is clockwise seen from
-    behind the camera. `focus`: 0 (near) .. 1 (far). `stick_roll`, `stick_pitch`, `stick_throttle`, `stick_yaw`: a
-    drone's, -1..1, beginning and ending at 0.
-    """
+    """Where some axes are at a time; an axis that is not named has no key here."""
 
     model_config = one_of(*(axis.value for axis in Axis))
 
     at: Time
+    """Time from the start: `4`, `4s`, `1m30s`; with `fps` also `96f`, `00:00:04:00`. In a timelapse: frames."""
     hold: Time = 0
+    """How long the axes stay here: `2s`."""
     focus: Annotated[Finite, Field(ge=0, le=1)] | None = None
+    """Focus, 0 (near) to 1 (far)."""
     stick_roll: Deflection | None = None
+    """Right stick of the drone sideways, -1 to 1; + is right. 0 in its first and last key."""
     stick_pitch: Deflection | None = None
+    """Right stick of the drone forward, -1 to 1; + is forward. 0 in its first and last key."""
     stick_throttle: Deflection | None = None
+    """Left stick of the drone up, -1 to 1; + is up. 0 in its first and last key."""
     stick_yaw: Deflection | None = None
+    """Left stick of the drone sideways, -1 to 1; + is clockwise. 0 in its first and last key."""
     pass_: Literal["through", "stop"] = Field("through", alias="pass")
+    """Pass through this key, or stop at it."""
     ease: Ease = None
+    """Ramps to a stop here and away from it: `2s`, `25%`, `soft`, `{arrive: 1s, leave: 3s}`."""
 
 
 class IncludeSection(Section):
-    """Another sequence within this one.
-
-    `move`: a shipped name, or a file beside this one. `at`: when it begins here. `speed`: how fast, 150%.
-    """
+    """Another sequence within this one."""
 
     move: Annotated[str, Field(min_length=1)]
+    """Name of a shipped sequence, or a file beside this one."""
     at: Time
+    """Time at which it begins here."""
     speed: Percentage = "100%"
+    """Playback speed: `150%`."""
 
 
 class RepeatSection(Section):
-    """The keyframes over and over.
-
-    `times`: passes; a bounce counts the way there and the way back as two. `mode`: loop begins again where it ended,
-    bounce goes back.
-    """
+    """Play the keyframes several times."""
 
     times: Annotated[int, Field(ge=1, le=10_000)]
+    """Number of passes; a bounce counts the way there and the way back as two."""
     mode: Annotated[Repeat, Field(strict=False)]
+    """`loop` begins again where the move ended, `bounce` goes back."""
 
 
 class SequenceModel(Section):
-    """A camera move.
-
-    `title`: what it is called on the screen. `fps`: what frames and timecode are counted by. `tension`: 0 is smoothest,
-    1 closest to constant speed between keys. `ease`: the ramps at every stop that has none of its own. `fit`: what is
-    too fast for the rig is stretched. `preroll`: the rest on the first keyframe before the start. `back_to_one`: at the
-    end the axes go back to the first keyframe. `repeat`: the keyframes over and over. `timelapse`: the keyframes are in
-    frames of a timelapse. `keyframes`: where the axes are when. `panorama`: rows and columns of stills. `include`:
-    other sequences within this one. `cues`: what happens once, beside the motion.
-    """
+    """A camera move."""
 
     model_config = one_of("keyframes", "panorama", "include")
 
     title: Annotated[str, Field(max_length=LONGEST_TITLE)] = ""
+    """Title on screens."""
     fps: Annotated[float, Field(gt=0, le=1000), AfterValidator(exact_rate)] | None = None
+    """Frames per second of frames and timecode; 23.976, 29.97 and 59.94 are exactly n/1001."""
     tension: Annotated[float, Field(ge=0, le=1)] = 0.0
+    """0 is smoothest, 1 closest to constant speed between keys."""
     ease: Ease = None
+    """Ramps at every stop that has none of its own."""
     fit: Literal["stretch"] | None = None
+    """`stretch` slows a move that is too fast for the rig."""
     preroll: Time = PREROLL
+    """Rest on the first key before the start: `3s`."""
     back_to_one: bool = False
+    """Go back to the first key at the end."""
     repeat: RepeatSection | None = None
+    """Play the keyframes several times."""
     timelapse: TimelapseSection | None = None
+    """Shoot frame by frame; the times of keyframes are then output frames."""
     keyframes: Annotated[list[Keyframe], Field(min_length=1)] = Field(default_factory=list)
+    """Where the axes are, and when; each entry starts with `- `."""
     panorama: PanoramaSection | None = None
+    """Rows and columns of stills."""
     include: list[IncludeSection] = Field(default_factory=list)
+    """Other sequences within this one."""
     cues: list[CueSection] = Field(default_factory=list)
+    """What happens once at a time, beside the motion."""
 
     def called(self, file: str) -> str:
         """The title in one line, else the file's name without its ending."""

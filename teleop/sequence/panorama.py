@@ -32,21 +32,24 @@ Angles = Annotated[list[Annotated[Finite, Field(gt=0, lt=180)]], Field(min_lengt
 
 
 class PanoramaSection(Section):
-    """Rows and columns of frames, made of a lens and of what shall be seen.
-
-    `fov`: the lens's field of view, across and up, in deg. `overlap`: the share of a frame that its neighbour sees.
-    `pan`: the picture's first and last edge, in deg, to begin at the first. `tilt`: the same, up and down. `every`:
-    from one shutter to the next. `settle`: still before the shutter. `exposure`: still after it. `at`: when it begins.
-    """
+    """Rows and columns of frames, from the field of view of a lens."""
 
     fov: Angles
+    """Field of view of the lens, across and up, in deg."""
     overlap: Overlap = "30%"
+    """Share of a frame that its neighbor sees: `30%`."""
     pan: Pair
+    """First and last edge of the picture in deg; shooting begins at the first."""
     tilt: Pair
+    """First and last edge of the picture in deg, up and down."""
     every: Time
+    """Time from one shutter to the next: `3s`."""
     settle: Time = 0.5
+    """Rest before the shutter: `0.5s`."""
     exposure: Time = 0.5
+    """Rest after the shutter: `0.5s`."""
     at: Time = 0
+    """Time at which the panorama begins."""
 
 
 class Grid(NamedTuple):

@@ -13,12 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from teleop.config.document import Document, DocumentError, mapping, numbered, sequence
+from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.quantities import percentage, seconds
 from teleop.config.resources import find, is_bare
 from teleop.config.yaml_loader import read_document
-from teleop.core.axes import Axis, Limits
+from teleop.core.axes import STICKS, Axis, Limits
 from teleop.sequence.model import SequenceModel
-from teleop.sequence.rules import STICKS, file_rules, rig_rules
+from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import is_timelapse
 from teleop.sequence.timeline import Block, Place, Timeline, finish, joined
 
@@ -48,6 +49,7 @@ class SequenceReader:
         before = len(self.problems)
         try:
             document = self._document(path, name, note)
+            refuse_other_kind(document, "sequence")
         except DocumentError as error:
             self.problems += error.problems
             return None

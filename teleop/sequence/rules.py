@@ -8,8 +8,9 @@ from functools import partial
 from typing import Any
 
 from teleop.config.document import Location, Wrong, mapping, number, numbered, sequence
+from teleop.config.messages import ALIASES, missing_space
 from teleop.config.quantities import frame_rate, frames, percentage, seconds
-from teleop.core.axes import Axis, Limits
+from teleop.core.axes import STICKS, Axis, Limits
 from teleop.sequence.cues import cue_rules
 from teleop.sequence.easing import ease_rules
 from teleop.sequence.panorama import panorama_limits, panorama_rules
@@ -17,7 +18,6 @@ from teleop.sequence.timelapse_section import is_timelapse, timelapse_rules
 
 AXES = tuple(axis.value for axis in Axis)
 When = Callable[[Any], float]  # a time as written -> seconds, or output frames
-STICKS = tuple(axis for axis in Axis if axis.value.startswith("stick_"))
 SLOWEST, FASTEST = 0.01, 10.0  # of an included move
 DEVICES = {"camera": "camera", "follow": "gimbal", "send": "gimbal"}  # what performs a cue
 
@@ -52,8 +52,10 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
     before: tuple[int, float] | None = None
     free: dict[str, tuple[int, float]] = {}  # axis -> the keyframe that holds it, and until when
     for index, frame in enumerate(sequence(data, "keyframes")):
+        if missing_space(frame):
+            continue
         frame = mapping(frame)
-        if all(frame.get(axis) is None for axis in AXES):
+        if all(frame.get(axis) is None for axis in AXES) and not any(ALIASES.get(key) in AXES for key in frame):
             yield ("keyframes", index), f"names no axis ({', '.join(AXES[:4])})"
         at, wrong = _time(frame, "at", when)
         hold, wrong_hold = _time(frame, "hold", when)

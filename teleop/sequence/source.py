@@ -14,11 +14,11 @@ from concurrent.futures import Executor
 from enum import Enum, auto
 
 from teleop.core.axes import Axis, Limits, Motion, State
-from teleop.core.control_loop import KEEP_ALIVE
 from teleop.core.errors import DeviceError
 from teleop.core.events import Action, DeviceCommand, TickEvent
 from teleop.core.run_status import NextCue, NextKey, RunStatus
 from teleop.core.setpoints import Demand, StateTarget
+from teleop.core.timing import KEEP_ALIVE
 from teleop.planner.rest_to_rest import ease
 from teleop.planner.trajectory import Move
 from teleop.sequence.compile import CompiledSequence
@@ -60,7 +60,7 @@ class SequenceSource:
     ) -> None:
         self.staging = staging or Cycle(performance.preroll, back_to_one=performance.back_to_one)
         self.duration = performance.duration
-        self.flies = any(axis.value.startswith("stick_") for axis in performance.move.tracks)
+        self.flies = any(axis.is_stick for axis in performance.move.tracks)
         self._move = performance.move
         self._limits = {axis: limits[axis] for axis in self._move.tracks}
         self._key_times = sorted({key.at for of_axis in performance.keys.values() for key in of_axis})

@@ -7,7 +7,7 @@ for its clip: how long the shoot takes follows from `interval`. Durations inside
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -30,40 +30,42 @@ UNUSED = {
 Count = Annotated[int, Field(ge=0, le=MOST)]
 
 
-class RampSection(Section):
-    """From frame to frame the interval grows, or shrinks, by the same amount."""
-
-    from_: Any = Field(alias="from")
-    to: Any
-
-
 class SettleSection(Section):
     """The gimbal counts as still when it is measured to turn slower than `below` (deg/s), or after `at_most`."""
 
     below: Annotated[float, Field(gt=0, le=100)]
+    """Speed in deg/s below which the gimbal counts as still."""
     at_most: Any
+    """Longest wait for that."""
 
 
 class TimelapseSection(Section):
-    """`frames` are those of the move; `lead_in` and `lead_out` are still frames before and after it.
+    """A timelapse, shot frame by frame. Its durations are real time."""
 
-    `interval` is from one shutter to the next. `exposure` is how long the camera is really exposing, `post` how long it
-    must be left in peace after that. `camera_fault` is what a camera that refuses or does not answer is. `mode` says
-    whether it stands still for each frame. `prefocus` is how long the focus gets before the shutter, `settle` how long
-    the gimbal gets to be still. `delay` is waited before the first frame.
-    """
+    RENAMED: ClassVar = {"camera_fault": "on_camera_fault"}
 
     frames: Annotated[int, Field(ge=1, le=MOST)]
+    """Number of frames of the move."""
     interval: Interval
+    """Time from one shutter to the next: `5s`, or `{from: 2s, to: 10s}` to grow evenly."""
     mode: Literal["shoot-move-shoot", "continuous"] = "shoot-move-shoot"
+    """Rest while the camera exposes, or keep moving."""
     exposure: Time
+    """Exposure time of the camera."""
     prefocus: Time = 0
+    """Time for focusing before the shutter."""
     post: Time = 0
+    """Time in which the camera needs rest after the exposure."""
     settle: Settle = 0.3
+    """Time to come to rest: `0.3s`, or `{below: 0.1, at_most: 2s}` to measure it."""
     lead_in: Count = 0
+    """Number of still frames before the move."""
     lead_out: Count = 0
+    """Number of still frames after the move."""
     delay: Time = 0
-    camera_fault: Literal["stop", "go-on"] = "stop"
+    """Wait before the first frame."""
+    on_camera_fault: Literal["stop", "continue"] = "stop"
+    """When the camera refuses a command or does not answer: stop, or continue."""
 
 
 def is_timelapse(data: Any) -> bool:
@@ -120,7 +122,7 @@ def _mapping_rules(
     value = section[name]
     for key in value:
         if key not in known:
-            yield ("timelapse", name, key), f"is not known here; there are {' and '.join(known)}"
+            yield ("timelapse", name, key), f": unknown key; the keys are {' and '.join(known)}"
     for key, positive in known.items():
         if key not in value:
             yield ("timelapse", name, key), "is missing"

@@ -167,7 +167,7 @@ def _compiled(
         continuous,
         section.frames,
         seconds(section.delay, sheet.fps),
-        section.camera_fault == "go-on",
+        section.on_camera_fault == "continue",
         limits,
         keys,
         remarks,

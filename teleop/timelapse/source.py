@@ -15,11 +15,11 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from teleop.core.axes import Motion
-from teleop.core.control_loop import PERIOD
 from teleop.core.errors import Interrupted
 from teleop.core.events import Exposure, ShutterResult, ShutterStep, Tick, TickEvent
 from teleop.core.operator_input import Command, Input
 from teleop.core.setpoints import Demand, StateTarget
+from teleop.core.timing import PERIOD
 from teleop.timelapse.compile import Timelapse
 from teleop.timelapse.frame_log import FrameBook, FrameLog
 from teleop.timelapse.journal import Note

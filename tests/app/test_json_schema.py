@@ -48,22 +48,37 @@ def test_every_shipped_file_is_valid(kind: str, file: Path) -> None:
     assert errors(kind, file.read_text()) == []
 
 
-def undescribed(kind: str) -> Iterator[str]:
-    made = schema(kind)
-    for name, part in {"": made, **made["$defs"]}.items():
-        for key, of_key in part.get("properties", {}).items():
-            if "description" not in of_key and "$ref" not in of_key:
-                yield f"{name}.{key}"
+def described(part: Any, path: str = "") -> Iterator[tuple[str, str]]:
+    """Every key that the schema names, however deep, and its description."""
+    if isinstance(part, list):
+        for item in part:
+            yield from described(item, path)
+    if not isinstance(part, dict):
+        return
+    properties = part.get("properties", {})
+    for key, of_key in properties.items():
+        yield f"{path}.{key}", of_key.get("description", "")
+        yield from described(of_key, f"{path}.{key}")
+    for name, inner in part.items():
+        if name == "$defs":
+            for definition, of_definition in inner.items():
+                yield from described(of_definition, definition)
+        elif name not in ("properties", "examples", "default", "enum", "required"):
+            yield from described(inner, path)
 
 
-def test_an_editor_can_say_what_each_key_of_a_sequence_is() -> None:
-    assert list(undescribed("sequence")) == []
+@pytest.mark.parametrize(("kind", "least"), [("sequence", 50), ("profile", 80), ("pad", 30)])
+def test_every_key_of_every_kind_of_file_has_a_description(kind: str, least: int) -> None:
+    found = list(described(schema(kind), kind))
+    assert len(found) > least, "the walk must reach the keys"
+    assert [path for path, text in found if not text.strip()] == []
+    assert [path for path, text in found if not (text[:1].isupper() or text[:1] in "-0123456789`")] == []
 
 
-def test_the_words_come_from_the_docstrings() -> None:
+def test_descriptions_are_the_docstrings_of_the_fields() -> None:
     properties: dict[str, Any] = schema("sequence")["$defs"]["Keyframe"]["properties"]
-    assert properties["pass"]["description"] == "Through, or stop there."
-    assert properties["stick_yaw"]["description"] == "A drone's, -1..1, beginning and ending at 0."
+    assert properties["pass"]["description"] == "Pass through this key, or stop at it."
+    assert properties["tilt"]["description"] == "Tilt in deg; + is up."
     assert properties["pass"]["enum"] == ["through", "stop"]
 
 

@@ -17,12 +17,12 @@ from teleop.app import shoot_runner as shooting
 from teleop.config.profile import ShootingSection, load_profile
 from teleop.core.axes import Axis
 from teleop.core.clock import SystemClock
-from teleop.core.control_loop import PERIOD
 from teleop.core.errors import UsageError
 from teleop.core.events import Tick
 from teleop.core.operator_input import Command as Key
 from teleop.core.operator_input import Press
 from teleop.core.run_state import Result
+from teleop.core.timing import PERIOD
 from teleop.dji.gimbal.camera import CameraCommand, Command
 from teleop.timelapse.compile import load_timelapse
 from teleop.timelapse.journal import Frame, Note
@@ -300,7 +300,7 @@ def test_a_refusing_camera_stops_the_shoot_and_nothing_is_in_doubt(stage: Stage)
 
 
 def test_a_camera_may_be_put_up_with(stage: Stage) -> None:
-    stage.write(10, "2s", "  camera_fault: go-on\n")
+    stage.write(10, "2s", "  on_camera_fault: continue\n")
     stage.prepare = lambda gimbal: setattr(gimbal, "camera_says", lambda count: {3: 2, 6: None}.get(count, 0))
     assert stage.shoot().result is Result.DONE
     progress = stage.shooting.progress
@@ -311,7 +311,7 @@ def test_a_camera_may_be_put_up_with(stage: Stage) -> None:
 
 
 def test_a_camera_that_never_shoots_is_given_up(stage: Stage) -> None:
-    stage.write(30, "2s", "  camera_fault: go-on\n")
+    stage.write(30, "2s", "  on_camera_fault: continue\n")
     stage.prepare = lambda gimbal: setattr(gimbal, "camera_says", lambda _count: 2)
     ended = stage.shoot()
     assert (ended.result, stage.shooting.progress.refused) == (Result.FAILED, 10)

@@ -20,8 +20,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 from live_bench import LEFT, REST, RIGHT, TREMBLING, Hand, bench, percentile, rss
 
 from teleop.core.clock import SystemClock
-from teleop.core.control_loop import PERIOD
 from teleop.core.events import Tick
+from teleop.core.timing import PERIOD
 
 SETTLED = 60.0  # s after which nothing is to grow any more
 MOST = 2.0  # MB

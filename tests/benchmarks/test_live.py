@@ -24,8 +24,8 @@ from waiting import wait_until
 
 from teleop.cli.doctor.timing import sleep_late
 from teleop.core.clock import SystemClock, VirtualClock
-from teleop.core.control_loop import PERIOD
 from teleop.core.events import Tick
+from teleop.core.timing import PERIOD
 
 _BARE = "import sys; from teleop.cli.doctor.timing import sleep_late; print(*sleep_late(int(sys.argv[1])))"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -10,12 +11,25 @@ from typing import Any
 
 import pytest
 
+from teleop.app.sign_probe import SignProbe
 from teleop.cli import run
-from teleop.config.profile import load_profile
+from teleop.config.profile import Profile, load_profile
 from teleop.config.sinks_section import GimbalSection
+from teleop.config.wiring import Wiring
+from teleop.core.axes import Axis
+from teleop.core.clock import VirtualClock
+from teleop.core.control_loop import ControlLoop
+from teleop.core.operator_input import Command, Held, Press
+from teleop.core.run_state import RunState
+from teleop.core.timing import PERIOD
+from teleop.devices.gimbal.position import Angles
+from teleop.devices.rig import open_rig
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.message import Message
+from teleop.manual.stop_guard import Relay, StopGuard
+from teleop.planner.live import Live
 from teleop.sim.gimbal.device import SimulatedGimbal
+from teleop.sim.gimbal.firmware import DOCUMENTED
 
 PROFILE = """\
 name: Signs
@@ -36,7 +50,7 @@ class Turned(SimulatedGimbal):
     last: Turned
 
     def __init__(self, speed: tuple[int, int, int], report: tuple[int, int, int], **settings: Any) -> None:
-        super().__init__(boot=BOOT, **settings)
+        super().__init__(**{**settings, "boot": BOOT, "firmware": DOCUMENTED})  # whatever the profile claims
         Turned.last = self
         self.farthest = 0.0
         handlers = dict(self._handlers)
@@ -147,3 +161,66 @@ def test_a_rig_that_has_no_such_axis_is_refused(tmp_path: Path, capsys: pytest.C
     path.write_text("".join(line for line in path.read_text().splitlines(keepends=True) if "roll" not in line))
     assert run(["calibrate", "signs", "--rig", str(path), "--axis", "roll"]) == 2
     assert "--axis roll: no gimbal of Signs moves it" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("mode", ["position", "speed", "stick"])
+def test_stop_holds_the_axis_and_releases_it_then_it_is_measured_anew(mode: str, tmp_path: Path) -> None:
+    bench = Measuring(load_profile(str(rig(tmp_path, mode))))
+    while not bench.moved:
+        bench.turn()
+    bench.press(Command.STOP)
+    bench.turn(0.5)
+    rest = bench.device.angles
+    bench.turn(3.0)
+    assert bench.device.angles == rest
+    assert not bench.device.controlled
+    assert not bench.probe.done
+    bench.press(Command.CLEAR)
+    bench.turn(0.1)
+    bench.press(Command.GO)
+    bench.turn(40.0)
+    assert bench.probe.done
+    assert set(bench.probe.signs) == {Axis.PAN, Axis.TILT, Axis.ROLL}
+    assert bench.device.angles == pytest.approx((0, 0, 0), abs=0.21)
+
+
+class Measuring:
+    """The probe under its guard, on the wire of a simulated gimbal and the virtual clock."""
+
+    def __init__(self, profile: Profile) -> None:
+        self.clock = VirtualClock()
+        self._stack = ExitStack()
+        self._rig = self._stack.enter_context(open_rig(profile, self.clock))
+        [section] = profile.sinks
+        assert isinstance(section, GimbalSection)
+        self.device = self._rig.simulated[section.link]
+        connection = self._rig.connections[section.link]
+        full = None if section.mode != "stick" else lambda each: section.full(each, profile.limits[each].velocity)
+        self.probe = SignProbe(connection, list(profile.limits), section.wiring, profile.limits, full)
+        self._held: list[Press] = []
+        guard = StopGuard(self.probe, [Relay(self)])
+        reporter = Angles(connection, Wiring(section.axes), section.legacy_angles)
+        self._loop = ControlLoop(
+            self.clock, Live(profile.limits, PERIOD), profile.limits, [guard], [self.probe, guard], [reporter]
+        )
+        self._begin = self.device.angles
+
+    name = "keys"
+
+    def read(self, now: float) -> Held:
+        held, self._held = Held(presses=self._held), []
+        return held
+
+    def press(self, command: Command) -> None:
+        self._held = [Press(command)]
+
+    @property
+    def moved(self) -> bool:
+        return any(abs(now - before) > 0.15 for now, before in zip(self.device.angles, self._begin, strict=True))
+
+    def turn(self, seconds: float = 0.0) -> None:
+        """At least one tick, and no more than the run has."""
+        end = self.clock.now() + seconds
+        self._loop.turn()
+        while self.clock.now() < end and self._loop.supervisor.state is not RunState.OVER:
+            self._loop.turn()

@@ -131,7 +131,7 @@ axes:
   stick_pitch:    {min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}
   stick_throttle: {min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}
   stick_yaw:      {min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}
-sinks: [{type: flight, link: drone, mode: velocity-body, full: {horizontal: 5, vertical: 2, yaw: 60}}]
+sinks: [{type: flight, link: drone, mode: velocity-body, full_scale: {horizontal: 5, vertical: 2, yaw: 60}}]
 """
 
 
@@ -181,7 +181,7 @@ def test_offsets_are_for_sequences(tmp_path: Path) -> None:
     axes = "".join(
         f"  {axis}: {{min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}}\n" for axis in Axis if "stick" in axis
     )
-    sink = "{type: flight, link: drone, mode: offset-body, full: {horizontal: 5, vertical: 1, yaw: 30}}"
+    sink = "{type: flight, link: drone, mode: offset-body, full_scale: {horizontal: 5, vertical: 1, yaw: 30}}"
     (tmp_path / "rig.yaml").write_text(f"name: O\nlinks: {{drone: 'sim:'}}\naxes:\n{axes}sinks: [{sink}]\n")
     ran = teleop("live", "--rig", str(tmp_path / "rig.yaml"))
     assert ran.returncode == 2

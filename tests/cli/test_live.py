@@ -140,7 +140,7 @@ def test_a_bad_presets_file_is_refused_before_anything_opens(tmp_path: Path) -> 
     (tmp_path / "presets.yaml").write_text("presets:\n  1: {pna: 3}\n")
     with terminal("live", "--presets", str(tmp_path / "presets.yaml"), folder=tmp_path) as term:
         assert term.end()[0] == 2
-        assert "presets.yaml:2:7: presets.1.pna is not known here; did you mean pan?" in term.shown
+        assert "presets.yaml:2:7: presets.1: unknown key `pna`; did you mean `pan`?" in term.shown
         assert term.restored
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from threading import Event
 
 import pytest
 
@@ -73,3 +74,17 @@ def test_a_file_that_was_written_is_reported(capsys: pytest.CaptureFixture[str])
     assert capsys.readouterr().out == "trim: pan +1.500 deg; written to out.yaml\n"
     assert hands.lines == ["the trim is written to out.yaml"]
     assert (report.failure, dict(report.facts())["trim"]["file"]) == ("", "out.yaml")  # type: ignore[index]  # a dict
+
+
+def test_a_disk_that_hangs_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("teleop.cli.trim_options.PATIENCE", 0.01)
+    never = Event()
+
+    class Hung(File):
+        def write(self, offsets: object) -> None:
+            never.wait()
+
+    report = TrimReport(Hands(), Hung())  # type: ignore[arg-type]  # stand-ins
+    assert dict(report.facts())["trim"]["file"] is None  # type: ignore[index]  # a dict
+    assert report.failure == "out.yaml: cannot be written: the disk does not answer"
+    never.set()

@@ -67,7 +67,7 @@ def test_where_it_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
             [
                 "1:9: app_id must be a whole number, 0..4294967295",
                 "2:6: key must be 64 hexadecimal digits, in quotes",
-                "3:1: secret is not known here; there are app_id and key",
+                "3:1: unknown key `secret`; the keys are app_id and key",
             ],
         ),
         ("5ec2e7\n", ["1:1: must have app_id: and key:, or one of them"]),

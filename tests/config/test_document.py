@@ -18,7 +18,7 @@ def test_every_error_is_reported_at_its_place_in_file_order() -> None:
     assert problems_of(text) == [
         "f.yaml:2:12: parts[0].size must be positive",
         "f.yaml:3:12: parts[1].size must be a number, not 'big'",
-        "f.yaml:3:17: parts[1].nmae is not known here; did you mean name?",
+        "f.yaml:3:17: parts[1]: unknown key `nmae`; did you mean `name`?",
         "f.yaml:4:5: parts[2].size is missing",
         "f.yaml:5:8: count must be a whole number, not 1.5",
     ]
@@ -30,13 +30,13 @@ def test_values_are_not_converted() -> None:
 
 
 def test_a_key_that_stands_twice_is_refused() -> None:
-    assert problems_of("count: 1\nparts: []\ncount: 2\n") == ["f.yaml:3:1: count stands here for the second time"]
+    assert problems_of("count: 1\nparts: []\ncount: 2\n") == ["f.yaml:3:1: count: duplicate key"]
 
 
 def test_what_the_text_has_that_is_not_used_is_reported_with_the_rest() -> None:
     text = "parts:\n  - &a {size: 1, size: -2}\n  - {<<: *a, size: x}\n? [x]\n: 1\ncount: !n 1.5\n"
     assert problems_of(text) == [
-        "f.yaml:2:18: parts[0].size stands here for the second time",
+        "f.yaml:2:18: parts[0].size: duplicate key",
         "f.yaml:2:24: parts[0].size must be positive",
         "f.yaml:3:6: parts[1].<< would merge, which YAML 1.2 does not: write out what it adds",
         "f.yaml:3:20: parts[1].size must be a number, not 'x'",

@@ -44,7 +44,7 @@ inputs:
       X: {axis: tilt, invert: true, dead_zone: 0.1, expo: 0.5, range: [0, 255], speed: 0.5}
       Button 2: null
       Button 5: null
-      Button 7: {press: tell, words: gimbal follow lock}
+      Button 7: {press: tell, command: gimbal follow lock}
       Hat switch:
         up: {press: recall, number: 1, hold: store}
         down: {axis: tilt, speed: 0.2, invert: true}
@@ -77,7 +77,7 @@ def test_a_rig_without_inputs_has_none(tmp_path: Path) -> None:
         (
             "{controls: {X: {axs: pan}}}",
             21,
-            "controls.X.axs is not known here; did you mean axis?",
+            "controls.X: unknown key `axs`; did you mean `axis`?",
         ),
         (
             "{controls: {X: {}}}",
@@ -114,12 +114,12 @@ def test_a_rig_without_inputs_has_none(tmp_path: Path) -> None:
         (
             "{controls: {X: {press: tell}}}",
             20,
-            "controls.X needs words to tell: gimbal follow lock",
+            "controls.X needs a command: gimbal follow lock",
         ),
         (
-            "{controls: {X: {press: stop, words: hm}}}",
-            41,
-            "controls.X.words are for tell",
+            "{controls: {X: {press: stop, command: hm}}}",
+            43,
+            "controls.X.command is for tell",
         ),
         (
             "{controls: {H: {up: {press: store}}}}",
@@ -205,11 +205,11 @@ sinks:
     ("control", "problem"),
     [
         ("{press: engage}", "controls.X must be held: a drone is engaged, and told, by hold"),
-        ("{press: tell, words: drone arm}", "controls.X must be held"),
+        ("{press: tell, command: drone arm}", "controls.X must be held"),
         ("{axis: stick_pitch, by: position}", "controls.X must be let go with the hand"),
         ("{axis: stick_pitch, rest: high}", "controls.X must be let go with the hand"),
         ("{press: disengage, hold: engage}", ""),
-        ("{press: disengage, hold: tell, words: drone arm}", ""),
+        ("{press: disengage, hold: tell, command: drone arm}", ""),
         ("{axis: stick_pitch}", ""),
     ],
 )

@@ -42,7 +42,7 @@ def test_a_recall_takes_a_time_as_times_are_written(tmp_path: Path, written: str
         ("sticks: {low_pass: 3}", "sticks.low_pass must be at most 1"),
         ("presets: {recall: 0}", "presets.recall must be positive"),
         ("presets: {recall: soon}", "presets.recall must be a time"),
-        ("presets: {recal: 3}", "presets.recal is not known here; did you mean recall?"),
+        ("presets: {recal: 3}", "presets: unknown key `recal`; did you mean `recall`?"),
     ],
 )
 def test_what_is_wrong_is_said_where_it_stands(tmp_path: Path, text: str, problem: str) -> None:

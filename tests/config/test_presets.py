@@ -68,10 +68,10 @@ def test_a_preset_beyond_the_soft_limits_is_said(tmp_path: Path) -> None:
     [
         ("", "presets.yaml:1:1: the file is empty"),
         ("presets: {\n", "presets.yaml:2:1: not YAML"),
-        ("preset: {}\n", "presets.yaml:1:1: preset is not known here; did you mean presets?"),
+        ("preset: {}\n", "presets.yaml:1:1: unknown key `preset`; did you mean `presets`?"),
         ("presets:\n  wide: {pan: 1}\n", "presets.yaml:2:9: presets.wide must be a number from 0 to 999"),
         ("presets:\n  01: {pan: 1}\n", "presets.yaml:2:7: presets.01 must be a number from 0 to 999"),
-        ("presets:\n  1: {pna: 1}\n", "presets.yaml:2:7: presets.1.pna is not known here; did you mean pan?"),
+        ("presets:\n  1: {pna: 1}\n", "presets.yaml:2:7: presets.1: unknown key `pna`; did you mean `pan`?"),
         ("presets:\n  1: {pan: far}\n", "presets.yaml:2:12: presets.1.pan must be a number, not 'far'"),
         ("presets:\n  1: {pan: .nan}\n", "presets.yaml:2:12: presets.1.pan must be a finite number, not nan"),
         ("presets:\n  1: {name: x}\n", "presets.yaml:2:6: presets.1 names no axis (pan, tilt, roll, focus)"),

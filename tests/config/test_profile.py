@@ -55,7 +55,7 @@ def test_a_good_profile_gives_the_limits_of_each_axis(tmp_path: Path) -> None:
             "min: null",
             "rig.yaml:6:10: axes.tilt.min and max must both be numbers, or both null for a continuous axis",
         ),
-        ("name: Test rig", "nme: Test rig", "rig.yaml:1:1: nme is not known here; did you mean name?"),
+        ("name: Test rig", "nme: Test rig", "rig.yaml:1:1: unknown key `nme`; did you mean `name`?"),
         (
             "mode: position",
             "mode: warp",
@@ -88,22 +88,22 @@ def test_a_good_profile_gives_the_limits_of_each_axis(tmp_path: Path) -> None:
             "type: [1]",
             "rig.yaml:12:5: sinks[0] type must be one of gimbal, focus, camera, virtual-rc, flight, not '[1]'",
         ),
-        ("  tilt:\n", "  focus:\n", "rig.yaml:6:5: axes.focus has no sink that moves it"),
+        ("  tilt:\n", "  focus:\n", "rig.yaml:6:5: axes.focus: no sink drives it"),
         (
             "  - {type: gimbal,",
             "  - {type: focus, link: gimbal, rate: 50}\n  - {type: gimbal,",
-            "rig.yaml:12:5: sinks[0] moves focus, and axes has none of them",
+            "rig.yaml:12:5: sinks[0]: it drives focus, and `axes` has none of them",
         ),
         (
             "rate: 50",
             "rate: 50, mapping: {pitch: tilt, yaw: tilt}",
-            "rig.yaml:12:5: sinks[0] moves tilt, and so does sinks[0]",
+            "rig.yaml:12:5: sinks[0]: tilt is already driven by sinks[0]",
         ),
-        ("rate: 50", "rate: 50, mapping: {pitch: tilt}", "rig.yaml:4:10: axes.pan has no sink that moves it"),
+        ("rate: 50", "rate: 50, mapping: {pitch: tilt}", "rig.yaml:4:10: axes.pan: no sink drives it"),
         (
             "  - {type: gimbal,",
             "  - {type: gimbal, link: gimbal, mode: speed, rate: 50}\n  - {type: gimbal,",
-            "rig.yaml:13:5: sinks[1] moves pan, and so does sinks[0]",
+            "rig.yaml:13:5: sinks[1]: pan is already driven by sinks[0]",
         ),
     ],
 )
@@ -152,7 +152,7 @@ axes:
   stick_pitch: {min: -1, max: 1, velocity: 4, acceleration: 20, jerk: 200}
 sinks:
   - {type: gimbal, link: gimbal, mode: position, rate: 50}
-  - {type: flight, link: drone, mode: velocity-body, full: {horizontal: 3, vertical: 1, yaw: 30}}
+  - {type: flight, link: drone, mode: velocity-body, full_scale: {horizontal: 3, vertical: 1, yaw: 30}}
 """
 
 
@@ -161,14 +161,18 @@ sinks:
     [
         ("link: drone", "link: gimbal", "drone.yaml:10:26: sinks[1].link must be the drone's alone, and gimbal is on"),
         ("serial:/dev/ttyUSB0@230400", "slcan:/dev/ttyACM1", "drone.yaml:3:16: links.drone must be a serial line"),
-        ("horizontal: 3", "horizontal: 11", "sinks[1].full.horizontal must be at most 10 m/s in this mode"),
-        ("velocity-body, full: {horizontal: 3", "tilt, full: {horizontal: 31", "must be at most 30 deg in this mode"),
-        ("yaw: 30", "yaw: 101", "sinks[1].full.yaw must be at most 100 deg/s in this mode"),
-        ("vertical: 1", "vertical: 4.5", "sinks[1].full.vertical must be at most 4 m/s in this mode"),
+        ("horizontal: 3", "horizontal: 11", "sinks[1].full_scale.horizontal must be at most 10 m/s in this mode"),
+        (
+            "velocity-body, full_scale: {horizontal: 3",
+            "tilt, full_scale: {horizontal: 31",
+            "must be at most 30 deg in this mode",
+        ),
+        ("yaw: 30", "yaw: 101", "sinks[1].full_scale.yaw must be at most 100 deg/s in this mode"),
+        ("vertical: 1", "vertical: 4.5", "sinks[1].full_scale.vertical must be at most 4 m/s in this mode"),
         ("velocity-body", "thrust", "sinks[1].mode must be one of velocity-body, velocity-ground, tilt"),
         (
-            "flight, link: drone, mode: velocity-body, full:",
-            "virtual-rc, link: drone, rate: 50, full:",
+            "flight, link: drone, mode: velocity-body, full_scale:",
+            "virtual-rc, link: drone, rate: 50, full_scale:",
             "sinks[1].rate must be one of 20",
         ),
         ("stick_roll:  {min: -1", "stick_roll:  {min: 0.2", "axes.stick_roll is a stick: its min and max must be"),

@@ -10,7 +10,7 @@ from fakes import PlacedReporter, RecordingSink, ScriptedSource, StallingClock, 
 
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.clock import VirtualClock
-from teleop.core.control_loop import FIRST_REPORT, KEEP_ALIVE, LEAD, PERIOD, STALL, ControlLoop
+from teleop.core.control_loop import LEAD, STALL, ControlLoop
 from teleop.core.errors import Interrupted, LinkError
 from teleop.core.events import Action
 from teleop.core.interfaces import Clock
@@ -18,6 +18,7 @@ from teleop.core.run_state import Result, RunState
 from teleop.core.setpoints import Stop, VelocityTarget
 from teleop.core.shutdown import RELEASE_LONGEST, RELEASE_PATIENCE
 from teleop.core.stall_recovery import PATIENCE
+from teleop.core.timing import FIRST_REPORT, KEEP_ALIVE, PERIOD
 from teleop.planner.live import Live
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-56, 146, 60, 120, 600)}

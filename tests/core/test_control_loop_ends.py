@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.clock import VirtualClock
-from teleop.core.control_loop import AT_ONCE, PERIOD, STALL, ControlLoop
+from teleop.core.control_loop import AT_ONCE, STALL, ControlLoop
 from teleop.core.errors import DeviceError, Interrupted, LeaveAtOnce, LinkError
 from teleop.core.run_state import Result, RunState
+from teleop.core.timing import PERIOD
 from teleop.planner.live import Live
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-56, 146, 60, 120, 600)}

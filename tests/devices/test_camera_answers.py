@@ -13,10 +13,11 @@ from teleop.dji.gimbal import camera
 from teleop.dji.message import Result
 
 
-def lines(far: FarEnd, *actions: Action) -> list[str]:
+def lines(far: FarEnd, *actions: Action, lenient: bool = False) -> list[str]:
     """What is said in half a second, the actions one after the other."""
     said: list[str] = []
-    sink, answers = CameraSink(far.connection), CameraAnswers(far.connection, said.append)
+    sink = CameraSink(far.connection)
+    answers = CameraAnswers(sink, said.append, lenient=lenient)
     for number in range(50):
         tick = Tick(number / 100, {}, {}, actions[number // 10 : number // 10 + 1] if number % 10 == 0 else (), {})
         answers.write(tick)
@@ -51,3 +52,14 @@ def test_a_rig_without_a_camera_says_so() -> None:
     answers.write(Tick(1.0, {}, {}, (Action.SHUTTER, Action.RECORD), {}))
     assert said == ["shutter: this rig has no camera", "record: this rig has no camera"]
     assert answers.release(2.0) is None
+
+
+def test_where_a_hand_moves_the_rig_a_camera_that_does_not_record_ends_nothing() -> None:
+    far = FarEnd()
+    answers = iter([Result(2), Result(0), Result(0)])
+    far.replies[camera.Command] = lambda _command: next(answers)
+    said = lines(far, Action.RECORD, Action.RECORD, Action.STOP, lenient=True)
+    assert said == ["the camera refused to record (return code 0x02)", "camera: recording", "camera: stopped"]
+    far = FarEnd()
+    far.replies[camera.Command] = lambda _command: None
+    assert lines(far, Action.SHUTTER, lenient=True) == ["the camera did not answer when asked to shutter"]

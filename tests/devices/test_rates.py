@@ -10,8 +10,9 @@ from fakes import PlacedReporter, RecordingSink, ScriptedSource, cruising
 
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.clock import VirtualClock
-from teleop.core.control_loop import PERIOD, RATE, ControlLoop
+from teleop.core.control_loop import ControlLoop
 from teleop.core.setpoints import VelocityTarget
+from teleop.core.timing import PERIOD, RATE
 from teleop.devices.rate_divider import RateDivider
 from teleop.planner.live import Live
 

@@ -573,12 +573,31 @@ def test_what_an_input_notes_is_said_once(desk: Desk) -> None:
 
 def test_record_and_shutter_and_what_quitting_does_to_a_recording(desk: Desk) -> None:
     desk.press(Command.RECORD)
+    assert not desk.status.recording, "the camera has not answered"
+    desk.operator.camera_answered(Action.RECORD, True)
+    desk.tick()
     assert desk.status.recording
     desk.press(Command.SHUTTER)
     desk.press(Command.RECORD)
     desk.press(Command.RECORD)
     desk.press(Command.QUIT)
     assert desk.actions == [Action.RECORD, Action.SHUTTER, Action.STOP, Action.RECORD, Action.STOP]
+
+
+def test_a_camera_that_does_not_record_is_asked_to_again_and_one_that_does_not_stop_too(desk: Desk) -> None:
+    desk.press(Command.RECORD)
+    desk.operator.camera_answered(Action.RECORD, False)
+    desk.press(Command.RECORD)
+    desk.operator.camera_answered(Action.RECORD, True)
+    desk.press(Command.RECORD)
+    desk.operator.camera_answered(Action.STOP, False)
+    desk.tick()
+    assert desk.status.recording
+    desk.press(Command.RECORD)
+    desk.operator.camera_answered(Action.STOP, True)
+    desk.tick()
+    assert not desk.status.recording
+    assert desk.actions == [Action.RECORD, Action.RECORD, Action.STOP, Action.STOP]
 
 
 def test_quitting_stops_every_axis_and_ends_the_run(desk: Desk) -> None:

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teleop.core.axes import Axis, Limits, Motion
-from teleop.core.control_loop import PERIOD
 from teleop.core.operator_input import Command
 from teleop.core.setpoints import PositionTarget, Stop, VelocityTarget
+from teleop.core.timing import PERIOD
 
 WIDE = Limits(-40, 40, 120, 240, 1200)  # near enough to be run into
 LIMITS = {Axis.PAN: WIDE, Axis.TILT: Limits(-math.inf, math.inf, 90, 180, 900), Axis.FOCUS: Limits(0, 1, 0.5, 2, 10)}

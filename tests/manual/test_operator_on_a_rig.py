@@ -14,10 +14,10 @@ from teleop.config.presets import Presets
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis, Motion
 from teleop.core.clock import VirtualClock
-from teleop.core.control_loop import PERIOD
 from teleop.core.events import Tick
 from teleop.core.operator_input import Command
 from teleop.core.run_state import Result, RunStateMachine
+from teleop.core.timing import PERIOD
 from teleop.devices.gimbal.commands import CommandSink
 from teleop.devices.rig import open_rig
 from teleop.dji.gimbal import camera

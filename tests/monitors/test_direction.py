@@ -16,6 +16,7 @@ from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
 from teleop.devices.gimbal.pi_correction import PiCorrection
 from teleop.monitors.direction import DirectionGuard
+from teleop.sim.gimbal.firmware import DOCUMENTED
 
 LIMITS = Limits(-180, 180, 60, 240, 1200)
 PERIOD = 0.01  # s
@@ -188,8 +189,15 @@ sinks: [{type: gimbal, link: gimbal, mode: MODE, rate: 50, SIGNS}]
     ],
 )
 def test_a_run_stops_with_the_line_for_the_profile_which_mends_it(
-    mode: str, signs: str, needs: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    mode: str,
+    signs: str,
+    needs: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
+    """The gimbal counts as documented, whatever the profile claims."""
+    monkeypatch.setattr("teleop.devices.rig.profile_firmware", lambda _profile, _link: DOCUMENTED)
     path = tmp_path / "rig.yaml"
     path.write_text(PROFILE.replace("MODE", mode).replace("SIGNS", signs))
     code = run(["play", "nudge", "--rig", str(path), "--fast"])

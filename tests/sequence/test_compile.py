@@ -33,7 +33,7 @@ from teleop.sequence.cues import Cue
         ),
         ("keyframes:\n  - {at: soon, pan: 0}\n", "shoot.yaml:2:10: key 1: at must be a time (4, 4s, 1m30s,"),
         ("keyframes:\n  - {at: 96f, pan: 0}\n", "shoot.yaml:2:10: key 1: at is 96f, in frames, which needs fps"),
-        ("keyframes:\n  - {at: 0, pna: 0}\n", "shoot.yaml:2:13: key 1: pna is not known here; did you mean pan?"),
+        ("keyframes:\n  - {at: 0, pna: 0}\n", "shoot.yaml:2:13: key 1: unknown key `pna`; did you mean `pan`?"),
         ("keyframes:\n  - {at: 0, pan: left}\n", "shoot.yaml:2:18: key 1: pan must be a number, not 'left'"),
         (
             "keyframes:\n  - {at: 0, pan: 0, pass: by}\n",

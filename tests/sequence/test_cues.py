@@ -54,7 +54,7 @@ def test_each_kind_becomes_what_its_device_is_told(tmp_path: Path) -> None:
             "at: 0, camera: autofocus",
             "6:21: cue 1: camera must be one of record, stop, shutter, focus, end_focus, not",
         ),
-        ("at: 0, flow: lock", "6:13: cue 1: flow is not known here; did you mean follow?"),
+        ("at: 0, flow: lock", "6:13: cue 1: unknown key `flow`; did you mean `follow`?"),
         ("at: 0, recenter: now", "6:23: cue 1: recenter must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not 'now'"),
         (
             "at: 0, send: gimbal folow lock",
@@ -92,10 +92,11 @@ def test_what_is_wrong_with_a_cue_is_said_at_its_place(tmp_path: Path, cue: str,
 
 def test_what_changes_the_gimbals_ways_needs_a_rest_and_is_told_where_one_is(tmp_path: Path) -> None:
     moving = cued("at: 2, follow: lock", "at: 5.1, send: follow sport", "at: 2, camera: shutter")
-    hint = "and would here with pass: stop in a key of each"
     assert problems_of(tmp_path, moving) == [
-        f"shoot.yaml:6:5: cue 1 is at 2 s, where pan and tilt move; all rest at 0 s, {hint}",
-        f"shoot.yaml:7:5: cue 2 is at 5.1 s, where pan moves; all rest at 5 s, {hint}",
+        "shoot.yaml:6:5: cue 1 is at 2 s, while pan and tilt move; put it at 0 s or 4 s, or add a key "
+        "with `pass: stop` at 2 s",
+        "shoot.yaml:7:5: cue 2 is at 5.1 s, while pan moves; put it at 5 s or 9 s, or add a key "
+        "with `pass: stop` at 5.1 s",
     ]
     for rest in ("0", "4", "4.5", "5", "9", "100"):
         assert load(tmp_path, cued(f"at: {rest}, follow: lock")).cues[0].action == DeviceCommand("gimbal follow lock")
@@ -104,7 +105,9 @@ def test_what_changes_the_gimbals_ways_needs_a_rest_and_is_told_where_one_is(tmp
 def test_a_wait_needs_rest_and_a_drone_that_hovers(tmp_path: Path) -> None:
     assert load(tmp_path, cued("at: 4.5, wait: operator")).cues == [Cue(4.5, Wait())]
     [found] = problems_of(tmp_path, cued("at: 6, wait: operator"))
-    assert found.startswith("shoot.yaml:6:5: cue 1 is at 6 s, where pan moves; all rest at 5 s, and would here with")
+    assert found.startswith(
+        "shoot.yaml:6:5: cue 1 is at 6 s, while pan moves; put it at 5 s or 9 s, or add a key with `pass: stop`"
+    )
     [found] = problems_of(tmp_path, cued("at: 4, wait: me"))
     assert found == "shoot.yaml:6:19: cue 1: wait must be one of operator, not 'me'"
     flight = (

@@ -123,7 +123,7 @@ def test_a_bounce_comes_by_its_rests_in_mirrored_time(tmp_path: Path) -> None:
     for at in (7.25, 8.5):
         assert heard(tmp_path, f"{text}cues: [{{at: {at}, follow: lock}}]\n")[0][0] == at
     for at in (7.2, 8.55):
-        with pytest.raises(DocumentError, match=rf"is at {at} s, where pan and tilt move"):
+        with pytest.raises(DocumentError, match=rf"is at {at} s, while pan and tilt move"):
             heard(tmp_path, f"{text}cues: [{{at: {at}, follow: lock}}]\n")
 
 

@@ -7,9 +7,9 @@ import pytest
 from at_once import AtOnce
 
 from teleop.core.axes import Axis, Limits, State
-from teleop.core.control_loop import KEEP_ALIVE
 from teleop.core.events import Action, DeviceCommand, TickEvent
 from teleop.core.setpoints import StateTarget
+from teleop.core.timing import KEEP_ALIVE
 from teleop.planner.keyframes.planner import Key, plan
 from teleop.planner.live import Live
 from teleop.sequence.compile import CompiledSequence

@@ -64,7 +64,7 @@ def test_an_error_is_said_where_it_stands_and_where_that_was_included(tmp_path: 
             "shoot.yaml:3:12: include 2: move cannot be: none.yaml: no such file",
             "shoot.yaml:4:34: include 3: speed must be 1% to 1000%",
         ]
-        + ["a.yaml:4:1: zoom is not known here" + by_a % line for line in (2, 4)]
+        + ["a.yaml:4:1: unknown key `zoom`" + by_a % line for line in (2, 4)]
         + ["b.yaml:3:10: key 2: at must be after key 1 (1 s)" + by_b % line for line in (2, 4)]
         + ["b.yaml:3:18: key 2: pan must be within -180..180 (the rig), not 900" + by_b % line for line in (2, 4)]
     )
@@ -125,7 +125,7 @@ def test_a_cue_that_needs_rest_is_judged_by_all_that_moves(tmp_path: Path) -> No
     (tmp_path / "part.yaml").write_text("keyframes: [{at: 0, tilt: 0}]\ncues:\n  - {at: 2, follow: lock}\n")
     text = "include: [{move: part.yaml, at: 1}]\nkeyframes: [{at: 0, pan: 0}, {at: 9, pan: 40}]\n"
     [found] = problems_of(tmp_path, text)
-    assert found.startswith("part.yaml:3:5: cue 1 is at 3 s, where pan moves; all rest at 0 s")
+    assert found.startswith("part.yaml:3:5: cue 1 is at 3 s, while pan moves; put it at 0 s or 9 s")
     assert found.endswith(" (included at shoot.yaml:1:11)")
 
 

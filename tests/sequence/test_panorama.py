@@ -69,7 +69,7 @@ def test_the_way_is_a_serpentine_that_stands_still_at_each_shutter(tmp_path: Pat
         ("3s", "x", "6:10: panorama.every must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not 'x'"),
         ("[-90, 90]", "[-200, 200]", "4:8: panorama.pan must be at most 360 deg from edge to edge"),
         ("fov: [54, 38]", "fov: [0.1, 0.1]", "2:3: panorama would be"),
-        ("every: 3s", "evry: 3s", "6:3: panorama.evry is not known here; did you mean every?"),
+        ("every: 3s", "evry: 3s", "6:3: panorama: unknown key `evry`; did you mean `every`?"),
     ],
 )
 def test_what_is_wrong_is_said_at_its_place(tmp_path: Path, old: str, new: str, problem: str) -> None:

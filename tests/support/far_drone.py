@@ -13,7 +13,7 @@ from teleop.links import open_link
 from teleop.sim.drone.device import SimulatedDrone
 
 BAUD = 230400
-PERIOD = 0.002  # s between its looks at the line
+POLL_PERIOD = 0.002  # s between its looks at the line
 
 
 @contextmanager
@@ -24,7 +24,7 @@ def far_drone() -> Iterator[tuple[SimulatedDrone, str]]:
     line = open_link(f"serial:{cable.ports[0]}@{BAUD}", now=clock.now)
 
     def live() -> None:
-        while not stop.wait(PERIOD):
+        while not stop.wait(POLL_PERIOD):
             far.receive(line.receive(), clock.now())
             if said := far.advance(clock.now()):
                 line.send(said)

@@ -8,11 +8,11 @@ from pathlib import Path
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
 from teleop.core.axes import Axis, Limits, Motion, State
-from teleop.core.control_loop import PERIOD
 from teleop.core.events import Tick, TickEvent
 from teleop.core.interfaces import Source
 from teleop.core.operator_input import Command, Held, Press
 from teleop.core.setpoints import Demand
+from teleop.core.timing import PERIOD
 from teleop.manual.operator import Operator
 from teleop.manual.status import OperatorStatus
 from teleop.planner.live import Live

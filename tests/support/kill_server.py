@@ -28,7 +28,7 @@ links: {gimbal: "virtual:quick"}
 axes:
   pan: {min: -180, max: 180, velocity: 5000, acceleration: 500000, jerk: 100000000}
 sinks:
-  - {type: gimbal, link: gimbal, mode: position, rate: 100, follow: 180}
+  - {type: gimbal, link: gimbal, mode: position, rate: 100, max_following_error: 180}
   - {type: camera, link: gimbal}
 """
 FRAMES = 60

@@ -15,8 +15,9 @@ from teleop.config.presets import Presets
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
 from teleop.core.clock import SystemClock, VirtualClock
-from teleop.core.control_loop import PERIOD, ControlLoop
+from teleop.core.control_loop import ControlLoop
 from teleop.core.events import Tick
+from teleop.core.timing import PERIOD
 from teleop.devices.rig import open_rig
 from teleop.inputs.hid.device import open_inputs
 from teleop.manual.operator import Operator

@@ -93,11 +93,11 @@ BAD = [
     ("interval", "soon", "10:13: timelapse.interval must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not 'soon'"),
     ("interval", "0", "10:13: timelapse.interval must be more than 0 s"),
     ("interval", "{from: 2s}", "10:13: timelapse.interval.to is missing"),
-    ("interval", "{from: 2s, to: 3s, by: 1}", "10:36: timelapse.interval.by is not known here; there are from and to"),
+    ("interval", "{from: 2s, to: 3s, by: 1}", "10:36: timelapse.interval.by: unknown key; the keys are from and to"),
     ("settle", "{below: 0, at_most: 1}", "12:19: timelapse.settle.below must be a rate above 0 deg/s, not 0"),
     ("settle", "{below: 1, at_most: x}", "12:31: timelapse.settle.at_most must be a time"),
     ("mode", "shoot", "12:9: timelapse.mode must be one of shoot-move-shoot, continuous, not 'shoot'"),
-    ("exposur", "1", "12:3: timelapse.exposur is not known here; did you mean exposure?"),
+    ("exposur", "1", "12:3: timelapse: unknown key `exposur`; did you mean `exposure`?"),
     ("lead_in", "-1", "12:12: timelapse.lead_in must be at least 0"),
     ("delay", "-2", "12:10: timelapse.delay must be 0 s or later"),
 ]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from teleop.cli.doctor.finding import Finding, Findings, State
 from teleop.core.clock import SystemClock
-from teleop.core.control_loop import PERIOD, RATE
+from teleop.core.timing import PERIOD, RATE
 
 SECONDS = 2.0  # s of sleeping for the lateness
 GOOD, USABLE = 0.002, PERIOD  # s of lateness at p99: a fifth of a tick, and a tick

@@ -12,10 +12,9 @@ from typing import NamedTuple
 
 from rich.text import Text
 
-from teleop.core.axes import STICKS, Axis, Limits
+from teleop.core.axes import Axis, Limits
 from teleop.core.events import Tick
 
-ANGLES = (Axis.PAN, Axis.TILT, Axis.ROLL)
 AT_LIMIT = 1e-3  # share of the way between the soft limits
 STICK = 4  # cells of a stick's bar to either side
 SHORTEST, LONGEST = 8, 48  # cells of a bar
@@ -71,7 +70,7 @@ def _row(tick: Tick, axis: Axis, limits: Limits | None, deflection: float, shown
     if shown.bar:
         row.append_text(_place(state.position, bool(state.velocity), limits, shown.bar))
     row.append(f"{number(axis, state.position):>{NUMBER}}", "bold")
-    measured = reading is not None and axis not in STICKS  # a stick's place has no measure
+    measured = reading is not None and not axis.is_stick  # a stick's place has no measure
     if shown.measured:
         row.append(f"{number(axis, reading.position) if reading and measured else '-':>{NUMBER}}")
     if shown.error:
@@ -82,7 +81,7 @@ def _row(tick: Tick, axis: Axis, limits: Limits | None, deflection: float, shown
 
 def number(axis: Axis, value: float) -> str:
     """Degrees with two decimals, everything else with three."""
-    places = 2 if axis in ANGLES else 3
+    places = 2 if axis.is_angle else 3
     return f"{round(value, places) + 0.0:+.{places}f}"  # no -0.00
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from teleop.cli.screens.run_view import UNITS
 from teleop.cli.screens.tables import print_table
 from teleop.monitors.repeatability import Repeatability
 from teleop.monitors.tracking_error import Score
@@ -37,7 +36,7 @@ class PassesReport:
         for number, axes in self._passes.items():
             for axis, each in axes.items():
                 shown = [f"{value:.4f}" for of in (each.commanded, each.measured) for value in (of.rms, of.peak)]
-                rows.append([str(number), axis.value, *shown, UNITS.get(axis, "0..1")])
+                rows.append([str(number), axis.value, *shown, axis.unit or "0..1"])
         drop = ("Unit", "Commanded RMS", "Measured RMS", "Commanded peak")
         print_table("Each pass against the first", headings, rows, words=("Axis", "Unit"), drop=drop)
 

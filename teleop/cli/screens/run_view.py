@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from rich.text import Text
 
-from teleop.cli.screens.axis_table import ANGLES, axis_rows
+from teleop.cli.screens.axis_table import axis_rows
 from teleop.cli.screens.picture import Rows
 from teleop.cli.screens.run_rows import NO_KEYS, banner, hint_rows, note_rows, state_rows, title_row
 from teleop.cli.screens.screen import Screen
@@ -23,7 +23,6 @@ from teleop.core.run_status import Hint, RunStatus, StopState, stop_state
 from teleop.core.setpoints import Stop
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 
-UNITS = {Axis.PAN: "deg", Axis.TILT: "deg", Axis.ROLL: "deg"}  # the others have none
 UPDATE = 0.08  # s between two looks at the run's status: the view is drawn ten times a second
 
 
@@ -123,7 +122,7 @@ def in_words(status: RunStatus) -> str:
 
 def _angle(tick: Tick, axis: Axis) -> str:
     position = round(tick.motion[axis].position, 3) + 0.0  # no -0.00
-    return f"{axis} {position:+8.2f}" if axis in ANGLES else f"{axis} {position:.3f}"
+    return f"{axis} {position:+8.2f}" if axis.is_angle else f"{axis} {position:.3f}"
 
 
 def timed(begin: Callable[[], float], duration: float, phase: str) -> Callable[[float], RunStatus]:
@@ -145,5 +144,5 @@ def error_table(tally: TrackingErrorMonitor) -> None:
     rows = []
     for axis, score in tally.scores.items():
         numbers = (*tally.ends(axis), score.rms, score.peak)
-        rows.append([axis.value, *(f"{round(value, 3) + 0.0:.3f}" for value in numbers), UNITS.get(axis, "0..1")])
+        rows.append([axis.value, *(f"{round(value, 3) + 0.0:.3f}" for value in numbers), axis.unit or "0..1"])
     print_table("Commanded against measured", headings, rows, words=("Axis", "Unit"), drop=("Unit", "RMS error"))

@@ -33,7 +33,7 @@ from teleop.dji.registry import Decoded
 from teleop.links import parse
 from teleop.sim.link import Device
 
-PERIOD: Final = 0.001  # s between looks for the acknowledgement
+POLL_PERIOD: Final = 0.001  # s between looks for the acknowledgement
 PATIENCE: Final = 3.0  # s in which control that is being obtained or released must be
 IN_PROGRESS: Final = ("obtaining", "releasing")
 DRONES: Final = ("virtual-rc", "flight")  # the types of a profile's sinks
@@ -151,7 +151,7 @@ class Exchange:
                 self._link.send(again)
             if self._session.overdue(now):
                 raise DeviceError(self._silence(message))
-            self._clock.sleep_until(now + PERIOD)
+            self._clock.sleep_until(now + POLL_PERIOD)
 
     def _silence(self, message: Message) -> str:
         timeout, sends = SENDS.get(type(message), ONCE)

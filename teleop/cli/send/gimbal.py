@@ -36,7 +36,7 @@ from teleop.dji.json_record import Record, Transcriber, describe
 from teleop.dji.message import FieldError, Message
 from teleop.sim.link import Device
 
-PERIOD = 0.001  # s between looks for the reply; a gimbal answers within 5 ms
+POLL_PERIOD = 0.001  # s between looks for the reply; a gimbal answers within 5 ms
 RETRIES = 2  # where asking again does no harm
 ONCE: Mapping[type[Message], Callable[[Any], bool]] = {
     gimbal.Position: lambda position: not position.absolute,
@@ -174,7 +174,7 @@ def _reply(session: Session, link: Link, clock: Clock) -> Received | None:
                 return received
         if session.overdue(now):
             return None
-        clock.sleep_until(now + PERIOD)
+        clock.sleep_until(now + POLL_PERIOD)
 
 
 def refusal(record: Record) -> str:

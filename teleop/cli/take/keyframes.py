@@ -16,7 +16,7 @@ from teleop.cli.screens.folded import tell
 from teleop.cli.take.options import Json, Overwrite, TakeFile, place, problems_said, say
 from teleop.config.files import replacing
 from teleop.core.errors import UsageError
-from teleop.plots.style import UNITS
+from teleop.plots.style import UNIT_SIGNS
 
 ENDINGS = (".yaml", ".yml")
 
@@ -70,7 +70,7 @@ def take_keyframes(
         said = {"ok": True, "written": str(output), "keyframes": len(fitted.frames), "tolerance": tolerance}
         print(json.dumps({**said, "largest_errors": errors}))
     else:
-        errors = [f"{axis} {e.size:.3g}{UNITS[axis]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
+        errors = [f"{axis} {e.size:.3g}{UNIT_SIGNS[axis.unit]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
         count = len(fitted.frames)
         tell(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
     return 0

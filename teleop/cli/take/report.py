@@ -88,11 +88,11 @@ def _draw(take: Take, found: Mapping[Axis, AxisReport], output: Path) -> None:
 
 def _print(take: Take, found: Mapping[Axis, AxisReport]) -> None:
     from teleop.cli.screens.tables import print_table
-    from teleop.plots.style import UNITS
+    from teleop.plots.style import UNIT_SIGNS
 
     rows = []
     for axis, of in found.items():
-        unit = UNITS[axis]
+        unit = UNIT_SIGNS[axis.unit]
         off = [f"{of.rms:.3f}{unit}", f"{of.peak:.3f}{unit}", f"{of.peak_at:.2f} s"] if of.readings else ["-"] * 3
         later = "?" if of.delay is None else f"{round(1000 * of.delay)} ms"
         used = [f"{share:.0%}" for share in (of.velocity, of.acceleration, of.jerk)]

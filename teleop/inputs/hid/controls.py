@@ -75,7 +75,7 @@ class Stick:
         if sample.null or low == high:
             return
         if (section.rest or ("low" if (low, high) == (0, 1) else "middle")) == "middle":
-            self._centre = self._centre or Centre(low, high, section.centre)
+            self._centre = self._centre or Centre(low, high, section.center)
             self._centre.see(sample.value, now)
             if self._centre.value is None or (self._guessed and not self._centre.centred):
                 return
@@ -182,7 +182,7 @@ def _pressed_before(changes: Sequence[Change]) -> bool:
 
 
 def _press(section: ActionSection, command: Command | None) -> Press | None:
-    return None if command is None else Press(command, section.number or 0, section.words)
+    return None if command is None else Press(command, section.number or 0, section.command)
 
 
 def _limited(value: float) -> float:

@@ -151,8 +151,8 @@ class HidInput:
             return "finding its center: release the sticks"
         if now - state.last > SILENT and (deflected or not plugged.on_change):
             return f"no report for {SILENT:g} s"
-        if deflected and now - state.differed > plugged.chosen.frozen:
-            return f"reports unchanged for {plugged.chosen.frozen:g} s"
+        if deflected and now - state.differed > plugged.chosen.stuck_timeout:
+            return f"reports unchanged for {plugged.chosen.stuck_timeout:g} s"
         return ""
 
     def _judge(self, plugged: Plugged) -> Iterator[str]:

@@ -50,7 +50,7 @@ class Mapped:
         self.names = frozenset(self._readers) | buttons
         self.watched = frozenset(name for name, reader in others.items() if not isinstance(reader, Lever))
         self.counting = {
-            name: section.reads == "relative" for name, section in flat.items() if section.reads is not None
+            name: section.value_type == "relative" for name, section in flat.items() if section.value_type is not None
         }
 
     @property
@@ -103,7 +103,7 @@ def _flat(controls: Mapping[str, ControlSection]) -> dict[str, ControlSection]:
 
 
 def _reads(section: ControlSection, relative: bool) -> str:
-    return section.reads or ("relative" if relative else "absolute")
+    return section.value_type or ("relative" if relative else "absolute")
 
 
 def _is_stick(section: ControlSection, relative: bool) -> bool:

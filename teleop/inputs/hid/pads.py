@@ -15,8 +15,8 @@ from functools import cache
 
 from teleop.config.inputs_section import (
     DIRECTIONS,
-    FROZEN,
     PADS,
+    STUCK_TIMEOUT,
     ActionSection,
     ControlSection,
     DeviceSection,
@@ -47,7 +47,7 @@ class Chosen:
 
     controls: Mapping[str, ControlSection] = field(default_factory=dict)
     reports: str = "auto"
-    frozen: float = FROZEN
+    stuck_timeout: float = STUCK_TIMEOUT
     guessed: bool = False
     unreadable: str = ""
 
@@ -97,14 +97,14 @@ def choose(section: InputSection, info: DeviceInfo, names: Collection[str]) -> C
         return Chosen(
             guess(names, multi_axis),
             section.reports or ("on-change" if multi_axis else "auto"),
-            section.frozen or FROZEN,
+            section.stuck_timeout or STUCK_TIMEOUT,
             guessed=True,
         )
     merged = {**(pad.controls if pad else {}), **section.controls}
     return Chosen(
         {name: control for name, control in merged.items() if control is not None},
         section.reports or (pad and pad.reports) or "auto",
-        section.frozen or (pad and pad.frozen) or FROZEN,
+        section.stuck_timeout or (pad and pad.stuck_timeout) or STUCK_TIMEOUT,
         unreadable=pad.unreadable if pad else "",
     )
 
@@ -122,7 +122,8 @@ def guess(names: Collection[str], multi_axis: bool) -> Mapping[str, ControlSecti
     if multi_axis:
         turns = {"Rx": (Axis.TILT, False), "Ry": (Axis.ROLL, True), "Rz": (Axis.PAN, False)}
         axes = {
-            name: ControlSection(axis=axis, invert=invert, reads="absolute") for name, (axis, invert) in turns.items()
+            name: ControlSection(axis=axis, invert=invert, value_type="absolute")
+            for name, (axis, invert) in turns.items()
         }
     buttons = {name: ControlSection(press=command) for name, command in _BUTTONS}
     presets = {

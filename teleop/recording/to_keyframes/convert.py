@@ -36,7 +36,6 @@ PLANNED = ((0.0, 0), (0.5, 0)), ((1.0, 0),), ((1.0, SLACK),)
 smooth as can be. Of the first that do the sparsest is taken."""
 TIGHTER = (1.0, 0.9, 0.7)  # of the tolerance, for the fit, should the whole file be further off than its parts were
 HELD = 0.15  # of the time in motion at an even speed, from which on it was a stick
-ANGLES = (Axis.PAN, Axis.TILT, Axis.ROLL)
 PER_SHARE = 100.0  # a tolerance in degrees is one in per cent for focus and sticks, whose full way is 1
 
 
@@ -59,7 +58,7 @@ class Fitted:
 
 def allowed(axis: Axis, tolerance: float) -> float:
     """The tolerance in the axis's units: degrees, and for focus and sticks per cent of 1."""
-    return tolerance if axis in ANGLES else tolerance / PER_SHARE
+    return tolerance if axis.is_angle else tolerance / PER_SHARE
 
 
 def places_after_point(axis: Axis, tolerance: float) -> int:

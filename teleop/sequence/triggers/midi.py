@@ -14,8 +14,8 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
 
-from teleop.core.control_loop import PERIOD
 from teleop.core.errors import DeviceError, UsageError
+from teleop.core.timing import PERIOD
 from teleop.sequence.triggers.midi_timecode import RATES, Label, MidiTimecode
 
 LATE = 0.5  # s: a timecode further past the time than that has not come to it, but jumped over it

@@ -12,11 +12,12 @@ from __future__ import annotations
 import select
 import socket
 from contextlib import ExitStack, suppress
-from threading import Lock, Thread
+from threading import Event, Lock, Thread
 
 from teleop.core.errors import DeviceError, UsageError
 
 LOOK = 0.2  # s between looks at whether it is over
+LEAVE = 1.0  # s for the listening thread to end
 WAITING = 10_000  # packets that arming throws away at most: more than a socket holds
 LONGEST = 65536  # bytes of a packet
 
@@ -40,7 +41,7 @@ class OscTrigger:
         self._lock = Lock()  # over taking a packet, and over what it counts for
         self._armed = 0  # how often it was; a packet counts for the arming that it was taken in
         self._fired_in = 0  # the last arming in which a packet fired it
-        self._over = False
+        self._over = Event()
         self.ignored = 0  # packets that were no OSC
 
     def open(self, stack: ExitStack) -> None:
@@ -55,8 +56,8 @@ class OscTrigger:
         self._listener = listener
         thread = Thread(target=self._listen, args=(listener,), name="osc", daemon=True)
         thread.start()
-        stack.callback(thread.join)
-        stack.callback(setattr, self, "_over", True)
+        stack.callback(thread.join, LEAVE)
+        stack.callback(self._over.set)
 
     def arm(self, now: float) -> None:  # noqa: ARG002 - the order of arrival decides, not a time
         with self._lock:
@@ -73,12 +74,17 @@ class OscTrigger:
         return f"OSC {self._address} on {host}:{port}"
 
     def _listen(self, listener: socket.socket) -> None:
-        while not self._over:
-            select.select([listener], [], [], LOOK)
+        while not self._over.is_set():
+            try:
+                ready = bool(select.select([listener], [], [], LOOK)[0])
+            except (OSError, ValueError):  # the socket is gone
+                ready = True
             with self._lock:
                 data, armed = _taken(listener), self._armed
             if data is not None:
                 self._hear(data, armed)
+            elif ready:  # a socket that has nothing but an error is not asked again at once
+                self._over.wait(LOOK)
 
     def _hear(self, data: bytes, armed: int = 0) -> None:
         """A packet that was taken while it had been armed so many times."""

@@ -13,8 +13,8 @@ from contextlib import ExitStack
 from datetime import datetime, timedelta
 
 from teleop.core.clock import date
-from teleop.core.control_loop import PERIOD
 from teleop.core.errors import DeviceError, UsageError
+from teleop.core.timing import PERIOD
 from teleop.sequence.cycle import Trigger
 from teleop.sequence.triggers.midi_timecode import Label
 

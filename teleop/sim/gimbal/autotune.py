@@ -8,7 +8,7 @@ from teleop.sim.gimbal.handlers import Answer, Handlers
 from teleop.sim.gimbal.pushes import Beat, Due
 
 STEPS = 20  # status pushes from the start to the last, which says complete
-PERIOD = 0.5  # s between them
+BETWEEN_STEPS = 0.5  # s between them
 
 
 class Autotune:
@@ -36,7 +36,7 @@ class Autotune:
 
     def _calibrate(self, message: gimbal.Calibrate, now: float) -> Answer:
         if message.start:
-            self._beat = Beat(now, PERIOD, STEPS)
+            self._beat = Beat(now, BETWEEN_STEPS, STEPS)
         elif self.running(now):
             self._beat = None
             self._stopped.append((now, gimbal.Calibration(gimbal.CalibrationState.NONE, 0)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 IDS: Final = 0x530, 0x531, 0x426
-RATE: Final = 400.0  # frames/s, on all of them
+FRAMES_PER_SECOND: Final = 400.0  # frames/s, on all of them
 _MOST: Final = 40  # frames at once, after a pause of any length
 
 
@@ -17,7 +17,7 @@ class ForeignTraffic:
 
     def due(self, now: float) -> list[tuple[int, bytes]]:
         """The id and data of each CAN frame that is sent up to `now`; a start byte is among the data."""
-        reached = int((now - self._start) * RATE)
+        reached = int((now - self._start) * FRAMES_PER_SECOND)
         first, self._sent = max(self._sent, reached - _MOST), reached
         return [
             (IDS[number % len(IDS)], b"\xaa\x1a\x00" + number.to_bytes(5, "little")) for number in range(first, reached)

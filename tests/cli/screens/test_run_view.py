@@ -17,7 +17,7 @@ from teleop.cli.screens.picture import Picture, Rows
 from teleop.cli.screens.run_rows import hint_rows
 from teleop.cli.screens.run_view import RunView, timed
 from teleop.cli.screens.shoot_view import ShootView, free
-from teleop.core.axes import STICKS, Axis, Limits, Reading, State
+from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.events import Action, Tick
 from teleop.core.run_status import Hint, NextCue, NextKey, RunStatus, StopState, stop_state
 from teleop.core.setpoints import StateTarget, Stop
@@ -83,7 +83,7 @@ def test_a_narrow_terminal_loses_columns_and_never_rows(
     width: int, position: float, axes: set[Axis], deflected: bool
 ) -> None:
     motion = {axis: State(position) for axis in sorted(axes)}
-    tick = Tick(1.0, motion, {}, (), {axis: Reading(position, 1.0) for axis in motion if axis not in STICKS})
+    tick = Tick(1.0, motion, {}, (), {axis: Reading(position, 1.0) for axis in motion if not axis.is_stick})
     rows = axis_rows(tick, LIMITS, width, {} if deflected else None)
     assert len(rows) == 1 + len(axes)
     assert len({len(row.plain) for row in rows[1:]}) == 1, "its columns stand below each other"

@@ -93,7 +93,7 @@ def test_two_triggers_move_one_axis_each_its_way() -> None:
 
 
 def test_a_range_in_the_devices_numbers_replaces_its_own() -> None:
-    ring = mapped({"Wheel": {"axis": "pan", "range": [-7, 7], "centre": 0}})
+    ring = mapped({"Wheel": {"axis": "pan", "range": [-7, 7], "center": 0}})
     assert look(ring, Wheel=Sample(-7, -128, 127)).deflections == {Axis.PAN: -1}
     assert look(ring, Wheel=Sample(0, -128, 127)).deflections == {Axis.PAN: 0}
 
@@ -139,13 +139,13 @@ def test_a_wheel_or_a_stick_may_be_the_gimbals_dial() -> None:
     held = wheel.read({"Dial": Sample(0, -1, 1, relative=True)}, clicks(1, 1), 1)
     assert held.dial == pytest.approx(-0.05 * 2 / 0.25)
     assert held.deflections == {}
-    ring = mapped({"Wheel": {"dial": True, "centre": 0, "coarse": 0.5}})
+    ring = mapped({"Wheel": {"dial": True, "center": 0, "coarse": 0.5}})
     assert look(ring, Wheel=Sample(127, -127, 127)).dial == 0.5
 
 
 @given(st.lists(st.integers(-100, 100), max_size=20), st.integers(0, 255))
 def test_a_running_counter_gives_the_clicks_between_its_numbers(turns: list[int], at: int) -> None:
-    jog = mapped({"Dial": {"axis": "pan", "reads": "counter", "coarse": 1}}, relative=["Dial"])
+    jog = mapped({"Dial": {"axis": "pan", "value_type": "counter", "coarse": 1}}, relative=["Dial"])
     jog.read({"Dial": byte(at)}, (), 0)
     total = 0.0
     for turn in turns:
@@ -194,7 +194,7 @@ def test_directions_of_a_hat_press_or_nudge() -> None:
             "Hat switch": {
                 "up": {"axis": "tilt", "speed": 0.2},
                 "down": {"axis": "tilt", "speed": 0.2, "invert": True},
-                "left": {"press": "tell", "words": "gimbal follow lock"},
+                "left": {"press": "tell", "command": "gimbal follow lock"},
             }
         }
     )
@@ -223,10 +223,10 @@ controls = st.fixed_dictionaries(
         "speed": st.floats(0.01, 1),
         "rest": st.sampled_from(["low", "middle", "high"]),
         "range": st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=2),
-        "centre": st.floats(-1e6, 1e6),
+        "center": st.floats(-1e6, 1e6),
         "coarse": st.floats(1e-3, 1e3),
         "by": st.sampled_from(["rate", "position"]),
-        "reads": st.sampled_from(["absolute", "relative", "counter"]),
+        "value_type": st.sampled_from(["absolute", "relative", "counter"]),
     },
 )
 samples = st.builds(Sample, st.integers(-70000, 70000), st.integers(-40000, 0), st.integers(0, 70000))

@@ -1,7 +1,9 @@
 """A start by OSC, over a real UDP port on this computer: the right message, and nothing else, however it looks."""
 
 import socket
+import time
 from contextlib import ExitStack, nullcontext
+from itertools import pairwise
 from threading import Event
 
 import pytest
@@ -149,3 +151,25 @@ def test_nothing_counts_before_it_is_armed_at_all():
     assert not trigger.fired(0.0)
     trigger.arm(0.0)
     assert not trigger.fired(0.0)
+
+
+def test_a_socket_that_has_only_errors_is_not_asked_again_and_again(monkeypatch):
+    asked = Asked()
+    monkeypatch.setattr("teleop.sequence.triggers.osc.LOOK", 0.02)
+    monkeypatch.setattr("teleop.sequence.triggers.osc.select.select", lambda *_: ([1], [], []))
+    monkeypatch.setattr("teleop.sequence.triggers.osc._taken", asked)
+    with ExitStack() as stack:
+        OscTrigger("127.0.0.1", free_port(), "/go").open(stack)
+        wait_until(lambda: len(asked.times) > 5)
+    gaps = [after - before for before, after in pairwise(asked.times)]
+    assert min(gaps) > 0.01
+
+
+class Asked:
+    """Stands in for a read that only fails."""
+
+    def __init__(self) -> None:
+        self.times: list[float] = []
+
+    def __call__(self, _listener: object) -> None:
+        self.times.append(time.monotonic())
