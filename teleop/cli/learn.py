@@ -69,7 +69,7 @@ def learn(
     backend, asker, now = backend or Hidapi(), asker or Terminal(), now or SystemClock().now
     found = wanted(DeviceSection(), backend.enumerate(), None)
     if not found:
-        raise UsageError("--learn: no joystick found: plug one in; teleop devices lists what is connected")
+        raise UsageError("--learn: no joystick found: plug one in; `teleop devices` lists the devices")
     info = found[0]
     try:
         device = backend.open(info.path)

@@ -94,7 +94,7 @@ HELP: Sequence[tuple[str, str]] = (
     ("s 0-9", "store preset"),
     ("x 0-9", "delete preset"),
     ("z", "recenter"),
-    ("r", "start or stop recording"),
+    ("r", "record on or off"),
     (".", "shutter"),
     ("e", "manual on or off"),
     ("d word", "drone: engage, arm"),

@@ -126,7 +126,7 @@ def test_recorded_sticks_on_a_terminal_end_by_themselves_and_keys_can_stop_them(
     [
         (["live"], "there is no joystick, and no terminal for its keys: plug one in"),
         (["live", "--fast"], "--fast: a hand keeps its own time; only --sticks can be replayed fast"),
-        (["live", "--learn"], "--learn:"),
+        (["live", "--learn"], "--learn asks questions: run it on a terminal"),
     ],
 )
 def test_what_cannot_be_done_without_hands_is_said_in_one_line(arguments: list[str], said: str) -> None:

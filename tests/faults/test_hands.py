@@ -5,6 +5,7 @@ The pad is a fake only beneath hidapi: descriptor, reports and the thread that r
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +13,7 @@ from pathlib import Path
 import pytest
 from fake_hid import FakeBackend, FakeDevice, real
 from scene import PAN, Scene, scene
+from waiting import wait_until
 
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
@@ -65,6 +67,7 @@ def silent(pad: Pad) -> None:
 def reader_dies(pad: Pad) -> None:
     pad.reports = False
     pad.dies = True
+    wait_until(lambda: not any(each.name.startswith("hid ") for each in threading.enumerate()), "the reader's end")
 
 
 @dataclass(frozen=True)

@@ -44,7 +44,7 @@ def test_it_says_where_the_drone_is_and_who_has_it() -> None:
 def test_what_it_does_not_say_is_a_dash() -> None:
     shown = text(DroneState(Stage.IDLE.value, {}, False))
     assert "not engaged: d engage Enter" in shown
-    assert "says nothing" in shown
+    assert "unknown" in shown
     assert "battery - %" in shown
     assert "virtual RC -" in shown
 
