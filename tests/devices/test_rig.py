@@ -153,7 +153,7 @@ def test_the_gimbal_is_told_our_version_once_a_second(tmp_path: Path) -> None:
         loop.run()
         pushes = tap.of(gimbal.VersionPush)
         assert len(pushes) == pytest.approx(stage.clock.now() - begun, abs=2)
-        assert tap.gimbal.settings.host_version == pushes[0][1].version == "00.01.00.00"
+        assert tap.gimbal.settings.host_version == pushes[0][1].version == "00.02.00.00"
 
 
 @pytest.mark.parametrize("mode", MODES)
