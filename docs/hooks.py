@@ -105,9 +105,7 @@ def keys() -> str:
             names.setdefault(str(command), []).append(_key(key))
     played = [f"| {_cell('  '.join(dict.fromkeys(each)))} | {what} |" for what, each in names.items()]
     head = ["| key | what it does |", "|---|---|"]
-    return "\n".join(
-        ["# Keys", "", "## teleop live", "", *head, *rows, "", "## teleop play", "", *head, *played, ""]
-    )
+    return "\n".join(["# Keys", "", "## teleop live", "", *head, *rows, "", "## teleop play", "", *head, *played, ""])
 
 
 def _key(key: str) -> str:
