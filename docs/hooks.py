@@ -1,4 +1,4 @@
-"""Makes the pages that the code or another folder already has: reference, profiles, sequences, changelog (mkdocs hook)."""
+"""Makes the pages that the code or another folder already has: reference, profiles, sequences, changelog."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The pages name only what is there: classes and methods in ARCHITECTURE.md, texts of errors in the troubleshooting page."""
+"""ARCHITECTURE.md names only what exists, the troubleshooting page only texts that the program has."""
 
 import re
 from pathlib import Path
