@@ -110,10 +110,13 @@ def test_the_first_hand(size: tuple[int, int], folder: Path) -> None:
     take = str(folder / "shot.mcap")
     with screen("live", "--take", take, folder=folder, size=size, cwd=folder) as term:
         term.wait_for_keys()
-        term.look(term.wait_for("measured"))
-        assert KEYS in "\n".join(term.rows[-2:]), term.text
+        # a picture comes in pieces: the keys, its last lines, are there once it is whole
+        rows = term.wait_until(
+            lambda rows: KEYS in "\n".join(rows[-2:]) and "measured" in "\n".join(rows), "the axes and the keys"
+        )
+        term.look(rows)
         for each in ("follow not set", "jog 1 deg", "take "):
-            assert any(each in row for row in term.rows), f"{each}:\n{term.text}"
+            assert any(each in row for row in rows), f"{each}:\n{term.text}"
         term.type("r")
         term.wait_for("camera: recording")
         term.wait_for("● REC")
