@@ -1,8 +1,8 @@
-"""Ruckig, one step at a time, and the only place that meets its errors.
+"""Ruckig, one step at a time: the only module that handles its errors.
 
-Ruckig reports trouble by raising, RuckigError for most and ValueError for result -101 (planning.md, "Ruckig traps").
-Here both become None: the caller then takes the next plan of its ladder, at the end of which stands the guard stop.
-Inputs are kept between calls because handing Ruckig a list costs a tenth of a whole solution.
+Ruckig raises RuckigError for most failures and ValueError for result -101 (docs/explanation/planning.md, "Ruckig
+traps"). Here both become None, and the caller takes its next plan; the last one is the guard stop, which needs no
+solver. Inputs are kept between calls, because handing Ruckig a list costs a tenth of a whole solution.
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ from teleop.core.axes import Axis
 from teleop.planner.polynomial import Array
 from teleop.plots.downsample import MOST, outline
 from teleop.plots.page import assembled, finite, short
-from teleop.plots.style import COLOURS, PER, UNIT_SIGNS
+from teleop.plots.style import COLORS, PER, UNIT_SIGNS
 from teleop.recording.reader import Take
 from teleop.recording.report import AxisReport
 
@@ -75,7 +75,7 @@ def _axis(take: Take, axis: Axis, found: AxisReport) -> Mapping[str, Any]:
     used = {name: [short(getattr(found, name) * getattr(limits, name))] for name in ("velocity", "acceleration")}
     return {
         "name": axis.value.replace("_", " "),
-        "colour": COLOURS[axis],
+        "color": COLORS[axis],
         "unit": UNIT_SIGNS[axis.unit],
         "limits": {"position": [finite(limits.minimum), finite(limits.maximum)], "error": [], **reach},
         "peaks": {

@@ -1,4 +1,4 @@
-"""The colours and words that page and drawing share, so that pan is the same blue in both."""
+"""The colors and words that page and drawing share, so that pan is the same blue in both."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from teleop.core.axes import Axis
 
-COLOURS: Mapping[Axis, str] = {
+COLORS: Mapping[Axis, str] = {
     Axis.PAN: "#4cc9f0",
     Axis.TILT: "#ffa23e",
     Axis.ROLL: "#94d82d",

@@ -50,7 +50,7 @@ _UNITS = "degrees (focus 0..1, sticks -1..1), per s, per s2"
 SCHEMAS: Mapping[str, Mapping[str, Any]] = {
     "/motion": _schema("Motion", f"Where each axis was commanded to be: {_UNITS}.", _STATE),
     "/demand": _schema(
-        "Demand", f"What was asked of each axis, on change; a follow without numbers is /motion: {_UNITS}.", _WISH
+        "Demand", f"What each axis was asked to do, on change; a follow without numbers is /motion: {_UNITS}.", _WISH
     ),
     "/measured": _schema(
         "Measured", "Where each axis was at the time of the message, in degrees (focus 0..1).", _NUMBER
@@ -58,16 +58,14 @@ SCHEMAS: Mapping[str, Mapping[str, Any]] = {
     "/sticks": _schema("Sticks", "Deflection of each axis after dead zone and expo, -1..1, on change.", _NUMBER),
     "/actions": {
         "title": "Action",
-        "description": "Something done once: a camera's action, or what a device was told.",
+        "description": "Something done once: a camera's action, or a command to a device.",
         "type": "object",
         "properties": {"action": {"type": "string"}, "words": {"type": "string"}, "speed": _NUMBER, "frame": _NUMBER},
     },
     "/drone": _schema(
-        "Drone", "What the drone said of itself, ten times a second: deg, m, m/s, %; null is what it did not say.", None
+        "Drone", "The drone's own telemetry, ten times a second: deg, m, m/s, %; null where it sent none.", None
     ),
-    "/status": _schema(
-        "Status", "What held for the operator, on change: stops, recalls, inputs and their trouble.", None
-    ),
+    "/status": _schema("Status", "The operator's state, on change: stops, recalls, inputs and their faults.", None),
 }
 
 

@@ -60,7 +60,7 @@ class Messages(Progress):
             for record in whole_records(self.path, self):
                 if isinstance(record, Message):
                     if self._about is None:
-                        raise ValueError("it does not say what it is")
+                        raise ValueError("its first record does not describe the take")
                     yield Line((record.log_time - started) / 1e9, topics[record.channel_id], record.data)
                 elif isinstance(record, Channel):
                     topics[record.id] = record.topic
@@ -74,7 +74,7 @@ class Messages(Progress):
     def about(self) -> About:
         """What the take says of itself; raises DocumentError when it was read and said nothing."""
         if self._about is None:
-            raise DocumentError([f"{self.path}: is not a take of this program"])
+            raise DocumentError([f"{self.path}: not a take of this program"])
         return self._about
 
     @property
@@ -87,7 +87,8 @@ class Messages(Progress):
         """A line for the user about a file that is not whole, "" about one that is; known after the last message."""
         if self.closed and self.ending is not None:
             return ""
-        return f"{self.path}: was not closed, and is read as far as it is whole; teleop take recover {self.path}"
+        cure = f"To repair: teleop take recover {self.path}"
+        return f"{self.path}: the recording was cut off; only the whole part is read. {cure}"
 
 
 @contextmanager
@@ -98,13 +99,13 @@ def understood(path: Path) -> Iterator[None]:
     except OSError as error:
         raise DocumentError([f"{path}: cannot be read: {error.strerror or error}"]) from None
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise DocumentError([f"{path}: is not a take as this program writes it: {error}"]) from None
+        raise DocumentError([f"{path}: not a take of this program: {error}"]) from None
 
 
 def about(said: Mapping[str, str]) -> About:
     """What the first metadata record says; raises ValueError, KeyError and TypeError for another's."""
     if said.get("format") != FORMAT:
-        raise ValueError(f"its format is {said.get('format')!r}, and this program reads {FORMAT!r}")
+        raise ValueError(f"it has format {said.get('format')!r}, this program reads {FORMAT!r}")
     limits = {}
     for name, of_axis in json.loads(said["axes"]).items():
         low, high, *magnitudes = (of_axis[name] for name in LIMITS)

@@ -58,7 +58,7 @@ def recover(path: Path, stream: BinaryIO) -> Saved:
         copy.add(path, record)
     saved.lost, saved.size = progress.size - progress.whole, progress.size
     if saved.messages == 0:
-        raise DocumentError([f"{path}: nothing can be saved: it was cut before its first second was written"])
+        raise DocumentError([f"{path}: nothing to recover: it was cut off before its first second was written"])
     copy.end(path)
     return saved
 
@@ -90,7 +90,7 @@ class _Copy:
                 self._motion = record.id
         elif isinstance(record, Message):
             if self._started is None or record.channel_id not in self._channels:
-                raise DocumentError([f"{path}: is not a take of this program"])
+                raise DocumentError([f"{path}: not a take of this program"])
             self._message(record)
 
     def end(self, path: Path) -> None:

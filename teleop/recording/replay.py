@@ -67,7 +67,7 @@ def take_performance(path: Path, limits: Mapping[Axis, Limits], rig: str) -> Com
     take = read_take(path)
     missing = [axis for axis in take.axes if axis not in limits]
     if missing:
-        raise UnplayableError([f"{path}: moves {', '.join(missing)}, and {rig} has {', '.join(limits)}"])
+        raise UnplayableError([f"{path}: moves {', '.join(missing)}, but {rig} has only {', '.join(limits)}"])
     if not len(take.times):
         raise UnplayableError([f"{path}: is empty: the run ended before its first tick"])
     move = recorded_move(take, limits)
@@ -164,7 +164,7 @@ def _excesses(move: Move, limits: Mapping[Axis, Limits]) -> Iterator[str]:
 def _said(axis: Axis, wrong: Excess) -> str:
     if wrong.limit in ("minimum", "maximum"):
         return f"at {wrong.time:.2f} s {axis} is {wrong.size:.6g} beyond its {wrong.limit}"
-    return f"at {wrong.time:.2f} s {axis} needs {wrong.size:.3g} x the {wrong.limit} it may have"
+    return f"at {wrong.time:.2f} s {axis} needs {wrong.size:.3g} x its {wrong.limit} limit"
 
 
 def cues(take: Take) -> Sequence[Cue]:
@@ -179,11 +179,13 @@ def warnings(take: Take) -> list[str]:
     found = []
     told = [said["words"] for _, said in take.actions if said["action"] == "told"]
     if told:
-        found.append(f"{take.path}: is not told again: {'; '.join(dict.fromkeys(told))}")
+        found.append(f"{take.path}: commands not replayed: {'; '.join(dict.fromkeys(told))}")
     if take.remark:
         found.append(take.remark)
     if take.cut:
-        found.append(f"{take.path}: was cut at {take.duration:.2f} s; what was moving is brought to rest there")
+        found.append(
+            f"{take.path}: the recording was cut off at {take.duration:.2f} s; axes that were moving are stopped there"
+        )
     elif take.ending and take.ending.dropped:
-        found.append(f"{take.path}: {take.ending.dropped} ticks were not recorded; the way between is made up")
+        found.append(f"{take.path}: {take.ending.dropped} ticks were not recorded; they are interpolated")
     return found

@@ -100,11 +100,11 @@ def _delay(take: Take, axis: Axis) -> tuple[float | None, str]:
     commanded = np.array([take.times, take.motion[axis][0]]).T
     found = estimate(commanded.tolist(), np.array([read_at, read]).T.tolist(), float(read_at[0]), float(read_at[-1]))
     if found is None:
-        return None, "it was measured too seldom"
+        return None, "it was measured too rarely"
     if not found.doubt <= SURE:
-        return None, "it moved too evenly, or too unlike what it was told"
+        return None, "its speed changed too little, or it did not follow its commands"
     if not FAITHFUL[0] <= found.scale <= FAITHFUL[1]:
-        return None, f"it moved {found.scale:.2f} times as far as it was told"
+        return None, f"it moved {found.scale:.2f} times as far as commanded"
     if not EARLIEST + EDGE < found.seconds < LATEST - EDGE:
-        return None, f"it is not within {EARLIEST:g} .. {LATEST:g} s"
+        return None, f"it lies outside {EARLIEST:g} .. {LATEST:g} s"
     return found.seconds, ""

@@ -207,6 +207,6 @@ def _created(path: Path) -> IO[bytes]:
     try:
         return path.open("xb", buffering=0)
     except FileExistsError:
-        raise UsageError(f"--take {path}: is there already; a take is never written over another") from None
+        raise UsageError(f"--take {path}: is there already; takes are never overwritten") from None
     except OSError as error:
-        raise UsageError(f"--take {path}: cannot be written: {error.strerror or error}") from None
+        raise UsageError(f"--take {path}: cannot write: {error.strerror or error}") from None

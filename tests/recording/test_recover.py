@@ -67,7 +67,7 @@ def test_a_process_killed_in_the_middle_of_a_run_loses_less_than_a_second(tmp_pa
     assert (glance(new).seconds, read_take(new).cut) == (pytest.approx(said["seconds"], abs=0.01), True)
     again = teleop("play", new.name, "--fast", "--json", cwd=tmp_path)
     assert again.returncode == 0, again.stderr
-    assert "was cut at" in again.stderr
+    assert "the recording was cut off at" in again.stderr
 
 
 def test_what_was_whole_is_copied_to_the_byte(whole: Path, tmp_path: Path) -> None:
@@ -122,11 +122,11 @@ def test_a_file_cut_anywhere_or_damaged_anywhere_is_saved_or_refused_and_never_c
     ("arguments", "said"),
     [
         (["whole.mcap"], ""),
-        (["cut.mcap", "-o", "cut.mcap"], "teleop: -o cut.mcap: is the take itself, which is never written over"),
-        (["cut.mcap", "-o", "there.mcap"], "teleop: -o there.mcap: is there already; --overwrite writes over it"),
+        (["cut.mcap", "-o", "cut.mcap"], "teleop: -o cut.mcap: is the take itself; takes are never overwritten"),
+        (["cut.mcap", "-o", "there.mcap"], "teleop: -o there.mcap: is there already; --overwrite replaces it"),
         (["cut.mcap", "-o", "new.txt"], "teleop: -o new.txt: its ending must be .mcap"),
-        (["text.mcap"], "text.mcap: is not a take (.mcap), or was cut before anything was in it"),
-        (["begun.mcap"], "begun.mcap: nothing can be saved: it was cut before its first second was written"),
+        (["text.mcap"], "text.mcap: not a take (.mcap), or cut off before anything was recorded"),
+        (["begun.mcap"], "begun.mcap: nothing to recover: it was cut off before its first second was written"),
         (["nothing.mcap"], "nothing.mcap: cannot be read: No such file or directory"),
     ],
 )

@@ -32,13 +32,15 @@ def take_keyframes(
         float,
         Parameter(
             metavar="DEGREES",
-            help="How far off it may be at any time: degrees; for focus and sticks per cent of their way.",
+            help="Largest error at any time: degrees; for focus and sticks percent of their range.",
         ),
     ] = 0.2,
     measured: Annotated[
-        bool, Parameter(help="Follow where the axes were measured, not commanded.", negative=(), show_default=False)
+        bool, Parameter(help="Fit the measured positions, not the commanded ones.", negative=(), show_default=False)
     ] = False,
-    speed: Annotated[str, Parameter(metavar="PERCENT", help="The take's own pace, as a percentage.")] = "100%",
+    speed: Annotated[
+        str, Parameter(metavar="PERCENT", help="Speed of the result, as a percentage of the take's.")
+    ] = "100%",
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> int:

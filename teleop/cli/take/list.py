@@ -36,7 +36,7 @@ def take_list(
 
 
 def take_info(file: TakeFile, /, *, as_json: Json = False) -> int:
-    """Say what is in a take: the run, its axes and limits, how many messages of what, what was done, how it ended."""
+    """Show what is in a take: the run, its axes and limits, messages by topic, actions, how it ended."""
     with problems_said(as_json):
         found = survey(file)
     say(found.remark)
@@ -88,11 +88,11 @@ def _lines(found: Survey) -> Iterator[str]:
     about, ending = found.about, found.ending
     yield f"{found.path}: {about.title} on {about.rig}, {length(found.seconds)}"
     yield f"recorded  {recorded_on(about.started)} by teleop {about.version}"
-    yield f"ended     {'cut: the file does not say how' if ending is None else ending}"
+    yield f"ended     {'cut off: the file does not say how' if ending is None else ending}"
     if ending is not None and ending.dropped:
         yield f"dropped   {ending.dropped} ticks were not recorded"
     if found.lost:
-        yield f"lost      {found.lost} bytes at the end are not whole"
+        yield f"lost      {found.lost} bytes at the end are damaged"
     for axis, limits in about.limits.items():
         room = "continuous" if limits.continuous else f"{limits.minimum:g} .. {limits.maximum:g}"
         yield f"{axis:<9} {room}, {limits.velocity:g}/s, {limits.acceleration:g}/s2, {limits.jerk:g}/s3"

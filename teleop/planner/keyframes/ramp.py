@@ -19,7 +19,7 @@ class Ramp(NamedTuple):
     share: float = 0.0
 
     def over(self, duration: float) -> float:
-        """In seconds, of a leg that lasts `duration` seconds."""
+        """In seconds, of a segment that lasts `duration` seconds."""
         return self.seconds + self.share * duration
 
     def longer(self, factor: float) -> Ramp:
@@ -36,6 +36,6 @@ def quickest(change: float, limits: Limits) -> float:
 
 
 SMOOTHLY = 1.3  # times the time at full jerk, which has no headroom and is no quintic
-LONGEST_SHARE = 0.5  # of a leg, at each of its ends
+LONGEST_SHARE = 0.5  # of a segment, at each of its ends
 NAMES = {"sharp": Ramp(share=0.1), "medium": Ramp(share=0.25), "soft": Ramp(share=0.4)}
 SMOOTH = "smooth"  # the name for no ramp: all of the way is used to be as smooth as can be

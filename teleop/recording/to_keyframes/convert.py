@@ -86,7 +86,7 @@ def keyframes(take: Take, tolerance: float, speed: float = 1.0, *, measured: boo
         if all(error.size <= allowed(axis, tolerance) for axis, error in errors.items()):
             return Fitted(text, best.frames, errors)
     missed = [f"{axis} {error.size:.3g} at {error.time:.2f} s" for axis, error in errors.items()]
-    raise UnplayableError([f"{take.path}: keyframes that came near enough did not as a file: {', '.join(missed)}"])
+    raise UnplayableError([f"{take.path}: the sequence file would miss the tolerance: {', '.join(missed)}"])
 
 
 def _best(take: Take, refs: Mapping[Axis, Reference], tolerance: float) -> _Attempt:
@@ -158,17 +158,17 @@ def _too_fast(take: Take, axis: Axis, reference: Reference, tolerance: float) ->
         time, ahead = found
         slower = int(100 * HEADROOM * limits.velocity / float(np.abs(take.motion[axis][1]).max())) - 1
         yield (
-            f"{take.path}: until {time:.2f} s {axis} gets {ahead:.3g} ahead of {HEADROOM:.0%} of its velocity, which is"
-            f" all that a sequence may use: try --speed {slower}%"
+            f"{take.path}: {axis} is too fast at {time:.2f} s: a sequence may use {HEADROOM:.0%} of its velocity limit"
+            f" and would be {ahead:.3g} behind; use --speed {slower}%"
         )
 
 
 def _out_of_reach(take: Take, leg: Leg, off: Array | None) -> str:
     seconds = f"{leg.begin / GRID:.2f} .. {(leg.begin + len(leg.positions) - 1) / GRID:.2f} s"
-    nearer = "" if off is None else f" no nearer than {float(np.abs(off).max()):.3g}"
+    nearer = "" if off is None else f" closer than {float(np.abs(off).max()):.3g}"
     return (
-        f"{take.path}: {leg.style.axis} {seconds}: keyframes cannot follow it{nearer} with {HEADROOM:.0%} of its"
-        " limits, which is all that a sequence may use: try a lower --speed, or a higher --tolerance"
+        f"{take.path}: {leg.style.axis}, {seconds}: keyframes cannot follow the take{nearer}"
+        f" within {HEADROOM:.0%} of its limits; use a lower --speed or a higher --tolerance"
     )
 
 

@@ -63,7 +63,7 @@ def references(take: Take, speed: float = 1.0, *, measured: bool = False) -> Map
         raise UnplayableError([f"{take.path}: is empty: the run ended before its first tick"])
     silent = [axis.value for axis in take.axes if not take.measured.get(axis, np.empty((2, 0))).size]
     if measured and silent:
-        raise UnplayableError([f"{take.path}: nothing was measured of {', '.join(silent)}"])
+        raise UnplayableError([f"{take.path}: {', '.join(silent)} was never measured; leave out --measured"])
     limits = {axis: of_axis.scaled(GENTLER) for axis, of_axis in take.about.limits.items()}
     move = recorded_move(take, limits)
     places = int(np.ceil(move.duration / speed * GRID - 1e-6)) + 1
