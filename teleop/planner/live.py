@@ -4,7 +4,7 @@ Each axis tries a short ladder of plans, and takes the first whose next state ca
 limits. For a stick: Ruckig's velocity interface with the operator's limits, then its position interface exactly onto
 the soft limit, then the guard stop. A preset and a compiled move have ladders of their own, which end in the same guard
 stop. Every committed state can be stopped, so the guard stop is legal by induction (docs/explanation/planning.md,
-"Live"). A plan is only a proposal for one tick, so a demand may change its kind at any tick without a bump. An axis
+"A. Live"). A plan is only a proposal for one tick, so a demand may change its kind at any tick without a bump. An axis
 with a spring (a drone's stick) goes to its center when nothing is demanded of it, as on a remote control.
 
 All velocities go through one solver call, because that costs half of four. What every axis does every tick is written

@@ -3,9 +3,8 @@
 Each case has random limits and starts one axis at a random position, velocity and acceleration, a third up to
 10 % outside the limits. The target changes its kind and its value at random while the axis moves. What must hold at
 every tick: values are finite, jerk keeps J, and position, velocity and acceleration keep their limits, or what the
-fastest stop from the start cannot avoid. At the end a `Stop` must bring the axis to rest. Prints every case that breaks this,
-and the largest excess; exits with 1 if there was one. A seed and a case number repeat it:
-`--seed S --first N --cases 1`.
+fastest stop from the start cannot avoid. At the end a `Stop` must bring the axis to rest. Prints every case that breaks
+this, and the largest excess; exits with 1 if there was one. `--seed S --first N --cases 1` repeats case N.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ from teleop.core.axes import Axis, State
 from teleop.core.events import Action
 from teleop.recording.reader import read_take
 from teleop.recording.recover import is_sound, recover
-from teleop.recording.summary import glance, survey
+from teleop.recording.summary import summarize, summarize_index
 
 
 def swing(time: float) -> State:
@@ -63,8 +63,8 @@ def test_a_process_killed_in_the_middle_of_a_run_loses_less_than_a_second(tmp_pa
         assert summary.statistics.message_count == said["messages"]
         ticks = sum(channel.topic == "/motion" for _, channel, _ in reader.iter_messages())
     assert ticks == said["ticks"] > 50
-    assert survey(new).remark == ""
-    assert (glance(new).seconds, read_take(new).cut) == (pytest.approx(said["seconds"], abs=0.01), True)
+    assert summarize(new).remark == ""
+    assert (summarize_index(new).seconds, read_take(new).cut) == (pytest.approx(said["seconds"], abs=0.01), True)
     again = teleop("play", new.name, "--fast", "--json", cwd=tmp_path)
     assert again.returncode == 0, again.stderr
     assert "the recording was cut off at" in again.stderr
@@ -102,7 +102,7 @@ def test_a_file_cut_anywhere_or_damaged_anywhere_is_saved_or_refused_and_never_c
     place = tmp_path_factory.getbasetemp()
     cut, new = place / "anywhere.mcap", place / "anywhere-new.mcap"
     cut.write_bytes(content)
-    for look in (glance, survey, read_take):
+    for look in (summarize_index, summarize, read_take):
         with suppress(DocumentError):
             assert look(cut).about is not None
     with suppress(DocumentError):

@@ -12,7 +12,7 @@ from made_takes import at_rest, write_take
 from teleop.core.axes import Axis, State
 from teleop.core.events import Action, DeviceCommand
 from teleop.recording import summary as module
-from teleop.recording.summary import glance, survey, takes_in
+from teleop.recording.summary import summarize, summarize_index, takes_in
 
 
 @pytest.fixture
@@ -45,9 +45,9 @@ def test_a_list_has_every_take_with_its_end_and_says_which_are_damaged(folder: P
 
 
 def test_a_list_reads_a_closed_take_by_its_index_alone(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    whole = survey(folder / "b.mcap")
-    monkeypatch.setattr(module, "survey", lambda path: pytest.fail(f"{path} was read through"))
-    glanced = glance(folder / "b.mcap")
+    whole = summarize(folder / "b.mcap")
+    monkeypatch.setattr(module, "summarize", lambda path: pytest.fail(f"{path} was read through"))
+    glanced = summarize_index(folder / "b.mcap")
     assert (glanced.about, glanced.seconds, glanced.ending) == (whole.about, whole.seconds, whole.ending)
 
 

@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from teleop.cli.options import announce, announce_json
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, Overwrite, TakeFile, length, place, problems_said, say
+from teleop.cli.take.options import Json, Overwrite, TakeFile, length, place, problems_as_json, say
 from teleop.config.files import replacing
 from teleop.core.errors import UsageError
 from teleop.recording.writer import ENDING
@@ -35,7 +35,7 @@ def take_export(
     from teleop.recording.table import write_table
 
     place("--csv", csv, overwrite, file)
-    with problems_said(as_json), replacing(csv) as stream:
+    with problems_as_json(as_json), replacing(csv) as stream:
         text = TextIOWrapper(stream, "utf-8", newline="", write_through=True)
         messages, rows = write_table(file, text)
         text.detach()
@@ -68,7 +68,7 @@ def take_recover(
     if target.suffix.lower() != ENDING:
         raise UsageError(f"-o {target}: its ending must be {ENDING}")
     place("-o", target, overwrite, file)
-    with problems_said(as_json):
+    with problems_as_json(as_json):
         if is_sound(file):
             if as_json:
                 print(json.dumps({"ok": True, "written": None, "messages": 0}))

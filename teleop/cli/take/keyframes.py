@@ -13,7 +13,7 @@ from cyclopts import Parameter
 
 from teleop.cli.play import percentage
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, Overwrite, TakeFile, place, problems_said, say
+from teleop.cli.take.options import Json, Overwrite, TakeFile, place, problems_as_json, say
 from teleop.config.files import replacing
 from teleop.core.errors import UsageError
 from teleop.plots.style import UNIT_SIGNS
@@ -58,7 +58,7 @@ def take_keyframes(
     from teleop.recording.replay import warnings
     from teleop.recording.to_keyframes.convert import keyframes
 
-    with problems_said(as_json):
+    with problems_as_json(as_json):
         rate = percentage("--speed", speed)
         take = read_take(file)
         for warning in warnings(take):

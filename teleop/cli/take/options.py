@@ -26,7 +26,7 @@ TakeFile = Annotated[Path, Parameter(help="A recorded run (.mcap).")]
 
 
 @contextmanager
-def problems_said(as_json: bool) -> Iterator[None]:
+def problems_as_json(as_json: bool) -> Iterator[None]:
     """With --json a file that cannot be used is an object too, as for `check`."""
     try:
         yield

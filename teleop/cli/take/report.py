@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_said, say
+from teleop.cli.take.options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_as_json, say
 from teleop.config.document import UnplayableError
 from teleop.config.files import replacing
 from teleop.core.axes import Axis
@@ -49,7 +49,7 @@ def take_report(
     from teleop.recording.reader import read_take
     from teleop.recording.report import report
 
-    with problems_said(as_json):
+    with problems_as_json(as_json):
         take = read_take(file)
     say(take.remark)
     found = report(take)

@@ -4,7 +4,7 @@ The unknowns are position, velocity and acceleration at the knots, with a quinti
 coefficients of its derivatives are bounded, so the limits hold in continuous time. What is known in advance (keys, rest
 at the ends, velocity 0 at a key where the direction changes) is no unknown. Ramps are a matter of cost: a segment with
 ramps is cut where they end, and acceleration between them is so expensive that there is only what keys and limits need.
-See docs/explanation/planning.md, "Keyframes".
+See docs/explanation/planning.md, "B. Keyframes".
 
 Durations may differ by a factor of a million (a twitch, then a drift of a day), so the numbers are kept within what a
 double can resolve: knots beside a short interval are graded (`mesh`), each knot has the time scale of its shorter
@@ -24,7 +24,7 @@ from teleop.planner.keyframes.qp_solver import Sparse, minimize
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import BERNSTEIN, GRAM_ACCELERATION, GRAM_JERK, GRAM_VELOCITY, HERMITE, Array
 
-HEADROOM = 0.95  # share of V, A and J, so that each sample is one legal step from the last (planning page, "Keyframes")
+HEADROOM = 0.95  # share of V, A and J, so that each sample is one legal step from the last (planning page, "B")
 CLIP = 1e6  # largest ratio of a piece's weight to the median
 SMOOTHING = 1e-6  # least weight of jerk beside tension, or a day's drift would have none
 STEADY = 5.0  # acceleration between ramps weighs T / STEADY, jerk its ramp cubed: the speed is even within 2 %

@@ -1,7 +1,7 @@
 """Solves the planner's quadratic programs with Clarabel, which only this module knows.
 
-Clarabel holds constraints to 1e-8 without tuning; OSQP does not (docs/explanation/planning.md, "Keyframes"). It runs on
-one thread: the programs are small, and starting threads takes longer than solving.
+Clarabel holds constraints to 1e-8 without tuning; OSQP does not (docs/explanation/planning.md, "B. Keyframes"). It
+runs on one thread: the programs are small, and starting threads takes longer than solving.
 """
 
 from __future__ import annotations
