@@ -209,4 +209,4 @@ def _created(path: Path) -> IO[bytes]:
     except FileExistsError:
         raise UsageError(f"--take {path}: is there already; takes are never overwritten") from None
     except OSError as error:
-        raise UsageError(f"--take {path}: cannot write: {error.strerror or error}") from None
+        raise UsageError(f"--take {path}: cannot be written: {error.strerror or error}") from None

@@ -29,7 +29,7 @@ def sequence_text(sequence: SequenceText) -> str:
 
 
 def _lines(sequence: SequenceText) -> Iterator[str]:
-    yield f"title: {json.dumps(sequence.title, ensure_ascii=False)}"
+    yield f"title: {_quoted(sequence.title)}"
     if sequence.tension:
         yield f"tension: {sequence.tension:g}"
     yield "keyframes:"
@@ -50,6 +50,12 @@ def _frame(frame: MergedKey, digits: Mapping[Axis, int]) -> Iterator[str]:
         yield f"hold: {_seconds(frame.hold)}s"
     elif frame.stop:
         yield "pass: stop"
+
+
+def _quoted(text: str) -> str:
+    """In double quotes; what YAML does not permit as it is (U+0085 and others) is escaped."""
+    quoted = json.dumps(text, ensure_ascii=False)
+    return "".join(letter if letter.isprintable() else f"\\U{ord(letter):08x}" for letter in quoted)
 
 
 def _seconds(places: int) -> str:
