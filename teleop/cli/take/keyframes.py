@@ -72,7 +72,7 @@ def take_keyframes(
         said = {"ok": True, "written": str(output), "keyframes": len(fitted.frames), "tolerance": tolerance}
         print(json.dumps({**said, "largest_errors": errors}))
     else:
-        errors = [f"{axis} {e.size:.3g}{UNIT_SIGNS[axis.unit]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
+        errors = [f"{axis} {e.size:.3f}{UNIT_SIGNS[axis.unit]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
         count = len(fitted.frames)
         tell(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
     return 0

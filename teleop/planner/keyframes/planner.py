@@ -26,7 +26,7 @@ from teleop.planner.keyframes.findings import (
     Unsolved,
 )
 from teleop.planner.keyframes.infeasibility import infeasibilities
-from teleop.planner.keyframes.keys import Key, ramps_asked, segment_between, waypoints
+from teleop.planner.keyframes.keys import Key, Waypoint, ramps_asked, segment_between, waypoints
 from teleop.planner.keyframes.qp import HEADROOM, Rule, solve
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import Array
@@ -148,33 +148,38 @@ def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: float) 
     breaks: list[Array] = []
     coefficients: list[Array] = [np.empty((0, 6))]
     for first, last in pairwise(rests):
-        stretch = points[first : last + 1]
-        names, asked, duration = (
-            [p.where for p in stretch],
-            ramps_asked(stretch),
-            points[last].time - points[first].time,
-        )
-        if asked and sum(asked) > duration * (1 + ROUNDING):
-            outcome.too_long.append(RampsTooLong(axis, names[0], names[-1], *asked, duration))
-            continue
-        segment = segment_between(stretch, asked, limits)
-        evenness = tension if stretch[0].tension is None else stretch[0].tension
-        pieces = _directed(segment, limits, evenness)
-        if pieces is None:
-            pieces = _undirected(segment, limits, evenness)
-            if pieces is None:
-                outcome.unsolved.append((segment, names))
-                continue
-            outcome.overshoots.extend(overshoots(axis, segment, names, *pieces))
-        if asked:
-            outcome.long_ramps.extend(long_ramps(axis, segment, names, asked))
-        breaks.append(segment.times[0] + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])]))
-        coefficients.append(pieces.coefficients)
+        pieces = _plan_segment(axis, points[first : last + 1], limits, tension, outcome)
+        if pieces is not None:
+            breaks.append(points[first].time + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])]))
+            coefficients.append(pieces.coefficients)
     if outcome.unsolved or outcome.too_long:
         return outcome
     end = points[-1]
     track = Track(np.concatenate([*breaks, [end.time]]), np.concatenate(coefficients), end.position)
     return outcome._replace(track=track)
+
+
+def _plan_segment(
+    axis: Axis, points: Sequence[Waypoint], limits: Limits, tension: float, outcome: _Outcome
+) -> _Pieces | None:
+    """The pieces from one rest to the next. Adds to `outcome` its warnings, or, where this is None, why."""
+    names, asked = [point.where for point in points], ramps_asked(points)
+    duration = points[-1].time - points[0].time
+    if asked and sum(asked) > duration * (1 + ROUNDING):
+        outcome.too_long.append(RampsTooLong(axis, names[0], names[-1], *asked, duration))
+        return None
+    segment = segment_between(points, asked, limits)
+    evenness = tension if points[0].tension is None else points[0].tension
+    pieces = _directed(segment, limits, evenness)
+    if pieces is None:
+        pieces = _undirected(segment, limits, evenness)
+        if pieces is None:
+            outcome.unsolved.append((segment, names))
+            return None
+        outcome.overshoots.extend(overshoots(axis, segment, names, *pieces))
+    if asked:
+        outcome.long_ramps.extend(long_ramps(axis, segment, names, asked))
+    return pieces
 
 
 def _directed(segment: Segment, limits: Limits, tension: float) -> _Pieces | None:
