@@ -132,7 +132,7 @@ class Live:
     ) -> list[AxisPlanner]:
         """Each of `planners` a step towards its velocity, as far as its soft limits let it.
 
-        Returns them if all went where the solver took them, so that it need not be told next time; else none.
+        Returns them if all went where the solver took them (their states need not be set again next time); else none.
         """
         solver = self._velocity[len(planners)]
         if planners != self._carried:

@@ -20,8 +20,8 @@ new_state = tuple.__new__  # new_state(State, row) is State(*row) at two thirds 
 class VelocitySolver:
     """All axes towards their velocities, each on its own; as many axes as it is built for.
 
-    Ruckig carries its own state on from tick to tick; it is told where the axes are only when that is not where it
-    left them, which halves the cost of a step.
+    Ruckig keeps its own state from tick to tick. States are set only where they are not those that it left, which
+    halves the cost of a step.
     """
 
     def __init__(self, count: int) -> None:

@@ -21,7 +21,7 @@ from teleop.planner.trajectory import Move
 
 HEADROOM = 0.97  # of V, A and J: what checking at instants can miss, and every sample must still be a single step
 SHORTEST = 0.25  # s, of a change of rate
-RUN_UP = 1.0  # s, the shortest: nobody waits for it as for a pause
+RUN_UP = 1.0  # s, the shortest: it may take longer than a pause, for which an operator waits
 LONGER = 1.25  # factor from one trial to the next
 TRIALS = 40  # the last is half an hour long
 SAMPLES = 2000  # instants at which a change is checked
@@ -64,7 +64,7 @@ def steady(time: float, rate: float, now: float) -> TimeScaling:
 
 
 def at_most(move: Move, limits: Mapping[Axis, Limits]) -> float:
-    """The highest steady rate at which the whole move keeps its limits; inf for a move that stands still."""
+    """The highest steady rate at which the whole move keeps its limits; inf for a move without motion."""
     rate = np.inf
     for axis, peaks in move.peaks().items():
         of_axis = limits[axis]

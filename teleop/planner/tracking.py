@@ -1,4 +1,4 @@
-"""Every sample of a compiled move, checked as a step from the last one.
+"""Take each axis along its reference: every sample of a compiled move is checked as a step from the last one.
 
 A reference may be taken over exactly when a legal step ends on it. Three equal spans of constant jerk have just the
 freedom to connect any two states, so they are solved for in closed form: when their jerks, and the velocity and
@@ -7,7 +7,7 @@ for bit. Ruckig is asked only when they are not (it may still find one, with jer
 interface costs eight times as much.
 
 A reference out of reach is met further on, by rendezvous. Aiming at where it is now would lag, and oscillate about it;
-in the frame that moves along with it, it stands still, and one plan to rest there is the fastest way to meet it.
+in the frame that moves along with it, it rests, and one plan to rest there is the fastest way to meet it.
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ class Tracker:
     def _meet(self, planner: AxisPlanner, goal: State, seconds: float) -> tuple[State | None, float]:
         """The next state on the fastest way to come to rest relative to the reference, and how long that takes.
 
-        In the frame that moves with it the reference stands still, and the limits are shifted.
+        In the frame that moves with it the reference rests, and the limits are shifted.
         """
         position, velocity, acceleration = planner.state
         speed = goal.velocity - goal.acceleration * seconds

@@ -35,7 +35,7 @@ def assembled(title: str, data: Mapping[str, Any]) -> str:
     """The page about `data`, which is as `_data` gives it.
 
     An axis may have samples of `measured`, drawn over its position, and None for what is not known at a time; `facts`
-    may be said instead of what else stands below the title.
+    replaces the line below the title.
     """
     parts = {
         "title": html.escape(title),

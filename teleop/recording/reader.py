@@ -29,7 +29,7 @@ class Take:
     """Times are seconds from the first tick. `motion` has rows position, velocity, acceleration (3, n) at `times` (n,).
 
     `measured` has rows time, position (2, m). `actions` are what was done once, and when. `ending` is None for a file
-    that was cut, and `remark` what is to be said of one that is not whole, else "".
+    that was cut, and `remark` a line about one that is not whole, else "".
     """
 
     path: Path

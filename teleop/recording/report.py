@@ -1,8 +1,8 @@
 """How well a run went, axis by axis: how far from commanded, how much later, how much of the limits.
 
-Every reading is compared with what was commanded at its own time, as in the report after a run. A delay is only told
-where the run can tell it: a few degrees at changing speeds, measured often enough, and an axis that does what it is
-told. What was commanded is judged by its ticks, which is what the gimbal was sent.
+Every reading is compared with what was commanded at its own time, as in the report after a run. A delay is reported
+only where the run allows it: a few degrees at changing speeds, measured often enough, on an axis that follows its
+commands. The shares of the limits are those of the ticks, which is what the gimbal was sent.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ EDGE = 0.005  # s: a shift that near to the last that is tried is none
 class AxisReport:
     """Errors are commanded less measured (units), NaN without readings; `peak_at` is in s from the first tick.
 
-    `delay` is None where it cannot be told, and then `untold` says why. `velocity`, `acceleration` and `jerk` are the
+    `delay` is None where it is unknown, and then `untold` is the reason. `velocity`, `acceleration` and `jerk` are the
     greatest shares of the limits, `room` the least to a soft limit, None for a continuous axis.
     """
 
@@ -83,7 +83,7 @@ def _axis(take: Take, axis: Axis, limits: Limits) -> AxisReport:
 
 
 def _delay(take: Take, axis: Axis) -> tuple[float | None, str]:
-    """How much later than commanded the axis moved (s), or why that cannot be told."""
+    """How much later than commanded the axis moved (s), or why that is unknown."""
     read_at, read = take.measured.get(axis, np.empty((2, 0)))
     if not len(read_at):
         return None, "it was not measured"

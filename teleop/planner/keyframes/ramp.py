@@ -1,6 +1,6 @@
 """How long an axis takes to get up to speed, and to come to rest: the operator's ease, whichever way it was given.
 
-Seconds, a share of the way between two rests, or a name that stands for such a share all become one value here, and
+Seconds, a share of the way between two rests, or a name for such a share all become one value here, and
 seconds as soon as that way is known.
 """
 

@@ -1,7 +1,7 @@
 """A take as a sequence that can be edited: sparse keyframes whose own plan stays within a tolerance of the recording.
 
-What the keys are worth is asked of the program itself: the finished file is read, planned and compared with the
-recording at every hundredth of a second, and what that says is what the user is told. A recording of a hand at a stick
+The result is checked by the program itself: the finished file is read, planned and compared with the recording at every
+hundredth of a second, and that error is what the user sees. A recording of a hand at a stick
 is nearer to constant speeds, one of a planned move to least jerk: both are tried, and the sparser one is taken.
 """
 

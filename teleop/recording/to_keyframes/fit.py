@@ -53,7 +53,7 @@ class RecordedSegment:
         return self.style.allowed
 
     def position(self, place: int, aside: float = 0.0) -> float:
-        """What a key says there, in as many digits as an editor wants to see."""
+        """The position of a key there (units), rounded to the digits of the file and kept inside the soft limits."""
         wanted = round(float(self.positions[place - self.begin]) + aside, self.style.digits)
         return min(max(wanted, self.style.limits.minimum), self.style.limits.maximum)
 

@@ -1,8 +1,8 @@
 """The keys of several axes as keyframes: one line for all that are at the same time.
 
-What a line says of stopping and holding it says for all of its axes. So a hold stands in a line only where all of them
-hold as long; a longer or shorter one is written as a second stop at its end. A key that is passed through and meets
-another axis's stop moves on by a hundredth of a second, along the recording.
+A stop or a hold in a line applies to all of its axes. So a line has a hold only where all of them hold as long; a
+longer or shorter one is written as a second stop at its end. A key that is passed through and meets another axis's stop
+moves on by a hundredth of a second, along the recording.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ BRIEF = 5  # places: a rest at the very end that is shorter is not worth a hold
 
 
 class AxisKey(NamedTuple):
-    """One axis at a place of the grid: units, and for how many places it stands there; None: it is passed through."""
+    """One axis at a place of the grid: units, and for how many places it holds; None: it is passed through."""
 
     place: int
     position: float

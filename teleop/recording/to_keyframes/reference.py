@@ -1,7 +1,7 @@
-"""What keyframes are fitted to: where an axis was at every hundredth of a second, and where it stood still.
+"""What keyframes are fitted to: where an axis was at every hundredth of a second, and where it rested.
 
 Rests are found in what was commanded, where they are exact, also when the fit is to what was measured, which never
-quite stands still.
+quite rests.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Where a recorded axis stands still, and where it moves at one speed: what people would make keyframes of.
+"""Where a recorded axis rests, and where it moves at one speed: what people would make keyframes of.
 
 A momentary stop is the instant at which neither speed nor acceleration is left; where an axis only turns back, its
 acceleration is at its greatest. Axes that come to rest together do so within a few places of each other, as a move
