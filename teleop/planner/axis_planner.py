@@ -34,7 +34,8 @@ class AxisPlanner:
         self.limits = limits
         self.fastest = limits.velocity
         self.state = State(*state)
-        self.now = self.gentle = self.guard = (limits.acceleration, limits.jerk)  # `now`: for this tick's ordinary plan
+        self._stop = limits.acceleration, limits.jerk  # of the guard stop: never more, or it would lengthen on the way
+        self.now = self.gentle = self.guard = self._stop  # `now`: for this tick's ordinary plan
         self.narrow()
 
     def narrow(self) -> None:
@@ -42,7 +43,7 @@ class AxisPlanner:
         limits, (position, velocity, acceleration) = self.limits, self.state
         guard = max(limits.acceleration, abs(acceleration)), limits.jerk
         inevitable = inevitable_velocity(velocity, acceleration, limits.jerk)
-        low, high = stop_reach(velocity, acceleration, *guard)
+        low, high = stop_reach(velocity, acceleration, *self._stop)
         self.low = min(limits.minimum, position + low)
         self.high = max(limits.maximum, position + high)
         # Where a step that ends inside may still reach: beyond a soft limit only if that is no longer to be helped.
@@ -115,7 +116,7 @@ class AxisPlanner:
         if self.outside:
             lowest = min(self._inner_low, max(position, lowest))
             highest = max(self._inner_high, min(position, highest))
-        tries = (self.now, self.guard) if gently and self.now is not self.guard else (self.guard,)
+        tries = (self.now, self._stop) if gently and self.now is not self.guard else (self._stop,)
         for acceleration, jerk in tries:
             change = rate * rate / (2 * jerk)  # of velocity, while the acceleration goes to 0
             speed = abs(velocity) + change
@@ -145,9 +146,9 @@ class AxisPlanner:
         A move that turns on a soft limit is left no room to come to rest there: it is then braked through its turn.
         """
         position, velocity, rate = self.state
-        low, high = stop_reach(velocity, rate, *self.guard)
+        low, high = stop_reach(velocity, rate, *self._stop)
         if position + high > self.high + SLACK:
             return brake_state(self.state, 1, *self.guard, seconds)
         if position + low < self.low - SLACK:
             return brake_state(self.state, -1, *self.guard, seconds)
-        return stop_state(self.state, *self.guard, seconds)
+        return stop_state(self.state, *self._stop, seconds)

@@ -1,16 +1,15 @@
-"""From demands to the next tick's motion, legal whatever is asked and whenever it changes.
+"""From demands to the next tick's motion: always legal, whatever is demanded and whenever it changes.
 
-Each axis tries a short ladder of plans, and the first whose next state can still be stopped inside the soft limits
-wins (planning.md, section A): for a stick, Ruckig's velocity interface under the operator's limits, then its position
-interface exactly onto the soft limit, then the guard stop. A preset and a compiled move have ladders of their own,
-which end in the same guard stop. Since every committed state can be stopped, the guard stop is legal by induction, and
-since a plan is only ever a proposal for one tick, demands may change kind at any tick without a bump. An axis with a
-spring (a drone's stick) goes to its centre when nothing is asked of it, as the stick of a remote control does.
+Each axis tries a short ladder of plans, and takes the first whose next state can still be stopped inside the soft
+limits. For a stick: Ruckig's velocity interface with the operator's limits, then its position interface exactly onto
+the soft limit, then the guard stop. A preset and a compiled move have ladders of their own, which end in the same guard
+stop. Every committed state can be stopped, so the guard stop is legal by induction (docs/explanation/planning.md,
+"A. Live"). A plan is only a proposal for one tick, so a demand may change its kind at any tick without a bump. An axis
+with a spring (a drone's stick) goes to its center when nothing is demanded of it, as on a remote control.
 
-All velocities go through one solver call because that costs half of four; whatever needs more is an axis's own affair.
-What every axis does every tick is written out in `step` and `_cruise`, where a call, a `zip` or a comprehension would
-be seen in the figures of tests/benchmarks/test_planner.py: there a step may cost four bare updates of Ruckig, half of
-it in Ruckig.
+All velocities go through one solver call, because that costs half of four. What every axis does every tick is written
+out in `step` and `_cruise`: tests/benchmarks/test_planner.py allows a step four bare updates of Ruckig, half of which
+Ruckig itself takes, and a call, a `zip` or a comprehension more per axis would show there.
 """
 
 from __future__ import annotations
@@ -21,13 +20,13 @@ from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.guard_stop import inevitable_velocity
 from teleop.core.setpoints import Demand, PositionTarget, StateTarget, VelocityTarget
 from teleop.planner.axis_planner import INSET, AxisPlanner
-from teleop.planner.point_to_point import Recall, plan_recalls
+from teleop.planner.point_to_point import PointToPoint, plan_point_to_point
 from teleop.planner.ruckig_solver import PositionSolver, VelocitySolver, new_state
 from teleop.planner.tracking import Tracker
 
 SLOWEST = 1e-3  # share of V with which a soft limit is approached at least: Ruckig needs more than 0
 RESIDUE = 1e-10  # unit/s and unit/s2 left by rounding when Ruckig's plan has come to rest
-STILL = VelocityTarget(0.0)  # what a halt is, and an axis of which nothing is asked
+NO_VELOCITY = VelocityTarget(0.0)  # what a halt is, and an axis of which nothing is asked
 HOME = PositionTarget(0.0)  # what they are of an axis with a spring
 
 
@@ -40,10 +39,10 @@ class Live:
     def __init__(self, limits: Mapping[Axis, Limits], dt: float) -> None:
         self._limits = dict(limits)
         self._dt = dt
-        self._drives: list[AxisPlanner] = []
+        self._planners: list[AxisPlanner] = []
         self._position = PositionSolver()
         self._velocity = [VelocitySolver(max(1, count)) for count in range(len(limits) + 1)]  # by number of axes
-        self._recalls: dict[Axis, Recall] = {}
+        self._moves: dict[Axis, PointToPoint] = {}
         self._tracker = Tracker()
         self._carried: list[AxisPlanner] = []  # whose states the velocity solver of so many axes knows
         self._before: Motion = {}
@@ -54,118 +53,120 @@ class Live:
 
         Raises KeyError for an axis without limits.
         """
-        drives = {drive.axis: drive for drive in self._drives}
-        drives |= {axis: AxisPlanner(axis, self._limits[axis], state) for axis, state in motion.items()}
-        self._drives = list(drives.values())
+        planners = {planner.axis: planner for planner in self._planners}
+        planners |= {axis: AxisPlanner(axis, self._limits[axis], state) for axis, state in motion.items()}
+        self._planners = list(planners.values())
         for axis in motion:
-            self._recalls.pop(axis, None)
+            self._moves.pop(axis, None)
         self._before, self._after = {}, self.motion
 
     def limit(self, limits: Mapping[Axis, Limits]) -> None:
         """Change the limits of the axes named, at any time. One that is now beyond them comes back inside first."""
         self._limits |= limits
-        self.reset({drive.axis: drive.state for drive in self._drives if drive.axis in limits})
+        self.reset({planner.axis: planner.state for planner in self._planners if planner.axis in limits})
 
     @property
     def motion(self) -> dict[Axis, State]:
         """Where each axis is commanded to be."""
-        return {drive.axis: drive.state for drive in self._drives}
+        return {planner.axis: planner.state for planner in self._planners}
 
     @property
     def at_rest(self) -> bool:
         """Whether the last step left every axis where it was, at rest: the same demand will do so again."""
-        return self._after == self._before and all(drive.rests for drive in self._drives)
+        return self._after == self._before and all(planner.rests for planner in self._planners)
 
     def step(self, demand: Demand, dt_steps: int = 1) -> dict[Axis, State]:
         """The motion `dt_steps` ticks on. An axis absent from `demand` comes to rest and stays.
 
-        One with a spring comes to rest in its centre.
+        One with a spring comes to rest in its center.
         """
         seconds, asked = self._dt * dt_steps, demand.get
         sticks: list[AxisPlanner] = []
         velocities: list[float] = []
         limits: list[tuple[float, float]] = []
         presets: list[tuple[AxisPlanner, PositionTarget]] = []
-        for drive in self._drives:
-            wish = asked(drive.axis)
-            if not isinstance(wish, VelocityTarget):
-                if isinstance(wish, StateTarget):
-                    state = self._tracker.step(drive, wish, seconds)
-                    if state is None or drive.outside:
-                        self._commit(drive, state, seconds)
+        for planner in self._planners:
+            setpoint = asked(planner.axis)
+            if not isinstance(setpoint, VelocityTarget):
+                if isinstance(setpoint, StateTarget):
+                    state = self._tracker.step(planner, setpoint, seconds)
+                    if state is None or planner.outside:
+                        self._commit(planner, state, seconds)
                     else:
-                        drive.state = state
+                        planner.state = state
                     continue
-                if drive.axis.is_stick and not isinstance(wish, PositionTarget):
-                    wish = HOME
-                if isinstance(wish, PositionTarget):
-                    presets.append((drive, wish))
+                if planner.axis.is_stick and not isinstance(setpoint, PositionTarget):
+                    setpoint = HOME
+                if isinstance(setpoint, PositionTarget):
+                    presets.append((planner, setpoint))
                     continue
-                wish = STILL
-            velocity, acceleration, jerk = wish
-            drive.now = drive.guard
+                setpoint = NO_VELOCITY
+            velocity, acceleration, jerk = setpoint
+            planner.now = planner.guard
             if acceleration is not None or jerk is not None:
-                drive.soften(acceleration, jerk)
-            if drive.state[1] != 0.0 or not drive.holds(velocity):
-                limit = drive.fastest
-                sticks.append(drive)
+                planner.soften(acceleration, jerk)
+            if planner.state[1] != 0.0 or not planner.holds(velocity):
+                limit = planner.fastest
+                sticks.append(planner)
                 velocities.append(limit if velocity > limit else -limit if velocity < -limit else velocity)
-                limits.append(drive.now)
+                limits.append(planner.now)
         self._carried = self._cruise(sticks, velocities, limits, seconds) if sticks else []
-        if presets or self._recalls:
-            self._recall(presets, seconds)
+        if presets or self._moves:
+            self._move_to(presets, seconds)
         motion: dict[Axis, State] = {}
-        for drive in self._drives:
-            motion[drive.axis] = drive.state
+        for planner in self._planners:
+            motion[planner.axis] = planner.state
         self._before, self._after = self._after, motion
         return motion
 
-    def _commit(self, drive: AxisPlanner, state: State | None, seconds: float) -> None:
+    def _commit(self, planner: AxisPlanner, state: State | None, seconds: float) -> None:
         """Take a proposed state, or the guard stop in its place."""
         if state is None:
-            state = drive.guard_stop(seconds)
-        drive.state = state
-        if drive.outside:
-            drive.narrow()
+            state = planner.guard_stop(seconds)
+        planner.state = state
+        if planner.outside:
+            planner.narrow()
 
     def _cruise(
-        self, drives: list[AxisPlanner], velocities: list[float], limits: list[tuple[float, float]], seconds: float
+        self, planners: list[AxisPlanner], velocities: list[float], limits: list[tuple[float, float]], seconds: float
     ) -> list[AxisPlanner]:
-        """Each of `drives` a step towards its velocity, as far as its soft limits let it.
+        """Each of `planners` a step towards its velocity, as far as its soft limits let it.
 
-        Returns them if all went where the solver took them, so that it need not be told next time; else none.
+        Returns them if all went where the solver took them (their states need not be set again next time); else none.
         """
-        solver = self._velocity[len(drives)]
-        if drives != self._carried:
-            solver.place([drive.state for drive in drives])
+        solver = self._velocity[len(planners)]
+        if planners != self._carried:
+            solver.place([planner.state for planner in planners])
         answer = solver.step(velocities, limits, seconds)
         if answer is None:
-            for drive in drives:
-                self._commit(drive, None, seconds)
+            for planner in planners:
+                self._commit(planner, None, seconds)
             return []
-        carried = drives
+        carried = planners
         positions, rates, accelerations = answer
-        for i, drive in enumerate(drives):
+        for i, planner in enumerate(planners):
             position = positions[i]
             state = new_state(State, (position, rates[i], accelerations[i]))
             if velocities[i] == 0.0 and -RESIDUE < rates[i] < RESIDUE and -RESIDUE < accelerations[i] < RESIDUE:
                 state, carried = State(position), []
-            if drive.clear_low < position < drive.clear_high:
-                drive.state = state
+            if planner.clear_low < position < planner.clear_high:
+                planner.state = state
                 continue
-            side = drive.trips(state, gently=True)
-            self._commit(drive, self._approach_limit(drive, side, velocities[i], seconds) if side else state, seconds)
-            if drive.state is not state:
+            side = planner.trips(state, gently=True)
+            self._commit(
+                planner, self._approach_limit(planner, side, velocities[i], seconds) if side else state, seconds
+            )
+            if planner.state is not state:
                 carried = []
         return carried
 
-    def _approach_limit(self, drive: AxisPlanner, side: int, wanted: float, seconds: float) -> State | None:
+    def _approach_limit(self, planner: AxisPlanner, side: int, wanted: float, seconds: float) -> State | None:
         """Onto the soft limit on `side` (1 upper, -1 lower: planned in a mirror), to rest there; None if not legal."""
-        position, velocity, acceleration = (side * x for x in drive.state)
-        target = (drive.high if side > 0 else -drive.low) - INSET
-        max_acceleration, max_jerk = drive.now
+        position, velocity, acceleration = (side * x for x in planner.state)
+        target = (planner.high if side > 0 else -planner.low) - INSET
+        max_acceleration, max_jerk = planner.now
         fastest = max(
-            inevitable_velocity(velocity, acceleration, max_jerk), side * wanted, SLOWEST * drive.limits.velocity
+            inevitable_velocity(velocity, acceleration, max_jerk), side * wanted, SLOWEST * planner.limits.velocity
         )
         answer = self._position.solve(
             [State(position, velocity, acceleration)], [State(target)], [fastest], [max_acceleration], [max_jerk]
@@ -176,23 +177,23 @@ class Live:
             return State(side * target)
         (position,), (velocity,), (acceleration,) = answer.at_time(seconds)
         state = State(side * position, side * velocity, side * acceleration)
-        return None if drive.trips(state) else state
+        return None if planner.trips(state) else state
 
-    def _recall(self, presets: list[tuple[AxisPlanner, PositionTarget]], seconds: float) -> None:
-        """Go on with the recalls still wanted, plan those just asked for, drop the others."""
-        going: dict[Axis, Recall] = {}
+    def _move_to(self, presets: list[tuple[AxisPlanner, PositionTarget]], seconds: float) -> None:
+        """Go on with the moves still wanted, plan those just asked for, drop the others."""
+        going: dict[Axis, PointToPoint] = {}
         asked: list[tuple[AxisPlanner, PositionTarget]] = []
-        for drive, wish in presets:
-            recall = self._recalls.get(drive.axis)
-            if recall is not None and recall.goes_on(wish, seconds):
-                going[drive.axis] = recall
+        for planner, setpoint in presets:
+            move = self._moves.get(planner.axis)
+            if move is not None and move.continues(setpoint, seconds):
+                going[planner.axis] = move
             else:
-                asked.append((drive, wish))
-        self._recalls = {**going, **plan_recalls(asked)}
-        for drive, _ in presets:
-            recall = self._recalls.get(drive.axis)
-            state = None if recall is None else recall.step(seconds)
-            if state is not None and drive.trips(state):
-                del self._recalls[drive.axis]
+                asked.append((planner, setpoint))
+        self._moves = {**going, **plan_point_to_point(asked)}
+        for planner, _ in presets:
+            move = self._moves.get(planner.axis)
+            state = None if move is None else move.step(seconds)
+            if state is not None and planner.trips(state):
+                del self._moves[planner.axis]
                 state = None
-            self._commit(drive, state, seconds)
+            self._commit(planner, state, seconds)

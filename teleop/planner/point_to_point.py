@@ -20,12 +20,12 @@ from teleop.core.setpoints import PositionTarget
 from teleop.planner.axis_planner import SLACK, AxisPlanner
 from teleop.planner.ruckig_solver import PositionSolver
 
-LONGEST = 5000.0  # s that Ruckig is asked for; it fails from 7600 on (planning.md, "Ruckig traps")
+LONGEST = 5000.0  # s that Ruckig is asked for; it fails from 7600 on (docs/explanation/planning.md, "Ruckig traps")
 SLOWEST = 1e-3  # share of V: Ruckig needs more than 0
 LATE = 1e-9  # s, of ticks added up
 
 
-class Drift:
+class QuinticTrajectory:
     """From rest to rest in `duration` s, in the shape of Ruckig's trajectories."""
 
     def __init__(self, starts: Sequence[float], targets: Sequence[float], duration: float) -> None:
@@ -45,22 +45,25 @@ class Drift:
 
 
 @dataclass(slots=True)
-class Recall:
+class PointToPoint:
     """One axis' share of a trajectory in progress."""
 
-    wish: PositionTarget
-    trajectory: Trajectory | Drift
+    setpoint: PositionTarget
+    trajectory: Trajectory | QuinticTrajectory
     index: int
     target: float
     elapsed: float = 0.0
 
-    def goes_on(self, wish: PositionTarget, seconds: float) -> bool:
-        """Whether `wish` is this recall, a tick older: arrival repeated unchanged, or counted down with the clock."""
-        if wish.position != self.wish.position or wish.velocity != self.wish.velocity:
+    def continues(self, setpoint: PositionTarget, seconds: float) -> bool:
+        """Whether `setpoint` is this move, a tick older: arrival repeated unchanged, or counted down with the clock."""
+        if setpoint.position != self.setpoint.position or setpoint.velocity != self.setpoint.velocity:
             return False
-        if wish.arrive is None or self.wish.arrive is None:
-            return wish.arrive is self.wish.arrive
-        return wish.arrive == self.wish.arrive or abs(self.wish.arrive - self.elapsed - wish.arrive) <= 2 * seconds
+        if setpoint.arrive is None or self.setpoint.arrive is None:
+            return setpoint.arrive is self.setpoint.arrive
+        return (
+            setpoint.arrive == self.setpoint.arrive
+            or abs(self.setpoint.arrive - self.elapsed - setpoint.arrive) <= 2 * seconds
+        )
 
     def step(self, seconds: float) -> State:
         self.elapsed += seconds
@@ -70,64 +73,70 @@ class Recall:
         return State(position[self.index], velocity[self.index], acceleration[self.index])
 
 
-def _within(trajectory: Trajectory, drives: Sequence[AxisPlanner]) -> bool:
+def _within(trajectory: Trajectory, planners: Sequence[AxisPlanner]) -> bool:
     return all(
-        extremes.min >= drive.low - SLACK and extremes.max <= drive.high + SLACK
-        for extremes, drive in zip(trajectory.position_extrema, drives, strict=True)
+        extremes.min >= planner.low - SLACK and extremes.max <= planner.high + SLACK
+        for extremes, planner in zip(trajectory.position_extrema, planners, strict=True)
     )
 
 
-def _plan(asked: Sequence[tuple[AxisPlanner, PositionTarget]], arrive: float | None) -> dict[Axis, Recall]:
+def _plan(asked: Sequence[tuple[AxisPlanner, PositionTarget]], arrive: float | None) -> dict[Axis, PointToPoint]:
     """A trajectory for all of `asked`, or nothing when there is none within the soft limits."""
-    drives = [drive for drive, _ in asked]
-    targets = [min(max(wish.position, drive.limits.minimum), drive.limits.maximum) for drive, wish in asked]
+    planners = [planner for planner, _ in asked]
+    targets = [
+        min(max(setpoint.position, planner.limits.minimum), planner.limits.maximum) for planner, setpoint in asked
+    ]
     if arrive is not None and arrive > LONGEST:
-        return _drift(asked, targets, arrive)
-    trajectory = PositionSolver(len(drives)).solve(
-        [drive.state for drive in drives],
+        return _quintic_moves(asked, targets, arrive)
+    trajectory = PositionSolver(len(planners)).solve(
+        [planner.state for planner in planners],
         [State(target) for target in targets],
-        [_fastest(drive, wish) for drive, wish in asked],
-        [drive.guard[0] for drive in drives],
-        [drive.guard[1] for drive in drives],
+        [_fastest(planner, setpoint) for planner, setpoint in asked],
+        [planner.guard[0] for planner in planners],
+        [planner.guard[1] for planner in planners],
         minimum_duration=arrive,
     )
-    if trajectory is None or not _within(trajectory, drives):
+    if trajectory is None or not _within(trajectory, planners):
         return {}
-    return {drive.axis: Recall(wish, trajectory, i, targets[i]) for i, (drive, wish) in enumerate(asked)}
+    return {
+        planner.axis: PointToPoint(setpoint, trajectory, i, targets[i]) for i, (planner, setpoint) in enumerate(asked)
+    }
 
 
-def _fastest(drive: AxisPlanner, wish: PositionTarget) -> float:
+def _fastest(planner: AxisPlanner, setpoint: PositionTarget) -> float:
     """What it may go, unit/s; one that is faster than was asked for is braked to that first."""
-    if wish.velocity is None or drive.outside:
-        return drive.velocity
-    return min(drive.velocity, max(wish.velocity, SLOWEST * drive.velocity))
+    if setpoint.velocity is None or planner.outside:
+        return planner.velocity
+    return min(planner.velocity, max(setpoint.velocity, SLOWEST * planner.velocity))
 
 
-def _drift(
+def _quintic_moves(
     asked: Sequence[tuple[AxisPlanner, PositionTarget]], targets: Sequence[float], arrive: float
-) -> dict[Axis, Recall]:
+) -> dict[Axis, PointToPoint]:
     """All of them from rest, or nothing: those that move are first to stop, and those outside to come in."""
-    if not all(drive.rests and not drive.outside for drive, _ in asked):
+    if not all(planner.rests and not planner.outside for planner, _ in asked):
         return {}
-    trajectory = Drift([drive.state.position for drive, _ in asked], targets, arrive)
-    return {drive.axis: Recall(wish, trajectory, i, targets[i]) for i, (drive, wish) in enumerate(asked)}
+    trajectory = QuinticTrajectory([planner.state.position for planner, _ in asked], targets, arrive)
+    return {
+        planner.axis: PointToPoint(setpoint, trajectory, i, targets[i]) for i, (planner, setpoint) in enumerate(asked)
+    }
 
 
-def plan_recalls(asked: Sequence[tuple[AxisPlanner, PositionTarget]]) -> Mapping[Axis, Recall]:
-    """A recall for each drive that one can be found for now.
+def plan_point_to_point(asked: Sequence[tuple[AxisPlanner, PositionTarget]]) -> Mapping[Axis, PointToPoint]:
+    """A move for each planner that one can be found for now.
 
     Axes with the same `arrive` share a trajectory; those without go as soon as each can.
     """
-    recalls: dict[Axis, Recall] = {}
+    moves: dict[Axis, PointToPoint] = {}
     together: dict[float, list[tuple[AxisPlanner, PositionTarget]]] = {}
     alone: list[tuple[AxisPlanner, PositionTarget]] = []
-    for drive, wish in asked:
-        (alone if wish.arrive is None else together.setdefault(wish.arrive, [])).append((drive, wish))
+    for planner, setpoint in asked:
+        (alone if setpoint.arrive is None else together.setdefault(setpoint.arrive, [])).append((planner, setpoint))
     for arrive, members in together.items():
         found = _plan(members, max(arrive, 0.0))
-        recalls |= found
+        moves |= found
         if not found:
-            alone += [(drive, wish) for drive, wish in members if arrive <= LONGEST or drive.outside]
+            alone += [(planner, setpoint) for planner, setpoint in members if arrive <= LONGEST or planner.outside]
     for single in alone:
-        recalls |= _plan([single], None)
-    return recalls
+        moves |= _plan([single], None)
+    return moves

@@ -21,7 +21,7 @@ PEAK_JERK = 60.0
 NEGLIGIBLE = 1e-12  # units: already there, and too near to divide by the time it takes
 
 
-def ease(
+def rest_to_rest(
     start: Motion, target: Mapping[Axis, float], limits: Mapping[Axis, Limits], share: float = 0.5, least: float = 0.0
 ) -> Move:
     """From rest at `start` to rest at `target`, within `share` of each axis' V, A and J; 0 s long when already there.

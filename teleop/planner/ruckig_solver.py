@@ -1,8 +1,8 @@
-"""Ruckig, one step at a time, and the only place that meets its errors.
+"""Ruckig, one step at a time: the only module that handles its errors.
 
-Ruckig reports trouble by raising, RuckigError for most and ValueError for result -101 (planning.md, "Ruckig traps").
-Here both become None: the caller then takes the next plan of its ladder, at the end of which stands the guard stop.
-Inputs are kept between calls because handing Ruckig a list costs a tenth of a whole solution.
+Ruckig raises RuckigError for most failures and ValueError for result -101 (docs/explanation/planning.md, "Ruckig
+traps"). Here both become None, and the caller takes its next plan; the last one is the guard stop, which needs no
+solver. Inputs are kept between calls, because handing Ruckig a list costs a tenth of a whole solution.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ new_state = tuple.__new__  # new_state(State, row) is State(*row) at two thirds 
 class VelocitySolver:
     """All axes towards their velocities, each on its own; as many axes as it is built for.
 
-    Ruckig carries its own state on from tick to tick; it is told where the axes are only when that is not where it
-    left them, which halves the cost of a step.
+    Ruckig keeps its own state from tick to tick. States are set only where they are not those that it left, which
+    halves the cost of a step.
     """
 
     def __init__(self, count: int) -> None:

@@ -1,4 +1,4 @@
-"""Speed override, pause, resume, stepping back and starting in mid move: the move's own path, at another pace.
+"""Speed override, pause, resume, stepping back and starting in mid move: the move's own path, at another scaling.
 
 The move is read at its own time s instead of the clock's, so it never leaves its path; v = p' s',
 a = p'' s'^2 + p' s'', j = p''' s'^3 + 3 p'' s' s'' + p' s'''. A steady rate is legal up to what the move's peaks
@@ -21,7 +21,7 @@ from teleop.planner.trajectory import Move
 
 HEADROOM = 0.97  # of V, A and J: what checking at instants can miss, and every sample must still be a single step
 SHORTEST = 0.25  # s, of a change of rate
-RUN_UP = 1.0  # s, the shortest: nobody waits for it as for a pause
+RUN_UP = 1.0  # s, the shortest: it may take longer than a pause, for which an operator waits
 LONGER = 1.25  # factor from one trial to the next
 TRIALS = 40  # the last is half an hour long
 SAMPLES = 2000  # instants at which a change is checked
@@ -64,7 +64,7 @@ def steady(time: float, rate: float, now: float) -> TimeScaling:
 
 
 def at_most(move: Move, limits: Mapping[Axis, Limits]) -> float:
-    """The highest steady rate at which the whole move keeps its limits; inf for a move that stands still."""
+    """The highest steady rate at which the whole move keeps its limits; inf for a move without motion."""
     rate = np.inf
     for axis, peaks in move.peaks().items():
         of_axis = limits[axis]
@@ -78,23 +78,23 @@ def at_most(move: Move, limits: Mapping[Axis, Limits]) -> float:
     return float(rate)
 
 
-def state_at(move: Move, pace: TimeScaling, now: float) -> dict[Axis, State]:
+def state_at(move: Move, scaling: TimeScaling, now: float) -> dict[Axis, State]:
     """Where every axis is at `now` (s, clock); scalar and quick, for the tick."""
-    time, rate, change = pace.at(now)
+    time, rate, change = scaling.at(now)
     return {axis: State(p, v * rate, a * rate * rate + v * change) for axis, (p, v, a) in move.at(time).items()}
 
 
-def change_rate(move: Move, limits: Mapping[Axis, Limits], pace: TimeScaling, rate: float, now: float) -> TimeScaling:
+def change_rate(
+    move: Move, limits: Mapping[Axis, Limits], scaling: TimeScaling, rate: float, now: float
+) -> TimeScaling:
     """To `rate` from `now` on, as soon as the limits allow: 0 pauses, negative goes back. `now` may lie ahead.
 
     Raises PlanError for a rate beyond `at_most`, and when no change however long will do.
     """
     most = at_most(move, limits)
     if abs(rate) > most:
-        raise PlanError(
-            f"the move allows at most {100 * most:.0f} % of its speed, {100 * abs(rate):.0f} % was asked for"
-        )
-    time, current, change = pace.at(now)
+        raise PlanError(f"the move allows at most {100 * most:.0f} % of its speed, not {100 * abs(rate):.0f} %")
+    time, current, change = scaling.at(now)
 
     def attempt(duration: float) -> TimeScaling:
         # s' is the cubic with s' and s'' given at the start, `rate` and 0 at the end
@@ -106,12 +106,12 @@ def change_rate(move: Move, limits: Mapping[Axis, Limits], pace: TimeScaling, ra
     return _first_legal(move, limits, attempt)
 
 
-def go_to(move: Move, limits: Mapping[Axis, Limits], pace: TimeScaling, time: float, now: float) -> TimeScaling:
+def go_to(move: Move, limits: Mapping[Axis, Limits], scaling: TimeScaling, time: float, now: float) -> TimeScaling:
     """From a pause at `now` to a pause at the move's `time`, along its path, back or forth: stepping to a key.
 
     Raises PlanError while the move is running.
     """
-    here, current, change = pace.at(now)
+    here, current, change = scaling.at(now)
     if current or change:
         raise PlanError("the move is running: pause it before stepping to a key")
     distance = time - here
@@ -142,24 +142,24 @@ def run_up(move: Move, limits: Mapping[Axis, Limits], time: float, rate: float) 
     try:
         return _first_legal(move, limits, attempt, RUN_UP)
     except PlanError:
-        raise NoRunUp(f"no run-up, however long, keeps the limits where the move is at {time:g} s") from None
+        raise NoRunUp(f"the move cannot start at {time:g} s: no run-up keeps its limits there") from None
 
 
 def _first_legal(
     move: Move, limits: Mapping[Axis, Limits], attempt: Callable[[float], TimeScaling], duration: float = SHORTEST
 ) -> TimeScaling:
     for _ in range(TRIALS):
-        pace = attempt(duration)
-        if _legal(move, limits, pace):
-            return pace
+        scaling = attempt(duration)
+        if _legal(move, limits, scaling):
+            return scaling
         duration *= LONGER
     raise PlanError("no change of speed, however slow, keeps the limits here: stop instead")
 
 
-def _legal(move: Move, limits: Mapping[Axis, Limits], pace: TimeScaling) -> bool:
+def _legal(move: Move, limits: Mapping[Axis, Limits], scaling: TimeScaling) -> bool:
     """Whether every axis keeps V, A and J (HEADROOM of them) during the change."""
-    whole = np.polynomial.Polynomial(pace.coefficients)
-    clock = np.linspace(0.0, pace.duration, SAMPLES)
+    whole = np.polynomial.Polynomial(scaling.coefficients)
+    clock = np.linspace(0.0, scaling.duration, SAMPLES)
     rate, change, jolt = (whole.deriv(order)(clock) for order in (1, 2, 3))
     for axis, (_, v, a, j) in move.sample(whole(clock)).items():
         of_axis = limits[axis]

@@ -1,4 +1,4 @@
-"""Every sample of a compiled move, checked as a step from the last one.
+"""Take each axis along its reference: every sample of a compiled move is checked as a step from the last one.
 
 A reference may be taken over exactly when a legal step ends on it. Three equal spans of constant jerk have just the
 freedom to connect any two states, so they are solved for in closed form: when their jerks, and the velocity and
@@ -7,7 +7,7 @@ for bit. Ruckig is asked only when they are not (it may still find one, with jer
 interface costs eight times as much.
 
 A reference out of reach is met further on, by rendezvous. Aiming at where it is now would lag, and oscillate about it;
-in the frame that moves along with it, it stands still, and one plan to rest there is the fastest way to meet it.
+in the frame that moves along with it, it rests, and one plan to rest there is the fastest way to meet it.
 """
 
 from __future__ import annotations
@@ -59,53 +59,53 @@ class Tracker:
     def __init__(self) -> None:
         self._solver = PositionSolver()
 
-    def step(self, drive: AxisPlanner, wish: StateTarget, seconds: float) -> State | None:
+    def step(self, planner: AxisPlanner, setpoint: StateTarget, seconds: float) -> State | None:
         """The legal state after `seconds`: the reference itself where a step ends on it, else on the way to it.
 
         None when no way is found.
         """
-        goal = new_state(State, wish)
-        position, velocity, rate = wish
-        highest, jerk = drive.guard
+        goal = new_state(State, setpoint)
+        position, velocity, rate = setpoint
+        highest, jerk = planner.guard
         # The velocity before or after, when the acceleration is 0, is higher still.
-        fastest = drive.fastest * ROUNDED - rate * rate / (2 * jerk)
+        fastest = planner.fastest * ROUNDED - rate * rate / (2 * jerk)
         if -fastest <= velocity <= fastest and (
-            drive.clear_low < position < drive.clear_high
-            or not drive.trips(goal)
-            or (not drive.outside and drive.turns_inside(goal))
+            planner.clear_low < position < planner.clear_high
+            or not planner.trips(goal)
+            or (not planner.outside and planner.turns_inside(goal))
         ):
-            if step_is_legal(drive.state, goal, seconds, drive.bounds):
+            if step_is_legal(planner.state, goal, seconds, planner.bounds):
                 return goal
-            answer = self._solve(drive, goal, seconds)
+            answer = self._solve(planner, goal, seconds)
             if answer is not None and answer.duration <= seconds * ROUNDED and -highest <= rate <= highest:
                 return goal
-        state = self._rendezvous(drive, goal, seconds)
-        return None if state is None or drive.trips(state) else state
+        state = self._rendezvous(planner, goal, seconds)
+        return None if state is None or planner.trips(state) else state
 
-    def _rendezvous(self, drive: AxisPlanner, goal: State, seconds: float) -> State | None:
+    def _rendezvous(self, planner: AxisPlanner, goal: State, seconds: float) -> State | None:
         """Towards where the reference will be: with its acceleration when near, with its velocity when far."""
-        fastest = drive.limits.velocity
-        acceleration, jerk = drive.guard
+        fastest = planner.limits.velocity
+        acceleration, jerk = planner.guard
         spare = fastest - acceleration * seconds  # an accelerating frame does not know V: stay well below it
-        if max(abs(goal.velocity), abs(drive.state.velocity)) < spare and abs(goal.acceleration) < acceleration:
-            state, duration = self._meet(drive, goal, seconds)
+        if max(abs(goal.velocity), abs(planner.state.velocity)) < spare and abs(goal.acceleration) < acceleration:
+            state, duration = self._meet(planner, goal, seconds)
             if state is not None and duration <= NEAR * seconds:
                 later = inevitable_velocity(state.velocity, state.acceleration, jerk)
                 if abs(later) <= fastest:
                     return state
         speed = min(max(goal.velocity, -CATCHABLE * fastest), CATCHABLE * fastest)
-        state, duration = self._meet(drive, State(goal.position, speed), seconds)
-        low, high = drive.limits.minimum, drive.limits.maximum
+        state, duration = self._meet(planner, State(goal.position, speed), seconds)
+        low, high = planner.limits.minimum, planner.limits.maximum
         if low <= goal.position <= high and low <= goal.position + speed * (duration - seconds) <= high:
             return state
-        return self._wait(drive, min(max(goal.position + speed * (duration - seconds), low), high), seconds)
+        return self._wait(planner, min(max(goal.position + speed * (duration - seconds), low), high), seconds)
 
-    def _meet(self, drive: AxisPlanner, goal: State, seconds: float) -> tuple[State | None, float]:
+    def _meet(self, planner: AxisPlanner, goal: State, seconds: float) -> tuple[State | None, float]:
         """The next state on the fastest way to come to rest relative to the reference, and how long that takes.
 
-        In the frame that moves with it the reference stands still, and the limits are shifted.
+        In the frame that moves with it the reference rests, and the limits are shifted.
         """
-        position, velocity, acceleration = drive.state
+        position, velocity, acceleration = planner.state
         speed = goal.velocity - goal.acceleration * seconds
         relative = State(
             position - goal.position + seconds * (goal.velocity - goal.acceleration * seconds / 2),
@@ -115,22 +115,22 @@ class Tracker:
         answer = self._solver.solve(
             [relative],
             [State(0.0)],
-            [drive.velocity - speed],
-            [drive.guard[0] - goal.acceleration],
-            [drive.guard[1]],
-            lowest_velocity=[-drive.velocity - speed],
-            lowest_acceleration=[-drive.guard[0] - goal.acceleration],
+            [planner.velocity - speed],
+            [planner.guard[0] - goal.acceleration],
+            [planner.guard[1]],
+            lowest_velocity=[-planner.velocity - speed],
+            lowest_acceleration=[-planner.guard[0] - goal.acceleration],
         )
         if answer is None:
             return None, 0.0
         (p,), (v,), (a,) = answer.at_time(seconds)
         return State(goal.position + p, goal.velocity + v, goal.acceleration + a), answer.duration
 
-    def _wait(self, drive: AxisPlanner, position: float, seconds: float) -> State | None:
+    def _wait(self, planner: AxisPlanner, position: float, seconds: float) -> State | None:
         """Towards rest at `position`, for a reference that is or goes beyond it."""
-        if drive.state == State(position):
-            return drive.state
-        answer = self._solve(drive, State(position), None)
+        if planner.state == State(position):
+            return planner.state
+        answer = self._solve(planner, State(position), None)
         if answer is None:
             return None
         if answer.duration <= seconds:
@@ -138,8 +138,8 @@ class Tracker:
         (p,), (v,), (a,) = answer.at_time(seconds)
         return State(p, v, a)
 
-    def _solve(self, drive: AxisPlanner, goal: State, seconds: float | None) -> Trajectory | None:
-        acceleration, jerk = drive.guard
+    def _solve(self, planner: AxisPlanner, goal: State, seconds: float | None) -> Trajectory | None:
+        acceleration, jerk = planner.guard
         return self._solver.solve(
-            [drive.state], [goal], [drive.velocity], [acceleration], [jerk], minimum_duration=seconds
+            [planner.state], [goal], [planner.velocity], [acceleration], [jerk], minimum_duration=seconds
         )

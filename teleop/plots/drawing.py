@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.plots.downsample import QUANTITIES, Curve, curve
-from teleop.plots.style import COLOURS, PER, UNIT_SIGNS, mark
+from teleop.plots.style import COLORS, PER, UNIT_SIGNS, mark
 from teleop.sequence.compile import CompiledSequence, Cue
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def _panel(panel: Axes, row: int, performance: CompiledSequence, profile: Profil
         if unit not in scales:
             scales[unit] = panel.twinx() if scales else panel
         scale = scales[unit]
-        scale.plot(times, rows[row], color=COLOURS[axis], linewidth=1.5)
+        scale.plot(times, rows[row], color=COLORS[axis], linewidth=1.5)
         if row == 0:
             _keys(scale, axis, performance, above=number % 2 == 0)
     for unit, scale in scales.items():
@@ -102,11 +102,11 @@ def _keys(scale: Axes, axis: Axis, performance: CompiledSequence, *, above: bool
     """Diamonds and their keyframes' names, of every other axis below, as axes often share a keyframe."""
     for key in performance.keys[axis]:
         held = [key.at, key.at + key.hold]
-        scale.plot(held, [key.position] * 2, "D-", color=COLOURS[axis], markersize=5, markevery=[0], linewidth=4)
+        scale.plot(held, [key.position] * 2, "D-", color=COLORS[axis], markersize=5, markevery=[0], linewidth=4)
         name = mark(key.where)
         spot = (key.at, key.position)
         aside = (0, 7 if above else -14)
-        scale.annotate(name, spot, aside, textcoords="offset points", ha="center", color=COLOURS[axis], fontsize=8)
+        scale.annotate(name, spot, aside, textcoords="offset points", ha="center", color=COLORS[axis], fontsize=8)
 
 
 def _limits(scale: Axes, limits: dict[Axis, Limits], quantity: str) -> None:
@@ -117,10 +117,10 @@ def _limits(scale: Axes, limits: dict[Axis, Limits], quantity: str) -> None:
         reach = getattr(of_axis, quantity, None)
         for limit in (of_axis.minimum, of_axis.maximum) if reach is None else (-reach, reach):
             if low - near <= limit <= high + near:
-                scale.axhline(limit, color=COLOURS[axis], linewidth=1, linestyle="--")
+                scale.axhline(limit, color=COLORS[axis], linewidth=1, linestyle="--")
 
 
 def _legend(curves: dict[Axis, Curve]) -> list[Any]:
     from matplotlib.lines import Line2D
 
-    return [Line2D([], [], color=COLOURS[axis], label=axis.value.replace("_", " ")) for axis in curves]
+    return [Line2D([], [], color=COLORS[axis], label=axis.value.replace("_", " ")) for axis in curves]

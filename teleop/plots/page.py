@@ -18,7 +18,7 @@ from typing import Any
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.plots.downsample import QUANTITIES, curve
-from teleop.plots.style import COLOURS, PER, UNIT_SIGNS, mark
+from teleop.plots.style import COLORS, PER, UNIT_SIGNS, mark
 from teleop.sequence.compile import CompiledSequence
 
 _WEB = Path(__file__).parent / "web"
@@ -35,7 +35,7 @@ def assembled(title: str, data: Mapping[str, Any]) -> str:
     """The page about `data`, which is as `_data` gives it.
 
     An axis may have samples of `measured`, drawn over its position, and None for what is not known at a time; `facts`
-    may be said instead of what else stands below the title.
+    replaces the line below the title.
     """
     parts = {
         "title": html.escape(title),
@@ -44,7 +44,7 @@ def assembled(title: str, data: Mapping[str, Any]) -> str:
         "script": "\n".join(_text(_WEB / f"{name}.js") for name in _SCRIPTS),
         "uplot_style": _text(_UPLOT / "uPlot.min.css"),
         "uplot": _text(_UPLOT / "uPlot.iife.min.js"),
-        "uplot_licence": _text(_UPLOT / "LICENSE"),
+        "uplot_license": _text(_UPLOT / "LICENSE"),
     }
     return re.sub(r"{{(\w+)}}", lambda found: parts[found[1]], _text(_WEB / "page.html"))
 
@@ -73,7 +73,7 @@ def _axis(axis: Axis, performance: CompiledSequence, limits: Limits) -> dict[str
     reach = {name: [-getattr(limits, name), getattr(limits, name)] for name in QUANTITIES[1:]}
     return {
         "name": axis.value.replace("_", " "),
-        "colour": COLOURS[axis],
+        "color": COLORS[axis],
         "unit": UNIT_SIGNS[axis.unit],
         "limits": {"position": [finite(limits.minimum), finite(limits.maximum)], **reach},
         "peaks": {

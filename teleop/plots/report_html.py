@@ -16,7 +16,7 @@ from teleop.core.axes import Axis
 from teleop.planner.polynomial import Array
 from teleop.plots.downsample import MOST, outline
 from teleop.plots.page import assembled, finite, short
-from teleop.plots.style import COLOURS, PER, UNIT_SIGNS
+from teleop.plots.style import COLORS, PER, UNIT_SIGNS
 from teleop.recording.reader import Take
 from teleop.recording.report import AxisReport
 
@@ -44,8 +44,9 @@ def page(take: Take, found: Mapping[Axis, AxisReport]) -> str:
 
 
 def marks(take: Take) -> Sequence[tuple[float, str]]:
-    """What is marked over time: what was done once (a dial is not), and at last how it ended."""
-    done = [(time, said.get("words") or said["action"]) for time, said in take.actions if said["action"] != "dialled"]
+    """(s, text) of each action, turns of a dial left out, and at last of how the run ended."""
+    actions = [(time, action) for time, action in take.actions if action["action"] != "dialled"]
+    done = [(time, action.get("words") or action["action"]) for time, action in actions]
     shown = done[:MOST_MARKS]
     ended = f"ended: {take.ended}" if len(take.ended) <= LONGEST else f"ended: {take.ended[:LONGEST]}..."
     near = [name for time, name in shown if time > (1 - NEAR) * take.duration]
@@ -75,7 +76,7 @@ def _axis(take: Take, axis: Axis, found: AxisReport) -> Mapping[str, Any]:
     used = {name: [short(getattr(found, name) * getattr(limits, name))] for name in ("velocity", "acceleration")}
     return {
         "name": axis.value.replace("_", " "),
-        "colour": COLOURS[axis],
+        "color": COLORS[axis],
         "unit": UNIT_SIGNS[axis.unit],
         "limits": {"position": [finite(limits.minimum), finite(limits.maximum)], "error": [], **reach},
         "peaks": {

@@ -8,7 +8,7 @@ from teleop.core.axes import Axis
 from teleop.planner.polynomial import Array
 from teleop.plots.drawing import CUE, MARGIN, STYLE, TEXT
 from teleop.plots.report_html import QUANTITIES, ROWS, curves, marks
-from teleop.plots.style import COLOURS, PER, UNIT_SIGNS
+from teleop.plots.style import COLORS, PER, UNIT_SIGNS
 from teleop.recording.reader import Take
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def _panel(panel: Axes, quantity: str, lines: Curves) -> None:
         if unit not in scales:
             scales[unit] = panel.twinx() if scales else panel
         name = axis.value.replace("_", " ")
-        scales[unit].plot(times, rows[ROWS.index(quantity)], color=COLOURS[axis], linewidth=1.5, label=name)
+        scales[unit].plot(times, rows[ROWS.index(quantity)], color=COLORS[axis], linewidth=1.5, label=name)
         if quantity == "position":
             scales[unit].plot(times, rows[ROWS.index("measured")], color=TEXT, linewidth=0.8, linestyle=":")
     for unit, scale in scales.items():

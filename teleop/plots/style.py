@@ -1,4 +1,4 @@
-"""The colours and words that page and drawing share, so that pan is the same blue in both."""
+"""The colors and words that page and drawing share, so that pan is the same blue in both."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from teleop.core.axes import Axis
 
-COLOURS: Mapping[Axis, str] = {
+COLORS: Mapping[Axis, str] = {
     Axis.PAN: "#4cc9f0",
     Axis.TILT: "#ffa23e",
     Axis.ROLL: "#94d82d",
@@ -25,5 +25,5 @@ PER: Mapping[str, str] = {"position": "", "error": "", "velocity": "/s", "accele
 
 
 def mark(where: str) -> str:
-    """A key's name as it stands beside its diamond: 3 for key 3, 1.2 for key 2 of include 1."""
+    """A key's name beside its diamond: 3 for key 3, 1.2 for key 2 of include 1."""
     return re.sub(r"(include|key|shot) ", "", where).replace(", ", ".")

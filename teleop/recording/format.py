@@ -1,10 +1,10 @@
 """What a take is on disk: an MCAP file of JSON channels, each with a JSON Schema, so that Foxglove plots it as it is.
 
-A message is dated by the wall clock of the start plus the loop's time since, so that the loop's own grid can be read
-back exactly. What was measured is dated by when it was measured, not by when it was heard. Floats are cut where they
-are finer than any planner's rounding and still coarse enough to compress: a quintic through two ticks feels an error
-of its position ten million times in its jerk. What does not change is not written again, and a `StateTarget` that was
-met exactly is written without its numbers, because they would double the file.
+The time of a message is the wall clock at the start plus the loop's time since, so the loop's own grid can be read back
+exactly. A reading has the time of its measurement, not of its arrival. Floats are rounded to more digits than planning
+needs and few enough to compress: an error of position has ten million times its size in the jerk of a quintic through
+two ticks. A value that does not change is not written again, and a `StateTarget` that was met exactly is written
+without its numbers, because they would double the file.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ ABOUT, END = "teleop take", "teleop end"  # the names of the metadata records
 FORMAT = "1"
 CUT = "cut"  # the result of a run whose end is not recorded: of a file that was recovered
 DRONE_PERIOD = 0.1  # s between two states of a drone, unless it is taken or given back meanwhile
-CHUNK = 1 << 20  # bytes of messages after which a chunk is written even if nobody asks
+CHUNK = 1 << 20  # bytes of messages after which a chunk is written even without a flush
 PLACES = (12, 10, 8)  # decimals of a position, velocity, acceleration
-WISH_PLACES = 6  # decimals of what was asked for
+SETPOINT_PLACES = 6  # decimals of what was asked for
 SAME = 1e-9  # units: a reference that close to the motion was obeyed
 LIMITS = ("minimum", "maximum", "velocity", "acceleration", "jerk")
 
 _NUMBER = {"type": "number"}
 _STATE = {"type": "object", "properties": dict.fromkeys(("position", "velocity", "acceleration"), _NUMBER)}
-_WISH = {
+_SETPOINT = {
     "type": "object",
     "properties": {
         "wish": {"enum": ["cruise", "goto", "follow", "halt"]},
@@ -50,7 +50,7 @@ _UNITS = "degrees (focus 0..1, sticks -1..1), per s, per s2"
 SCHEMAS: Mapping[str, Mapping[str, Any]] = {
     "/motion": _schema("Motion", f"Where each axis was commanded to be: {_UNITS}.", _STATE),
     "/demand": _schema(
-        "Demand", f"What was asked of each axis, on change; a follow without numbers is /motion: {_UNITS}.", _WISH
+        "Demand", f"What each axis was asked for, on change; a follow without numbers is /motion: {_UNITS}.", _SETPOINT
     ),
     "/measured": _schema(
         "Measured", "Where each axis was at the time of the message, in degrees (focus 0..1).", _NUMBER
@@ -58,22 +58,20 @@ SCHEMAS: Mapping[str, Mapping[str, Any]] = {
     "/sticks": _schema("Sticks", "Deflection of each axis after dead zone and expo, -1..1, on change.", _NUMBER),
     "/actions": {
         "title": "Action",
-        "description": "Something done once: a camera's action, or what a device was told.",
+        "description": "Something done once: a camera's action, or a command to a device.",
         "type": "object",
         "properties": {"action": {"type": "string"}, "words": {"type": "string"}, "speed": _NUMBER, "frame": _NUMBER},
     },
     "/drone": _schema(
-        "Drone", "What the drone said of itself, ten times a second: deg, m, m/s, %; null is what it did not say.", None
+        "Drone", "The drone's own telemetry, ten times a second: deg, m, m/s, %; null where it sent none.", None
     ),
-    "/status": _schema(
-        "Status", "What held for the operator, on change: stops, recalls, inputs and their trouble.", None
-    ),
+    "/status": _schema("Status", "The operator's state, on change: stops, recalls, inputs and their faults.", None),
 }
 
 
 @dataclass(frozen=True)
 class About:
-    """What a take says of itself. `started` is when, in seconds since 1970; the axes are those of `limits`."""
+    """The description at the start of a take; `started` is in s since 1970, the axes are those of `limits`."""
 
     rig: str
     title: str
@@ -100,9 +98,9 @@ class TakeWriter:
         self._started = round(about.started * 1e9)
         self._origin = math.nan
         self._channels: dict[str, int] = {}
-        self._said: dict[str, bytes] = {}
+        self._last_written: dict[str, bytes] = {}
         self._drone_due, self._stage = -math.inf, ""  # when the drone is next written down, and its last stage
-        self._heard: dict[Axis, float] = {}
+        self._reading_times: dict[Axis, float] = {}
         self.ticks, self.seconds = 0, 0.0
         for topic, schema in SCHEMAS.items():
             known = self._writer.register_schema(f"teleop.{schema['title']}", "jsonschema", _json(schema))
@@ -115,13 +113,13 @@ class TakeWriter:
         self.seconds = tick.time - self._origin
         self.ticks += 1
         self._message("/motion", tick.time, {axis.value: _state(state) for axis, state in tick.motion.items()})
-        wishes = {axis.value: _wish(wish, tick.motion.get(axis)) for axis, wish in tick.demand.items()}
-        self._change("/demand", tick.time, wishes)
+        setpoints = {axis.value: _setpoint(setpoint, tick.motion.get(axis)) for axis, setpoint in tick.demand.items()}
+        self._change("/demand", tick.time, setpoints)
         self._measured(tick)
-        for act in tick.actions:
-            self._message("/actions", tick.time, _act(act))
+        for event in tick.actions:
+            self._message("/actions", tick.time, _action(event))
         if status is not None:
-            self._told(tick.time, plain(status))
+            self._add_status(tick.time, plain(status))
 
     def flush(self) -> None:
         """Everything so far goes to the stream; a reader of a file that is cut later will have it."""
@@ -135,7 +133,7 @@ class TakeWriter:
         self._writer.add_metadata(END, ending_record(result, reasons, dropped, self.ticks, self.seconds, links or {}))
         self._writer.finish()
 
-    def _told(self, time: float, status: Any) -> None:
+    def _add_status(self, time: float, status: Any) -> None:
         """A status; sticks and the drone in it have topics of their own."""
         if isinstance(status, dict):
             deflections, drone = status.pop("deflections", None), status.pop("drone", None)
@@ -148,19 +146,19 @@ class TakeWriter:
             self._change("/status", time, status)
 
     def _measured(self, tick: Tick) -> None:
-        """The readings not heard of before, those of one time in one message."""
+        """The new readings, those of one time in one message."""
         new: dict[float, dict[str, float]] = {}
         for axis, reading in tick.reported.items():
-            if reading.time != self._heard.get(axis):
-                self._heard[axis] = reading.time
+            if reading.time != self._reading_times.get(axis):
+                self._reading_times[axis] = reading.time
                 new.setdefault(reading.time, {})[axis.value] = round(reading.position, 6)
         for time, positions in new.items():
             self._message("/measured", time, positions)
 
     def _change(self, topic: str, time: float, content: object) -> None:
         data = _json(content)
-        if data != self._said.get(topic):
-            self._said[topic] = data
+        if data != self._last_written.get(topic):
+            self._last_written[topic] = data
             self._write(topic, time, data)
 
     def _message(self, topic: str, time: float, content: object) -> None:
@@ -201,20 +199,21 @@ def _state(state: State) -> dict[str, float]:
     }
 
 
-def _wish(wish: Setpoint, state: State | None) -> dict[str, Any]:
-    match wish:
+def _setpoint(setpoint: Setpoint, state: State | None) -> dict[str, Any]:
+    match setpoint:
         case StateTarget():
-            obeyed = state is not None and all(abs(a - b) <= SAME for a, b in zip(wish, state, strict=True))
-            return {"wish": "follow", **({} if obeyed else _state(State(*wish)))}
+            obeyed = state is not None and all(abs(a - b) <= SAME for a, b in zip(setpoint, state, strict=True))
+            return {"wish": "follow", **({} if obeyed else _state(State(*setpoint)))}
         case VelocityTarget() | PositionTarget():
-            given = {name: round(value, WISH_PLACES) for name, value in wish._asdict().items() if value is not None}
-            return {"wish": "cruise" if isinstance(wish, VelocityTarget) else "goto", **given}
+            given = {name: value for name, value in setpoint._asdict().items() if value is not None}
+            rounded = {name: round(value, SETPOINT_PLACES) for name, value in given.items()}
+            return {"wish": "cruise" if isinstance(setpoint, VelocityTarget) else "goto", **rounded}
         case _:
             return {"wish": "halt"}
 
 
-def _act(act: TickEvent) -> dict[str, Any]:
-    match act:
+def _action(event: TickEvent) -> dict[str, Any]:
+    match event:
         case DeviceCommand(words):
             return {"action": "told", "words": words}
         case DialInput(speed):
@@ -222,7 +221,7 @@ def _act(act: TickEvent) -> dict[str, Any]:
         case Exposure(frame, step):
             return {"action": step.value, "frame": frame}
         case _:
-            return {"action": act.value}
+            return {"action": event.value}
 
 
 def plain(value: object) -> Any:

@@ -18,7 +18,7 @@ from teleop.planner.ruckig_solver import PositionSolver
 
 ALLOWED = 1e-4  # share of a limit that Ruckig's tolerance and the decimals of a file may add
 REACH = 1e-6  # units beyond a soft limit
-MOST = 1e6  # times a limit: what is more is no longer told apart
+MOST = 1e6  # times a limit: more is not distinguished
 
 
 class Excess(NamedTuple):

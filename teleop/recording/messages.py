@@ -1,7 +1,7 @@
-"""One pass through a take's file: what it says of itself, and its messages in their order, never all at once.
+"""One pass through a take's file: its description and its messages, one at a time.
 
-Hours of a run are more than a memory should hold, so whoever needs little of them reads it from here. Nothing is
-believed that is not checked: a stranger's MCAP, a take of a later format and a damaged chunk each have their sentence.
+Hours of a run need too much memory at once; a caller that needs little of them reads it here. Everything is checked:
+another program's MCAP, a take of a later format and a damaged chunk each have an error of their own.
 """
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ class Messages(Progress):
 
         topics: dict[int, str] = {}
         started = 0
-        with understood(self.path):
+        with reading_errors(self.path):
             for record in whole_records(self.path, self):
                 if isinstance(record, Message):
                     if self._about is None:
-                        raise ValueError("it does not say what it is")
+                        raise ValueError("its first record does not describe the take")
                     yield Line((record.log_time - started) / 1e9, topics[record.channel_id], record.data)
                 elif isinstance(record, Channel):
                     topics[record.id] = record.topic
@@ -72,9 +72,9 @@ class Messages(Progress):
 
     @property
     def about(self) -> About:
-        """What the take says of itself; raises DocumentError when it was read and said nothing."""
+        """The take's description; raises DocumentError when the file was read and has none."""
         if self._about is None:
-            raise DocumentError([f"{self.path}: is not a take of this program"])
+            raise DocumentError([f"{self.path}: not a take of this program"])
         return self._about
 
     @property
@@ -87,38 +87,39 @@ class Messages(Progress):
         """A line for the user about a file that is not whole, "" about one that is; known after the last message."""
         if self.closed and self.ending is not None:
             return ""
-        return f"{self.path}: was not closed, and is read as far as it is whole; teleop take recover {self.path}"
+        cure = f"To repair: teleop take recover {self.path}"
+        return f"{self.path}: the recording was cut off; only the whole part is read. {cure}"
 
 
 @contextmanager
-def understood(path: Path) -> Iterator[None]:
-    """What a file that is no take makes of its reading, as a DocumentError."""
+def reading_errors(path: Path) -> Iterator[None]:
+    """Turn the errors of reading a file that is no take into a DocumentError."""
     try:
         yield
     except OSError as error:
         raise DocumentError([f"{path}: cannot be read: {error.strerror or error}"]) from None
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise DocumentError([f"{path}: is not a take as this program writes it: {error}"]) from None
+        raise DocumentError([f"{path}: not a take of this program: {error}"]) from None
 
 
-def about(said: Mapping[str, str]) -> About:
-    """What the first metadata record says; raises ValueError, KeyError and TypeError for another's."""
-    if said.get("format") != FORMAT:
-        raise ValueError(f"its format is {said.get('format')!r}, and this program reads {FORMAT!r}")
+def about(metadata: Mapping[str, str]) -> About:
+    """The first metadata record; raises ValueError, KeyError and TypeError for another's."""
+    if metadata.get("format") != FORMAT:
+        raise ValueError(f"it has format {metadata.get('format')!r}, this program reads {FORMAT!r}")
     limits = {}
-    for name, of_axis in json.loads(said["axes"]).items():
+    for name, of_axis in json.loads(metadata["axes"]).items():
         low, high, *magnitudes = (of_axis[name] for name in LIMITS)
         low, high = (-math.inf if low is None else low), (math.inf if high is None else high)
         limits[Axis(name)] = Limits(low, high, *magnitudes)
-    return About(said["rig"], said["title"], float(said["started"]), limits, said["version"])
+    return About(metadata["rig"], metadata["title"], float(metadata["started"]), limits, metadata["version"])
 
 
-def ending(said: Mapping[str, str]) -> Ending:
-    """What the last metadata record says; raises as `about`."""
-    links = json.loads(said.get("links", "{}"))
-    return Ending(said["result"], json.loads(said["reasons"]), int(said["dropped"]), links)
+def ending(metadata: Mapping[str, str]) -> Ending:
+    """The last metadata record; raises as `about`."""
+    links = json.loads(metadata.get("links", "{}"))
+    return Ending(metadata["result"], json.loads(metadata["reasons"]), int(metadata["dropped"]), links)
 
 
 def was_cut(ended: Ending | None) -> bool:
-    """Whether the run went on after what is recorded: nobody knows how it ended."""
+    """Whether the run went on after what is recorded, so that its end is unknown."""
     return ended is None or ended.result == CUT

@@ -1,4 +1,4 @@
-"""A take read back from its file into arrays, whole or cut: for whoever has to look at all of it at once.
+"""A take read back from its file into arrays, whole or cut: for a caller that needs all of it at once.
 
 Six hours of four axes are a quarter of a gigabyte this way; what is not motion or its measurement stays in the file.
 """
@@ -19,9 +19,9 @@ from teleop.core.axes import Axis, State
 from teleop.core.errors import UsageError
 from teleop.planner.polynomial import Array
 from teleop.recording.format import CUT, About
-from teleop.recording.messages import Ending, Messages, understood, was_cut
+from teleop.recording.messages import Ending, Messages, reading_errors, was_cut
 
-Act = Mapping[str, Any]
+ActionRecord = Mapping[str, Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,7 @@ class Take:
     """Times are seconds from the first tick. `motion` has rows position, velocity, acceleration (3, n) at `times` (n,).
 
     `measured` has rows time, position (2, m). `actions` are what was done once, and when. `ending` is None for a file
-    that was cut, and `remark` what is to be said of one that is not whole, else "".
+    that was cut, and `remark` a line about one that is not whole, else "".
     """
 
     path: Path
@@ -37,7 +37,7 @@ class Take:
     times: Array
     motion: Mapping[Axis, Array]
     measured: Mapping[Axis, Array]
-    actions: Sequence[tuple[float, Act]]
+    actions: Sequence[tuple[float, ActionRecord]]
     ending: Ending | None
     remark: str
 
@@ -89,8 +89,8 @@ def read_take(path: Path) -> Take:
     times = array("d")
     motion: dict[Axis, array[float]] = {}
     measured: dict[Axis, array[float]] = {}
-    actions: list[tuple[float, Act]] = []
-    with understood(path):
+    actions: list[tuple[float, ActionRecord]] = []
+    with reading_errors(path):
         for time, topic, data in messages:
             if topic == "/motion":
                 content = json.loads(data)

@@ -48,7 +48,7 @@ def whole_records(path: Path, progress: Progress) -> Iterator[McapRecord]:
                 return
             except damage as error:
                 if progress.whole == 0:
-                    wrong = f"{path}: is not a take (.mcap), or was cut before anything was in it"
+                    wrong = f"{path}: not a take (.mcap), or cut off before anything was recorded"
                     raise DocumentError([wrong]) from error
                 return
             progress.whole = stream.tell()

@@ -1,7 +1,7 @@
 """A take that was never closed, or is damaged, copied into a new file that is sound.
 
-What is whole is copied message by message as it was; the ending says that nobody knows how the run ended. The original
-is only ever read: whatever else can be done with it can still be done.
+What is whole is copied message by message, unchanged; the new end says that the run's end is unknown. The original is
+only read.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from teleop.config.document import DocumentError
 from teleop.recording.format import ABOUT, CUT, END, ending_record
-from teleop.recording.messages import Messages, about, understood
+from teleop.recording.messages import Messages, about, reading_errors
 from teleop.recording.records import Progress, whole_records
 
 if TYPE_CHECKING:
@@ -51,14 +51,14 @@ def recover(path: Path, stream: BinaryIO) -> Saved:
     copy = _Copy(Writer(stream, enable_data_crcs=True), saved)
     records = whole_records(path, progress)
     while True:
-        with understood(path):
+        with reading_errors(path):
             record = next(records, None)
         if record is None:
             break
         copy.add(path, record)
     saved.lost, saved.size = progress.size - progress.whole, progress.size
     if saved.messages == 0:
-        raise DocumentError([f"{path}: nothing can be saved: it was cut before its first second was written"])
+        raise DocumentError([f"{path}: nothing to recover: it was cut off before its first second was written"])
     copy.end(path)
     return saved
 
@@ -78,7 +78,7 @@ class _Copy:
         from mcap.records import Channel, Message, Metadata, Schema
 
         if isinstance(record, Metadata):
-            with understood(path):
+            with reading_errors(path):
                 self._metadata(record.name, record.metadata)
         elif isinstance(record, Schema) and record.id not in self._schemas:
             self._schemas[record.id] = self._writer.register_schema(record.name, record.encoding, record.data)
@@ -90,7 +90,7 @@ class _Copy:
                 self._motion = record.id
         elif isinstance(record, Message):
             if self._started is None or record.channel_id not in self._channels:
-                raise DocumentError([f"{path}: is not a take of this program"])
+                raise DocumentError([f"{path}: not a take of this program"])
             self._message(record)
 
     def end(self, path: Path) -> None:
@@ -100,13 +100,13 @@ class _Copy:
             self._writer.add_metadata(END, ending_record(CUT, why, 0, self._saved.ticks, self._saved.seconds, {}))
         self._writer.finish()
 
-    def _metadata(self, name: str, said: dict[str, str]) -> None:
+    def _metadata(self, name: str, metadata: dict[str, str]) -> None:
         if name == ABOUT:
-            self._started = round(about(said).started * 1e9)
-            self._writer.start(profile="", library=f"teleop {said['version']}")
+            self._started = round(about(metadata).started * 1e9)
+            self._writer.start(profile="", library=f"teleop {metadata['version']}")
         if self._started is not None:
             self._writer.flush()
-            self._writer.add_metadata(name, said)
+            self._writer.add_metadata(name, metadata)
         self._ended = self._ended or name == END
 
     def _message(self, record: Message) -> None:

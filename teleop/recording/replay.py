@@ -1,12 +1,11 @@
-"""A take as a performance: what was commanded once, to be commanded again.
+"""A take as a compiled sequence: what was commanded once is commanded again.
 
-The states of the ticks are known exactly, so a quintic is laid from each to the next (they share their ends: C2), and
-on the loop's grid the stream is the recording. What lies between two ticks is never sent; whether it may be is not
-asked of the quintic, which swings beyond a jerk that was switched within the tick, but of the two states: is there a
-legal step from one to the other? That is the planner's own question when it takes a reference over.
+The states of the ticks are known exactly, so a quintic leads from each to the next, and on the loop's grid the stream
+is the recording. What lies between two ticks is never sent. Whether a step is legal is therefore asked of its two
+states, as the planner does, and not of the quintic, which swings beyond a jerk that was switched within the tick.
 
-A recording begins after its first step and, when it was cut, ends in full motion. Both ends are completed: with a few
-ticks from rest that lead to the first state, and with the fastest stop from the last.
+A recording begins after its first step and, when it was cut off, ends in full motion. Both ends are completed: with a
+few ticks from rest to the first state, and with the fastest stop from the last.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ from teleop.recording.reader import Take, read_take
 from teleop.sequence.compile import CompiledSequence, Cue
 
 LEAD = 5 * PERIOD  # s from rest to a first tick that moves: time enough for hardly any jerk
-GRID = 1e-6  # s: times that are closer are the same tick
+SAME_TICK = 1e-6  # s: times that are closer are the same tick
 
 
 class Samples(NamedTuple):
@@ -67,7 +66,7 @@ def take_performance(path: Path, limits: Mapping[Axis, Limits], rig: str) -> Com
     take = read_take(path)
     missing = [axis for axis in take.axes if axis not in limits]
     if missing:
-        raise UnplayableError([f"{path}: moves {', '.join(missing)}, and {rig} has {', '.join(limits)}"])
+        raise UnplayableError([f"{path}: moves {', '.join(missing)}, but {rig} has only {', '.join(limits)}"])
     if not len(take.times):
         raise UnplayableError([f"{path}: is empty: the run ended before its first tick"])
     move = recorded_move(take, limits)
@@ -98,7 +97,7 @@ def recorded_move(take: Take, limits: Mapping[Axis, Limits]) -> Move:
 def samples(take: Take, axis: Axis, limits: Limits) -> Samples:
     """The axis at every tick, completed at both ends and, where the loop slept, at rest until it moved again."""
     times, states = take.times + lead(take), take.motion[axis]
-    fresh = np.concatenate([[True], np.diff(times) > GRID])
+    fresh = np.concatenate([[True], np.diff(times) > SAME_TICK])
     times, states = times[fresh], states[:, fresh]
     resting = ~states[1:, :-1].any(axis=0)
     slept = np.flatnonzero((np.diff(times) > 1.5 * PERIOD) & resting)
@@ -158,32 +157,34 @@ def _excesses(move: Move, limits: Mapping[Axis, Limits]) -> Iterator[str]:
     for axis, track in move.tracks.items():
         assert isinstance(track, RecordedTrack)
         for each in excess(track.samples.times, track.samples.states, limits[axis]):
-            yield _said(axis, each)
+            yield _excess_text(axis, each)
 
 
-def _said(axis: Axis, wrong: Excess) -> str:
+def _excess_text(axis: Axis, wrong: Excess) -> str:
     if wrong.limit in ("minimum", "maximum"):
         return f"at {wrong.time:.2f} s {axis} is {wrong.size:.6g} beyond its {wrong.limit}"
-    return f"at {wrong.time:.2f} s {axis} needs {wrong.size:.3g} x the {wrong.limit} it may have"
+    return f"at {wrong.time:.2f} s {axis} needs {wrong.size:.3g} x its {wrong.limit} limit"
 
 
 def cues(take: Take) -> Sequence[Cue]:
-    """What the camera was told, at the tick at which it was; times are those of `recorded_move`."""
+    """The camera's actions, each at its tick; times are those of `recorded_move`."""
     known = {action.value: action for action in Action}
-    told = [(time, known[said["action"]]) for time, said in take.actions if said["action"] in known]
-    return [Cue(max(0.0, time + lead(take)), action) for time, action in told]
+    commands = [(time, known[action["action"]]) for time, action in take.actions if action["action"] in known]
+    return [Cue(max(0.0, time + lead(take)), action) for time, action in commands]
 
 
 def warnings(take: Take) -> list[str]:
-    """What a take has lost or has more than a performance, in lines for the user."""
+    """Lines for the user: what is missing in a take, and what of it is not replayed."""
     found = []
-    told = [said["words"] for _, said in take.actions if said["action"] == "told"]
-    if told:
-        found.append(f"{take.path}: is not told again: {'; '.join(dict.fromkeys(told))}")
+    commands = [action["words"] for _, action in take.actions if action["action"] == "told"]
+    if commands:
+        found.append(f"{take.path}: commands not replayed: {'; '.join(dict.fromkeys(commands))}")
     if take.remark:
         found.append(take.remark)
     if take.cut:
-        found.append(f"{take.path}: was cut at {take.duration:.2f} s; what was moving is brought to rest there")
+        found.append(
+            f"{take.path}: the recording was cut off at {take.duration:.2f} s; axes that were moving are stopped there"
+        )
     elif take.ending and take.ending.dropped:
-        found.append(f"{take.path}: {take.ending.dropped} ticks were not recorded; the way between is made up")
+        found.append(f"{take.path}: {take.ending.dropped} ticks were not recorded; they are interpolated")
     return found

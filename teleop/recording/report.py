@@ -1,8 +1,8 @@
 """How well a run went, axis by axis: how far from commanded, how much later, how much of the limits.
 
-Every reading is compared with what was commanded at its own time, as in the report after a run. A delay is only told
-where the run can tell it: a few degrees at changing speeds, measured often enough, and an axis that does what it is
-told. What was commanded is judged by its ticks, which is what the gimbal was sent.
+Every reading is compared with what was commanded at its own time, as in the report after a run. A delay is reported
+only where the run allows it: a few degrees at changing speeds, measured often enough, on an axis that follows its
+commands. The shares of the limits are those of the ticks, which is what the gimbal was sent.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ EDGE = 0.005  # s: a shift that near to the last that is tried is none
 class AxisReport:
     """Errors are commanded less measured (units), NaN without readings; `peak_at` is in s from the first tick.
 
-    `delay` is None where it cannot be told, and then `untold` says why. `velocity`, `acceleration` and `jerk` are the
+    `delay` is None where it is unknown, and then `untold` is the reason. `velocity`, `acceleration` and `jerk` are the
     greatest shares of the limits, `room` the least to a soft limit, None for a continuous axis.
     """
 
@@ -83,7 +83,7 @@ def _axis(take: Take, axis: Axis, limits: Limits) -> AxisReport:
 
 
 def _delay(take: Take, axis: Axis) -> tuple[float | None, str]:
-    """How much later than commanded the axis moved (s), or why that cannot be told."""
+    """How much later than commanded the axis moved (s), or why that is unknown."""
     read_at, read = take.measured.get(axis, np.empty((2, 0)))
     if not len(read_at):
         return None, "it was not measured"
@@ -100,11 +100,11 @@ def _delay(take: Take, axis: Axis) -> tuple[float | None, str]:
     commanded = np.array([take.times, take.motion[axis][0]]).T
     found = estimate(commanded.tolist(), np.array([read_at, read]).T.tolist(), float(read_at[0]), float(read_at[-1]))
     if found is None:
-        return None, "it was measured too seldom"
+        return None, "it was measured too rarely"
     if not found.doubt <= SURE:
-        return None, "it moved too evenly, or too unlike what it was told"
+        return None, "its speed changed too little, or it did not follow its commands"
     if not FAITHFUL[0] <= found.scale <= FAITHFUL[1]:
-        return None, f"it moved {found.scale:.2f} times as far as it was told"
+        return None, f"it moved {found.scale:.2f} times as far as commanded"
     if not EARLIEST + EDGE < found.seconds < LATEST - EDGE:
-        return None, f"it is not within {EARLIEST:g} .. {LATEST:g} s"
+        return None, f"it lies outside {EARLIEST:g} .. {LATEST:g} s"
     return found.seconds, ""

@@ -15,13 +15,13 @@ from typing import Any
 
 from teleop.config.document import DocumentError
 from teleop.recording.format import ABOUT, END, SCHEMAS, About
-from teleop.recording.messages import Ending, Messages, about, ending, understood
+from teleop.recording.messages import Ending, Messages, about, ending, reading_errors
 from teleop.recording.records import RECORD_LIMIT
 from teleop.recording.writer import ENDING
 
 
 @dataclass
-class Survey:
+class Summary:
     """A take in a few numbers: `counts` are messages by topic, `lost` bytes at the end that could not be read.
 
     `ending` is None where the file does not say how the run ended; `remark` is about one that is not whole.
@@ -38,7 +38,7 @@ class Survey:
     actions: Sequence[tuple[float, Mapping[str, Any]]] = ()
 
 
-def takes_in(folder: Path) -> Iterator[tuple[Path, Survey | str]]:
+def takes_in(folder: Path) -> Iterator[tuple[Path, Summary | str]]:
     """Every .mcap file of a folder by name, glanced at; a sentence for one that cannot be used.
 
     Raises DocumentError when the folder cannot be read.
@@ -49,34 +49,34 @@ def takes_in(folder: Path) -> Iterator[tuple[Path, Survey | str]]:
         raise DocumentError([f"{folder}: cannot be listed: {error.strerror or error}"]) from None
     for file in files:
         try:
-            yield file, glance(file)
+            yield file, summarize_index(file)
         except DocumentError as error:
             yield file, error.problems[0].removeprefix(f"{file}: ")
 
 
-def glance(path: Path) -> Survey:
+def summarize_index(path: Path) -> Summary:
     """What a file's index says of it; one without an index is read through. Raises DocumentError for no take."""
-    with understood(path):
-        said = _metadata(path)
-        if ABOUT in said and END in said:
-            return Survey(path, about(said[ABOUT]), float(said[END]["seconds"]), ending(said[END]))
-    return survey(path)
+    with reading_errors(path):
+        metadata = _metadata(path)
+        if ABOUT in metadata and END in metadata:
+            return Summary(path, about(metadata[ABOUT]), float(metadata[END]["seconds"]), ending(metadata[END]))
+    return summarize(path)
 
 
-def survey(path: Path) -> Survey:
+def summarize(path: Path) -> Summary:
     """The whole file, read once; raises DocumentError for what cannot be read or is no take."""
     messages = Messages(path)
     counts: dict[str, int] = dict.fromkeys(SCHEMAS, 0)
     actions = []
     seconds = 0.0
-    with understood(path):
+    with reading_errors(path):
         for time, topic, data in messages:
             counts[topic] = counts.get(topic, 0) + 1
             if topic == "/motion":
                 seconds = time
             elif topic == "/actions":
                 actions.append((time, json.loads(data)))
-    return Survey(path, messages.about, seconds, messages.ending, messages.remark, messages.lost, counts, actions)
+    return Summary(path, messages.about, seconds, messages.ending, messages.remark, messages.lost, counts, actions)
 
 
 def _metadata(path: Path) -> Mapping[str, Mapping[str, str]]:

@@ -14,7 +14,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Any, TextIO
 
-from teleop.recording.messages import Line, Messages, understood
+from teleop.recording.messages import Line, Messages, reading_errors
 
 HELD = 1.0  # s that a row waits for what was measured at its time; a device that is silent for longer is lost
 SAME = 1e-6  # s
@@ -38,7 +38,7 @@ def write_table(path: Path, text: TextIO) -> tuple[Messages, int]:
     messages, rows = Messages(path), 0
     lines = iter(messages)
     writer = csv.DictWriter(text, ["time"], lineterminator="\n")
-    with understood(path):
+    with reading_errors(path):
         first = next(lines, None)
         axes = [axis.value for axis in messages.about.limits]
         writer.fieldnames = columns(axes)
@@ -89,11 +89,11 @@ def _asked(row: Row, sticks: Mapping[str, float], demand: Mapping[str, Mapping[s
     """What the sticks and the sources ask for; a follow that was obeyed is where the axis is."""
     asked: Row = {f"{axis}_stick": sticks[axis] for axis in axes if axis in sticks}
     for axis in axes:
-        wish = demand.get(axis, {})
-        kind = wish.get("wish", "")
+        setpoint = demand.get(axis, {})
+        kind = setpoint.get("wish", "")
         there = row[axis] if kind == "follow" else ""
         asked[f"{axis}_wish"] = kind
-        asked[f"{axis}_asked"] = wish.get("velocity" if kind == "cruise" else "position", there)
+        asked[f"{axis}_asked"] = setpoint.get("velocity" if kind == "cruise" else "position", there)
     return asked
 
 

@@ -1,6 +1,6 @@
-"""The recorder: a watcher that never makes the motion wait for a disk.
+"""The recorder: it never makes the motion wait for a disk.
 
-The control thread only appends the tick, which nobody changes any more, to a bounded queue. A thread of the recorder's
+The control thread only appends the tick, which no longer changes, to a bounded queue. A thread of the recorder's
 own encodes, compresses and writes, and gives way after every tick, because the interpreter would otherwise keep the
 control thread waiting for a switch interval. Whatever the disk does (full, gone, stuck) ends in a count of what is
 missing and a sentence that says so; a thread stuck in the kernel is left behind at the end, as nothing can wake it.
@@ -28,7 +28,7 @@ ENDING = ".mcap"
 CAPACITY = 6000  # ticks in the queue: a minute of a disk that does not answer
 POLL = 0.1  # s between looks at the queue
 FLUSH = 8  # looks between flushes: what kill -9 loses is younger than a second
-PATIENCE = 3.0  # s at the end for what is still in the queue
+FINISH_TIMEOUT = 3.0  # s at the end for what is still in the queue
 HUNG_NAPS = 6000  # naps, 3 s at least, without a tick taken out: then the disk counts as gone
 NAP = 0.0005  # s that a run in virtual time waits for room
 
@@ -38,7 +38,7 @@ Status = Callable[[], object]
 class Recorder:
     """A sink that only watches, writing to `stream`, an unbuffered file; `name` is what its user calls it.
 
-    `status` is asked each tick in the control thread for a value that nobody changes afterwards. `patient` is for
+    `status` is asked each tick in the control thread for a value that no longer changes. `patient` is for
     runs in virtual time, which may wait for the disk: in real time what does not fit into the queue is dropped.
     """
 
@@ -76,11 +76,11 @@ class Recorder:
     ) -> None:
         """The run is over: write what is left, why it stopped, and what its links counted.
 
-        Waits PATIENCE seconds at most.
+        Waits FINISH_TIMEOUT seconds at most.
         """
         self._ended, self._links = (result.name.lower(), list(reasons)), links or {}
         self._over.set()
-        self._thread.join(PATIENCE)
+        self._thread.join(FINISH_TIMEOUT)
         if self._thread.is_alive():
             self._failure = self._failure or "the disk does not answer"
 
@@ -183,8 +183,8 @@ def recording(
 ) -> Iterator[Recorder | None]:
     """A recorder into a new file, None for no path; `limits` are those of the axes in use.
 
-    Raises UsageError when the file cannot be made, or is there already. Whoever runs the loop calls `finish`; a block
-    that is left without has failed, and leaves no file when nothing had begun.
+    Raises UsageError when the file cannot be made, or is there already. The caller that runs the loop calls `finish`; a
+    block that is left without has failed, and leaves no file when nothing had begun.
     """
     if path is None:
         yield None
@@ -207,6 +207,6 @@ def _created(path: Path) -> IO[bytes]:
     try:
         return path.open("xb", buffering=0)
     except FileExistsError:
-        raise UsageError(f"--take {path}: is there already; a take is never written over another") from None
+        raise UsageError(f"--take {path}: is there already; takes are never overwritten") from None
     except OSError as error:
         raise UsageError(f"--take {path}: cannot be written: {error.strerror or error}") from None

@@ -19,7 +19,7 @@ from teleop.core.events import Action, DeviceCommand, TickEvent
 from teleop.core.run_status import NextCue, NextKey, RunStatus
 from teleop.core.setpoints import Demand, StateTarget
 from teleop.core.timing import KEEP_ALIVE
-from teleop.planner.rest_to_rest import ease
+from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue, Wait
@@ -272,7 +272,7 @@ class SequenceSource:
 
     def _ease_to(self, phase: SequencePhase, now: float, motion: Motion, place: Motion) -> None:
         targets = {axis: state.position for axis, state in place.items()}
-        self._way = ease({axis: motion[axis] for axis in targets}, targets, self._limits, EASE_SHARE)
+        self._way = rest_to_rest({axis: motion[axis] for axis in targets}, targets, self._limits, EASE_SHARE)
         self.phase, self._way_begin, self._until = phase, now, now + whole_ticks(self._way.duration)
 
     def _after_preroll(self, arrival: float) -> float:

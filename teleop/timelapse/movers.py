@@ -14,7 +14,7 @@ from typing import Protocol
 
 from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.planner.polynomial import Array
-from teleop.planner.rest_to_rest import ease
+from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
 from teleop.sequence.playback import Playback
 from teleop.timelapse.budget import STEP_SHARE
@@ -84,7 +84,7 @@ class Way:
 
     def on(self, target: Mapping[Axis, float], limits: Mapping[Axis, Limits], share: float, least: float = 0.0) -> None:
         """To `target` when the way so far is over."""
-        move = ease(self._motion, target, limits, share, least)
+        move = rest_to_rest(self._motion, target, limits, share, least)
         self._legs.append((self.arrival, move))
         self._motion = {axis: State(position) for axis, position in target.items()}
         self.arrival += math.ceil(move.duration * _GRID - _INSTANT) / _GRID
@@ -125,7 +125,7 @@ class StepMover:
         if all(here[axis].position == position for axis, position in place.items()):
             return False
         self._way = Way(now, here)
-        gentle = ease(here, place, self._limits, GENTLE).duration
+        gentle = rest_to_rest(here, place, self._limits, GENTLE).duration
         self._way.on(place, self._limits, STEP_SHARE, min(gentle, spare))
         return True
 

@@ -3,9 +3,9 @@
 Realistic is what the planning page's figure shows: keys 1.3 to 6 s apart, at up to 20 deg/s in the mean. `--hurried`
 ones have 0.9 to 4 times the time that each segment needs from rest to rest, where limits have most to say. Prints how
 many are planned, how many of those that are feasible by an independent check are, how many overshoot, and the jerk RMS
-as a share of J (planning.md, B: 0.035). The independent check is Ruckig: a move is feasible when every
-segment can be driven from rest to rest in its time within 0.95 of the limits. That is sufficient, not necessary, so
-moves that it does not call feasible may well be planned too.
+as a share of J (0.035, docs/explanation/planning.md, "B. Keyframes"). The independent
+check is Ruckig: a move is feasible when every interval can be driven from rest to rest in its time within 0.95 of the
+limits. That is sufficient, not necessary, so moves that it does not call feasible may well be planned too.
 """
 
 from __future__ import annotations

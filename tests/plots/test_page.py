@@ -10,7 +10,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from pieces import random_track
+from random_tracks import random_track
 
 from teleop.config.profile import Profile, load_profile
 from teleop.core.axes import Axis

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pieces import random_track
+from random_tracks import random_track
 
 from teleop.core.axes import Axis
 from teleop.planner.trajectory import CHUNK, Move, Track

@@ -22,7 +22,7 @@ from teleop.core.axes import Axis, State
 from teleop.core.events import Action
 from teleop.recording.reader import read_take
 from teleop.recording.recover import is_sound, recover
-from teleop.recording.summary import glance, survey
+from teleop.recording.summary import summarize, summarize_index
 
 
 def swing(time: float) -> State:
@@ -63,11 +63,11 @@ def test_a_process_killed_in_the_middle_of_a_run_loses_less_than_a_second(tmp_pa
         assert summary.statistics.message_count == said["messages"]
         ticks = sum(channel.topic == "/motion" for _, channel, _ in reader.iter_messages())
     assert ticks == said["ticks"] > 50
-    assert survey(new).remark == ""
-    assert (glance(new).seconds, read_take(new).cut) == (pytest.approx(said["seconds"], abs=0.01), True)
+    assert summarize(new).remark == ""
+    assert (summarize_index(new).seconds, read_take(new).cut) == (pytest.approx(said["seconds"], abs=0.01), True)
     again = teleop("play", new.name, "--fast", "--json", cwd=tmp_path)
     assert again.returncode == 0, again.stderr
-    assert "was cut at" in again.stderr
+    assert "the recording was cut off at" in again.stderr
 
 
 def test_what_was_whole_is_copied_to_the_byte(whole: Path, tmp_path: Path) -> None:
@@ -102,7 +102,7 @@ def test_a_file_cut_anywhere_or_damaged_anywhere_is_saved_or_refused_and_never_c
     place = tmp_path_factory.getbasetemp()
     cut, new = place / "anywhere.mcap", place / "anywhere-new.mcap"
     cut.write_bytes(content)
-    for look in (glance, survey, read_take):
+    for look in (summarize_index, summarize, read_take):
         with suppress(DocumentError):
             assert look(cut).about is not None
     with suppress(DocumentError):
@@ -122,11 +122,11 @@ def test_a_file_cut_anywhere_or_damaged_anywhere_is_saved_or_refused_and_never_c
     ("arguments", "said"),
     [
         (["whole.mcap"], ""),
-        (["cut.mcap", "-o", "cut.mcap"], "teleop: -o cut.mcap: is the take itself, which is never written over"),
-        (["cut.mcap", "-o", "there.mcap"], "teleop: -o there.mcap: is there already; --overwrite writes over it"),
+        (["cut.mcap", "-o", "cut.mcap"], "teleop: -o cut.mcap: is the take itself; takes are never overwritten"),
+        (["cut.mcap", "-o", "there.mcap"], "teleop: -o there.mcap: is there already; --overwrite replaces it"),
         (["cut.mcap", "-o", "new.txt"], "teleop: -o new.txt: its ending must be .mcap"),
-        (["text.mcap"], "text.mcap: is not a take (.mcap), or was cut before anything was in it"),
-        (["begun.mcap"], "begun.mcap: nothing can be saved: it was cut before its first second was written"),
+        (["text.mcap"], "text.mcap: not a take (.mcap), or cut off before anything was recorded"),
+        (["begun.mcap"], "begun.mcap: nothing to recover: it was cut off before its first second was written"),
         (["nothing.mcap"], "nothing.mcap: cannot be read: No such file or directory"),
     ],
 )

@@ -50,9 +50,13 @@ def test_a_delay_is_found_whatever_the_grid_of_the_readings(late: float, grid: f
         (at_rest(3), lambda _time: 3.0, "it did not move"),
         (swing, None, "it was not measured"),
         (swing, lambda _time: 1.0, "it hardly moved"),
-        (evenly, lambda time: 5 * (time - 0.2), "it moved too evenly, or too unlike what it was told"),
-        (evenly, lambda time: round(5 * (time - 0.2), 1), "it moved too evenly, or too unlike what it was told"),
-        (swing, lambda time: 0.3 * swing(time).position, "it moved 0.30 times as far as it was told"),
+        (evenly, lambda time: 5 * (time - 0.2), "its speed changed too little, or it did not follow its commands"),
+        (
+            evenly,
+            lambda time: round(5 * (time - 0.2), 1),
+            "its speed changed too little, or it did not follow its commands",
+        ),
+        (swing, lambda time: 0.3 * swing(time).position, "it moved 0.30 times as far as commanded"),
         (swing, lambda time: swing(time - 0.9).position, None),
     ],
 )

@@ -12,7 +12,7 @@ from made_takes import at_rest, write_take
 from teleop.core.axes import Axis, State
 from teleop.core.events import Action, DeviceCommand
 from teleop.recording import summary as module
-from teleop.recording.summary import glance, survey, takes_in
+from teleop.recording.summary import summarize, summarize_index, takes_in
 
 
 @pytest.fixture
@@ -32,7 +32,7 @@ def test_a_list_has_every_take_with_its_end_and_says_which_are_damaged(folder: P
     assert a == {
         "file": "a.mcap",
         "damaged": True,
-        "problem": "is not a take (.mcap), or was cut before anything was in it",
+        "problem": "not a take (.mcap), or cut off before anything was recorded",
     }
     assert (b["title"], b["rig"], b["seconds"], b["damaged"]) == ("b", "Bench", 2.5, False)
     assert (b["result"], b["reasons"]) == ("failed", ["pan: stalled"])
@@ -45,9 +45,9 @@ def test_a_list_has_every_take_with_its_end_and_says_which_are_damaged(folder: P
 
 
 def test_a_list_reads_a_closed_take_by_its_index_alone(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    whole = survey(folder / "b.mcap")
-    monkeypatch.setattr(module, "survey", lambda path: pytest.fail(f"{path} was read through"))
-    glanced = glance(folder / "b.mcap")
+    whole = summarize(folder / "b.mcap")
+    monkeypatch.setattr(module, "summarize", lambda path: pytest.fail(f"{path} was read through"))
+    glanced = summarize_index(folder / "b.mcap")
     assert (glanced.about, glanced.seconds, glanced.ending) == (whole.about, whole.seconds, whole.ending)
 
 
@@ -62,8 +62,11 @@ def test_info_counts_what_is_in_a_take(folder: Path) -> None:
     assert said["axes"]["pan"] == {"minimum": -180, "maximum": 180, "velocity": 120, "acceleration": 240, "jerk": 1200}
     cut = teleop("take", "info", "c.mcap", cwd=folder)
     assert cut.returncode == 0
-    assert cut.stderr == "c.mcap: was not closed, and is read as far as it is whole; teleop take recover c.mcap\n"
-    assert "ended     cut: the file does not say how" in cut.stdout
+    assert (
+        cut.stderr
+        == "c.mcap: the recording was cut off; only the whole part is read. To repair: teleop take recover c.mcap\n"
+    )
+    assert "ended     cut off: the file does not say how" in cut.stdout
 
 
 def test_a_run_leaves_what_its_links_counted(tmp_path: Path) -> None:

@@ -88,11 +88,11 @@ def test_the_command_and_what_it_refuses(
     (tmp_path / "text.mcap").write_text("no take")
     done = teleop("take", "export", "t.mcap", "--csv", "t.csv", cwd=tmp_path)
     assert (done.returncode, done.stdout) == (0, "t.csv: 51 rows\n")
-    assert done.stderr.startswith("t.mcap: was not closed")
+    assert done.stderr.startswith("t.mcap: the recording was cut off")
     for arguments, line in [
-        (["t.mcap", "--csv", "t.csv"], "teleop: --csv t.csv: is there already; --overwrite writes over it\n"),
-        (["t.mcap", "--csv", "t.mcap"], "teleop: --csv t.mcap: is the take itself, which is never written over\n"),
-        (["text.mcap", "--csv", "u.csv"], "text.mcap: is not a take (.mcap), or was cut before anything was in it\n"),
+        (["t.mcap", "--csv", "t.csv"], "teleop: --csv t.csv: is there already; --overwrite replaces it\n"),
+        (["t.mcap", "--csv", "t.mcap"], "teleop: --csv t.mcap: is the take itself; takes are never overwritten\n"),
+        (["text.mcap", "--csv", "u.csv"], "text.mcap: not a take (.mcap), or cut off before anything was recorded\n"),
     ]:
         assert run(["take", "export", *arguments]) == 2
         assert capsys.readouterr().err == line

@@ -1,5 +1,6 @@
 """Sequence files: every error at its line, and what a right one compiles to."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -67,8 +68,9 @@ def test_what_the_rig_cannot_do_is_another_kind_of_error(tmp_path: Path) -> None
 def test_an_infeasible_move_names_keyframe_axis_limit_and_a_time_that_does(tmp_path: Path) -> None:
     text = "keyframes:\n  - {at: 0, pan: -60}\n  - {at: %s, pan: 60}\n"
     [problem] = problems_of(tmp_path, text % 1, UnplayableError)
-    assert problem.startswith("shoot.yaml:3:5: pan, key 1 to key 2: ")
-    shortest = float(problem.split("; ")[1].split(" s ")[0])
+    assert problem.startswith("shoot.yaml:3:5: pan needs ")
+    assert " s from key 1 to key 2, not 1.000 s (jerk would be " in problem
+    shortest = float(problem.split(" needs ")[1].split(" s ")[0])
     assert shortest > 1
     assert load(tmp_path, text % (shortest + 0.001)).duration == pytest.approx(shortest + 0.001)
     problems_of(tmp_path, text % (shortest * 0.95), UnplayableError)
@@ -155,11 +157,12 @@ def test_ease_of_the_file_of_a_key_and_of_one_end_of_it(tmp_path: Path) -> None:
 def test_ramps_are_refused_or_lengthened_with_the_line_of_their_key(tmp_path: Path) -> None:
     text = "ease: 3s\nkeyframes:\n  - {at: 0, pan: 0}\n  - {at: 4, pan: 20}\n"
     [problem] = problems_of(tmp_path, text, UnplayableError)
-    assert problem == "shoot.yaml:4:5: pan, key 1 to key 2: ramps of 3 s and 3 s do not fit into 4.000 s"
+    ramps = "pan needs 6.000 s for its ramps (3 s + 3 s) from key 1 to key 2, not 4.000 s; or a shorter `ease`"
+    assert problem == f"shoot.yaml:4:5: {ramps}"
     warnings = load(tmp_path, text.replace("3s", "0.01s")).warnings
-    assert [warning.removeprefix(f"{tmp_path}/").partition(" a ramp of")[0] for warning in warnings] == [
-        "shoot.yaml:3:5: pan, key 1:",
-        "shoot.yaml:4:5: pan, key 2:",
+    assert [re.sub(r"\d\.\d\d s at", "# s at", warning.removeprefix(f"{tmp_path}/")) for warning in warnings] == [
+        "shoot.yaml:3:5: pan needs a ramp of # s at key 1, not 0.01 s",
+        "shoot.yaml:4:5: pan needs a ramp of # s at key 2, not 0.01 s",
     ]
 
 

@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from teleop.cli.options import announce, announce_json
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, Overwrite, TakeFile, length, place, problems_said, say
+from teleop.cli.take.options import Json, Overwrite, TakeFile, length, place, problems_as_json, say
 from teleop.config.files import replacing
 from teleop.core.errors import UsageError
 from teleop.recording.writer import ENDING
@@ -35,7 +35,7 @@ def take_export(
     from teleop.recording.table import write_table
 
     place("--csv", csv, overwrite, file)
-    with problems_said(as_json), replacing(csv) as stream:
+    with problems_as_json(as_json), replacing(csv) as stream:
         text = TextIOWrapper(stream, "utf-8", newline="", write_through=True)
         messages, rows = write_table(file, text)
         text.detach()
@@ -58,9 +58,9 @@ def take_recover(
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> int:
-    """Save what is whole of a take that was never closed, into a new file; the original stays as it is.
+    """Save the whole part of a take that was cut off into a new file; the original is not changed.
 
-    After a crash, kill -9, a full disk or a power cut a take has no end and no index, and other programs refuse it.
+    After a crash, kill -9, a full disk or a power cut a take has no end and no index; other programs refuse it.
     """
     from teleop.recording.recover import is_sound, recover
 
@@ -68,12 +68,12 @@ def take_recover(
     if target.suffix.lower() != ENDING:
         raise UsageError(f"-o {target}: its ending must be {ENDING}")
     place("-o", target, overwrite, file)
-    with problems_said(as_json):
+    with problems_as_json(as_json):
         if is_sound(file):
             if as_json:
                 print(json.dumps({"ok": True, "written": None, "messages": 0}))
             else:
-                tell(f"{file}: is whole; there is nothing to recover")
+                tell(f"{file}: is complete; nothing to recover")
             return 0
         with replacing(target) as stream:
             saved = recover(file, stream)
@@ -83,7 +83,7 @@ def take_recover(
         return 0
     tell(f"{target}: saved {saved.messages} messages, {length(saved.seconds)}")
     if saved.lost:
-        tell(f"lost: the last {saved.lost} of {saved.size} bytes, which are not whole, and what was never written")
+        tell(f"lost: the last {saved.lost} of {saved.size} bytes, which are damaged, and what was never written")
     else:
         tell("lost: only what was never written")
     return 0

@@ -13,7 +13,7 @@ from cyclopts import Parameter
 
 from teleop.cli.play import percentage
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, Overwrite, TakeFile, place, problems_said, say
+from teleop.cli.take.options import Json, Overwrite, TakeFile, place, problems_as_json, say
 from teleop.config.files import replacing
 from teleop.core.errors import UsageError
 from teleop.plots.style import UNIT_SIGNS
@@ -32,13 +32,15 @@ def take_keyframes(
         float,
         Parameter(
             metavar="DEGREES",
-            help="How far off it may be at any time: degrees; for focus and sticks per cent of their way.",
+            help="Largest error at any time: degrees; for focus and sticks percent of their range.",
         ),
     ] = 0.2,
     measured: Annotated[
-        bool, Parameter(help="Follow where the axes were measured, not commanded.", negative=(), show_default=False)
+        bool, Parameter(help="Fit the measured positions, not the commanded ones.", negative=(), show_default=False)
     ] = False,
-    speed: Annotated[str, Parameter(metavar="PERCENT", help="The take's own pace, as a percentage.")] = "100%",
+    speed: Annotated[
+        str, Parameter(metavar="PERCENT", help="Speed of the result, as a percentage of the take's.")
+    ] = "100%",
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> int:
@@ -56,7 +58,7 @@ def take_keyframes(
     from teleop.recording.replay import warnings
     from teleop.recording.to_keyframes.convert import keyframes
 
-    with problems_said(as_json):
+    with problems_as_json(as_json):
         rate = percentage("--speed", speed)
         take = read_take(file)
         for warning in warnings(take):
@@ -70,7 +72,7 @@ def take_keyframes(
         said = {"ok": True, "written": str(output), "keyframes": len(fitted.frames), "tolerance": tolerance}
         print(json.dumps({**said, "largest_errors": errors}))
     else:
-        errors = [f"{axis} {e.size:.3g}{UNIT_SIGNS[axis.unit]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
+        errors = [f"{axis} {e.size:.3f}{UNIT_SIGNS[axis.unit]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
         count = len(fitted.frames)
         tell(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
     return 0

@@ -12,9 +12,9 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, TakeFile, ending_facts, length, problems_said, recorded_on, say
+from teleop.cli.take.options import Json, TakeFile, ending_facts, length, problems_as_json, recorded_on, say
 from teleop.recording.format import LIMITS
-from teleop.recording.summary import Survey, survey, takes_in
+from teleop.recording.summary import Summary, summarize, takes_in
 
 
 def take_list(
@@ -24,7 +24,7 @@ def take_list(
 
     Of a take that was closed only the index is read; `take info` reads all of it.
     """
-    with problems_said(as_json):
+    with problems_as_json(as_json):
         found = list(takes_in(folder))
     if as_json:
         print(json.dumps({"ok": True, "takes": [_entry(file, what) for file, what in found]}))
@@ -36,9 +36,9 @@ def take_list(
 
 
 def take_info(file: TakeFile, /, *, as_json: Json = False) -> int:
-    """Say what is in a take: the run, its axes and limits, how many messages of what, what was done, how it ended."""
-    with problems_said(as_json):
-        found = survey(file)
+    """Show what is in a take: the run, its axes and limits, messages by topic, actions, how it ended."""
+    with problems_as_json(as_json):
+        found = summarize(file)
     say(found.remark)
     links = {} if found.ending is None else found.ending.links
     if as_json:
@@ -46,7 +46,7 @@ def take_info(file: TakeFile, /, *, as_json: Json = False) -> int:
             axis.value: {name: _finite(getattr(of_axis, name)) for name in LIMITS}
             for axis, of_axis in found.about.limits.items()
         }
-        actions = [{"time": round(time, 3), **said} for time, said in found.actions]
+        actions = [{"time": round(time, 3), **action} for time, action in found.actions]
         rest = {"axes": axes, "messages": dict(found.counts), "actions": actions, "links": links}
         print(json.dumps({"ok": True, **_entry(file, found), "version": found.about.version, **rest}))
     else:
@@ -54,7 +54,7 @@ def take_info(file: TakeFile, /, *, as_json: Json = False) -> int:
     return 0
 
 
-def _entry(file: Path, found: Survey | str) -> Mapping[str, Any]:
+def _entry(file: Path, found: Summary | str) -> Mapping[str, Any]:
     if isinstance(found, str):
         return {"file": str(file), "damaged": True, "problem": found}
     about = found.about
@@ -63,7 +63,7 @@ def _entry(file: Path, found: Survey | str) -> Mapping[str, Any]:
     return {"file": str(file), **of_run, "seconds": round(found.seconds, 3), **ending_facts(found.ending), **of_file}
 
 
-def _table(found: list[tuple[Path, Survey | str]]) -> None:
+def _table(found: list[tuple[Path, Summary | str]]) -> None:
     from teleop.cli.screens.tables import print_table
 
     rows = []
@@ -84,20 +84,20 @@ def _table(found: list[tuple[Path, Survey | str]]) -> None:
             tell(what.remark)
 
 
-def _lines(found: Survey) -> Iterator[str]:
+def _lines(found: Summary) -> Iterator[str]:
     about, ending = found.about, found.ending
     yield f"{found.path}: {about.title} on {about.rig}, {length(found.seconds)}"
     yield f"recorded  {recorded_on(about.started)} by teleop {about.version}"
-    yield f"ended     {'cut: the file does not say how' if ending is None else ending}"
+    yield f"ended     {'cut off: the file does not say how' if ending is None else ending}"
     if ending is not None and ending.dropped:
         yield f"dropped   {ending.dropped} ticks were not recorded"
     if found.lost:
-        yield f"lost      {found.lost} bytes at the end are not whole"
+        yield f"lost      {found.lost} bytes at the end are damaged"
     for axis, limits in about.limits.items():
         room = "continuous" if limits.continuous else f"{limits.minimum:g} .. {limits.maximum:g}"
         yield f"{axis:<9} {room}, {limits.velocity:g}/s, {limits.acceleration:g}/s2, {limits.jerk:g}/s3"
     yield f"messages  {', '.join(f'{topic} {count}' for topic, count in found.counts.items())}"
-    done = Counter(said["action"] for _, said in found.actions)
+    done = Counter(action["action"] for _, action in found.actions)
     yield f"actions   {', '.join(f'{action} {count}' for action, count in done.items()) or 'none'}"
     for name, counts in ({} if ending is None else ending.links).items():
         yield f"link      {name}: {', '.join(f'{count} {word}' for word, count in counts.items() if count)}"

@@ -20,13 +20,13 @@ from teleop.recording.messages import Ending
 Json = Annotated[bool, Parameter(name="--json", help="Print JSON, for programs.", negative=(), show_default=False)]
 Overwrite = Annotated[
     bool,
-    Parameter(help="Write over a file that is there already.", negative=(), show_default=False),
+    Parameter(help="Replace a file that is there already.", negative=(), show_default=False),
 ]
 TakeFile = Annotated[Path, Parameter(help="A recorded run (.mcap).")]
 
 
 @contextmanager
-def problems_said(as_json: bool) -> Iterator[None]:
+def problems_as_json(as_json: bool) -> Iterator[None]:
     """With --json a file that cannot be used is an object too, as for `check`."""
     try:
         yield
@@ -42,9 +42,9 @@ def place(option: str, path: Path, overwrite: bool, original: Path) -> None:
     Raises OutputError where nothing can be.
     """
     if path.resolve() == original.resolve():
-        raise UsageError(f"{option} {path}: is the take itself, which is never written over")
+        raise UsageError(f"{option} {path}: is the take itself; takes are never overwritten")
     if path.exists() and not (overwrite or is_stream(path)):
-        raise UsageError(f"{option} {path}: is there already; --overwrite writes over it")
+        raise UsageError(f"{option} {path}: is there already; --overwrite replaces it")
     check_place(path)
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_said, say
+from teleop.cli.take.options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_as_json, say
 from teleop.config.document import UnplayableError
 from teleop.config.files import replacing
 from teleop.core.axes import Axis
@@ -39,7 +39,7 @@ def take_report(
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> int:
-    """Say how well a run went: errors, delay and limits used by axis, and why it stopped.
+    """Report how well a run went: errors, delay and limits used by axis, and why it stopped.
 
     The page and the drawing show what was commanded and measured, the error, the actions and the end.
     """
@@ -49,7 +49,7 @@ def take_report(
     from teleop.recording.reader import read_take
     from teleop.recording.report import report
 
-    with problems_said(as_json):
+    with problems_as_json(as_json):
         take = read_take(file)
     say(take.remark)
     found = report(take)
@@ -74,7 +74,7 @@ def _drawable(output: Path) -> None:
 
 def _draw(take: Take, found: Mapping[Axis, AxisReport], output: Path) -> None:
     if not found:
-        raise UnplayableError([f"{take.path}: is empty: there is nothing to draw"])
+        raise UnplayableError([f"{take.path}: is empty: nothing to draw"])
     with replacing(output) as stream:
         if output.suffix.lower() == ".html":
             from teleop.plots.report_html import page
@@ -98,11 +98,11 @@ def _print(take: Take, found: Mapping[Axis, AxisReport]) -> None:
         used = [f"{share:.0%}" for share in (of.velocity, of.acceleration, of.jerk)]
         rows.append([axis.value, *off, later, *used, "endless" if of.room is None else f"{of.room:.2f}{unit}"])
     title = f"{take.about.title}: {length(take.duration)} on {take.about.rig}"
-    headings = ("Axis", "RMS", "Peak", "at", "Late", "V", "A", "J", "Room")
-    print_table(title, headings, rows, words=("Axis",), drop=("at", "Room", "J", "A", "V", "Late"))
+    headings = ("Axis", "RMS", "Peak", "at", "Delay", "V", "A", "J", "Room")
+    print_table(title, headings, rows, words=("Axis",), drop=("at", "Room", "J", "A", "V", "Delay"))
     for axis, of in found.items():
         if of.delay is None:
-            tell(f"{axis}: how late it moved cannot be told: {of.untold}")
+            tell(f"{axis}: delay unknown: {of.untold}")
     tell(f"ended: {take.ended}")
 
 

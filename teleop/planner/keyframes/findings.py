@@ -1,6 +1,6 @@
-"""What can be said against keyframes, as values: a reader turns `first` and `last` into file:line:column.
+"""What is wrong with keyframes, as values: a caller turns `first` and `last` into file:line:column.
 
-Apart from `explain` and `remarks`, which find them, so that whoever only reports them loads no solver.
+Their texts are made here. What finds them is in `infeasibility` and `diagnostics`, which load the solver.
 """
 
 from __future__ import annotations
@@ -11,18 +11,25 @@ from dataclasses import dataclass
 from teleop.core.axes import Axis
 from teleop.core.errors import TeleopError
 
+AT_LIMIT = 1.005  # a factor below this rounds to 1.00: to name the limit would explain nothing
+
 
 class PlanError(TeleopError):
     """Keys that are no plan at all."""
 
 
+def _amount(axis: Axis, value: float) -> str:
+    """A position or a distance with its unit: `1.5 deg`, `0.02`."""
+    return f"{value:.3g} {axis.unit}".rstrip()
+
+
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that cannot be met.
+    """One thing that the limits do not allow.
 
     `limit` is "velocity", "acceleration", "jerk", "minimum" or "maximum". `factor` is how many times what the planner
     may use of it (0.95 of the axis' limit) is needed; for a soft limit it is the distance beyond in units, and there
-    is no time. `seconds` is what the keys allow, `shortest` what would do, None when no time would.
+    is no time. `seconds` is what the keys allow, `shortest` the shortest time that is possible, None when none is.
     """
 
     axis: Axis
@@ -35,12 +42,19 @@ class Finding:
 
     def __str__(self) -> str:
         if self.seconds is None:
-            return f"{self.axis}, {self.first}: {self.factor:.6g} beyond the soft limit ({self.limit})"
-        remedy = "no time would do" if self.shortest is None else f"{self.shortest:.3f} s would do"
-        return (
-            f"{self.axis}, {self.first} to {self.last}: {self.limit} {self.factor:.2f} x its limit"
-            f" in {self.seconds:.3f} s; {remedy}"
-        )
+            side = "below" if self.limit == "minimum" else "above"
+            return f"{self.axis} is {_amount(self.axis, self.factor)} {side} its {self.limit} at {self.first}"
+        way = f"from {self.first} to {self.last}"
+        if self.shortest is None:
+            return f"{self.axis} cannot go {way} in any time{self._excess()}"
+        needs = f"{self.axis} needs {self.shortest:.3f} s {way}, not {self.seconds:.3f} s"
+        return f"{needs}{self._excess()}; or `fit: stretch`"
+
+    def _excess(self) -> str:
+        if self.factor < AT_LIMIT:
+            return ""
+        times = f"{self.factor:.3g}" if self.factor < 10 else f"{self.factor:.0f}"
+        return f" ({self.limit} would be {times} x its limit)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,9 +69,10 @@ class RampsTooLong:
     seconds: float
 
     def __str__(self) -> str:
+        both = f"{self.leave:.3g} s + {self.arrive:.3g} s"
         return (
-            f"{self.axis}, {self.first} to {self.last}: ramps of {self.leave:.3g} s and {self.arrive:.3g} s"
-            f" do not fit into {self.seconds:.3f} s"
+            f"{self.axis} needs {self.leave + self.arrive:.3f} s for its ramps ({both})"
+            f" from {self.first} to {self.last}, not {self.seconds:.3f} s; or a shorter `ease`"
         )
 
 
@@ -70,7 +85,7 @@ class Unsolved:
     last: str
 
     def __str__(self) -> str:
-        return f"{self.axis}, {self.first} to {self.last}: no plan was found; give it a longer ease, or more time"
+        return f"{self.axis}: no plan found from {self.first} to {self.last}; use a longer `ease`, or more time"
 
 
 class Infeasible(PlanError):  # noqa: N818  the field's word for it
@@ -91,7 +106,8 @@ class Overshoot:
     size: float
 
     def __str__(self) -> str:
-        return f"{self.axis}, {self.first} to {self.last}: overshoots by {self.size:.3g} to keep its limits"
+        size = _amount(self.axis, self.size)
+        return f"{self.axis} overshoots by {size} between {self.first} and {self.last}, to keep its limits"
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,4 +120,4 @@ class LongRamp:
     taken: float
 
     def __str__(self) -> str:
-        return f"{self.axis}, {self.last}: a ramp of {self.taken:.2f} s, not {self.asked:.2f} s, to keep its limits"
+        return f"{self.axis} needs a ramp of {self.taken:.2f} s at {self.last}, not {self.asked:.2f} s"

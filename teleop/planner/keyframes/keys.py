@@ -1,4 +1,4 @@
-"""From an operator's keys to legs: what lies between two rests of one axis, as arrays for the programmes."""
+"""An operator's keys, and the segments between the rests of an axis that they make."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def waypoints(axis: Axis, keys: Sequence[Key]) -> list[Waypoint]:
             last = points[-1]
             if key.at < last.time or key.position != last.position:
                 raise PlanError(
-                    f"{axis}, {key.where}: at {key.at:.6g} s is not after {last.where}, which ends at {last.time:.6g} s"
+                    f"{axis}: {key.where} (at {key.at:.6g} s) is not after {last.where} (until {last.time:.6g} s)"
                 )
             points[-1] = last._replace(rest=True, leave=key.leave, tension=key.tension)
         else:
@@ -81,18 +81,18 @@ def ramps_asked(points: Sequence[Waypoint]) -> tuple[float, float] | None:
     return leave.over(duration), arrive.over(duration)
 
 
-def leg_between(points: Sequence[Waypoint], asked: tuple[float, float] | None, limits: Limits) -> Segment:
-    """From one rest to the next, with ramps that the limits allow for about the speed that its segments need."""
-    leg = Segment(
+def segment_between(points: Sequence[Waypoint], asked: tuple[float, float] | None, limits: Limits) -> Segment:
+    """From one rest to the next, with ramps that the limits allow for about the speed that its intervals need."""
+    segment = Segment(
         np.array([point.time for point in points], float), np.array([point.position for point in points], float)
     )
     if asked is None:
-        return leg
+        return segment
     ramps = list(asked)
     for end in (0, -1):
-        step, duration = abs(float(leg.steps[end])), float(leg.durations[end])
-        at_both = 2 if len(leg.steps) == 1 else 1
+        step, duration = abs(float(segment.steps[end])), float(segment.durations[end])
+        at_both = 2 if len(segment.steps) == 1 else 1
         for _ in range(SETTLED):
             speed = step / max(duration - at_both * ramps[end] / 2, duration / 2)
             ramps[end] = max(asked[end], quickest(speed, limits))
-    return replace(leg, ramps=tuple(ramps))
+    return replace(segment, ramps=tuple(ramps))

@@ -1,7 +1,7 @@
-"""Where a leg's segments are cut into pieces.
+"""Where a segment's intervals are cut into pieces.
 
-Evenly, except beside a much shorter segment: there the cuts are graded, so that neighbouring pieces never differ so
-much in duration that one knot could not serve both (`quadratic` scales its unknowns by the shorter one).
+Evenly, except beside a much shorter interval: there the cuts are graded, so that neighboring pieces never differ so
+much in duration that one knot could not serve both (`qp` scales its unknowns by the shorter one).
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from teleop.planner.polynomial import Array
 
 Indices = NDArray[np.intp]
 
-GRADE = 4.0  # largest ratio of neighbouring pieces where keys of very different spacing meet
+GRADE = 4.0  # largest ratio of neighboring pieces where keys of very different spacing meet
 
 
 def mesh(durations: Array, pieces: int) -> tuple[Indices, Array, Indices]:
-    """Each piece's segment (m,) and width (m,), and the knot of each key (n + 1,)."""
+    """Each piece's interval (m,) and width (m,), and the knot of each key (n + 1,)."""
     equal = durations / pieces
     before = np.concatenate([equal[:1], equal[:-1]])
     after = np.concatenate([equal[1:], equal[-1:]])
@@ -30,10 +30,10 @@ def mesh(durations: Array, pieces: int) -> tuple[Indices, Array, Indices]:
     return np.repeat(np.arange(len(durations)), counts), np.concatenate(widths), np.cumsum([0, *counts])
 
 
-def _grading(neighbour: float, width: float) -> list[float]:
-    """Distances from a key at which to cut a piece of `width` beside one of `neighbour`."""
+def _grading(neighbor: float, width: float) -> list[float]:
+    """Distances from a key at which to cut a piece of `width` beside one of `neighbor`."""
     cuts = []
-    cut = GRADE * neighbour
+    cut = GRADE * neighbor
     while cut * 2 < width:
         cuts.append(cut)
         cut *= GRADE

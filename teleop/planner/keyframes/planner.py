@@ -1,10 +1,9 @@
-"""Timed keys to a checked move, per axis.
+"""Timed keys to a checked move, axis by axis.
 
-Rests (first and last key, stops, dwells) cut an axis into legs that know nothing of each other, and each leg is a
-minimum-jerk programme (`quadratic`). A ladder of rules keeps the common case cheap and the hard one possible: few
-pieces first, then finer ones, each with the rule that nothing overshoots; only then without it, and the overshoot is
-reported; at last `explain` says what is in the way. Between equal keys without overshoot there is only standing still,
-so these too are rests as long as that rule holds.
+Rests (the first and last key, stops and holds) cut an axis into segments that do not affect each other. Each segment is
+a minimum-jerk program (`qp`), tried with a ladder of rules: few pieces first, then more, all without overshoot; then
+with overshoot, which is reported as a warning; if none has a solution, `infeasibility` says why. Two equal keys next to
+each other are a rest as long as no overshoot is allowed, because the axis can only stand still between them.
 """
 
 from __future__ import annotations
@@ -26,8 +25,8 @@ from teleop.planner.keyframes.findings import (
     RampsTooLong,
     Unsolved,
 )
-from teleop.planner.keyframes.infeasibility import explain
-from teleop.planner.keyframes.keys import Key, leg_between, ramps_asked, waypoints
+from teleop.planner.keyframes.infeasibility import infeasibilities
+from teleop.planner.keyframes.keys import Key, Waypoint, ramps_asked, segment_between, waypoints
 from teleop.planner.keyframes.qp import HEADROOM, Rule, solve
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import Array
@@ -36,11 +35,11 @@ from teleop.planner.trajectory import Move, Track
 PIECES = (2, 4, 8)
 STRETCH = 0.002  # relative, of the least factor
 MOST = 2.0**20  # times longer: what is impossible then is so at any speed
-ROUNDING = 1e-9  # relative, of ramps that are to take all of a leg
+ROUNDING = 1e-9  # relative, of ramps that are to take all of a segment
 
 
 class _Outcome(NamedTuple):
-    """One axis planned: its track, unless there are unsolved legs, with the names of their keys, or ramps too long."""
+    """One axis planned: its track, or else the segments without a plan (with their keys' names) and too long ramps."""
 
     track: Track | None
     overshoots: list[Overshoot]
@@ -67,8 +66,8 @@ def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tens
     findings: list[Finding | RampsTooLong | Unsolved] = [finding for of_axis in beyond.values() for finding in of_axis]
     for axis, outcome in outcomes.items():
         findings += outcome.too_long
-        for leg, wheres in outcome.unsolved:
-            findings += explain(axis, leg, wheres, limits[axis]) or [Unsolved(axis, wheres[0], wheres[-1])]
+        for segment, names in outcome.unsolved:
+            findings += infeasibilities(axis, segment, names, limits[axis]) or [Unsolved(axis, names[0], names[-1])]
     if findings:
         raise Infeasible(findings)
     return _assemble(outcomes)
@@ -96,7 +95,7 @@ def stretch(
 
 
 def attempt(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tension: float = 0.0) -> Move | None:
-    """What `plan` gives, or None where it would raise: for who tries keys by the hundred and needs no reasons."""
+    """What `plan` gives, or None where it raises Infeasible: for a search that tries many keys and needs no reasons."""
     try:
         return _attempt(keys, limits, tension, 1.0)
     except Infeasible:
@@ -123,7 +122,9 @@ def _attempt(
 def _assemble(outcomes: Mapping[Axis, _Outcome]) -> Move:
     tracks = {axis: outcome.track for axis, outcome in outcomes.items() if outcome.track is not None}
     if missing := [axis for axis in outcomes if axis not in tracks]:
-        raise PlanError(f"{', '.join(missing)}: no plan, and no reason why")  # an axis is never left out in silence
+        raise PlanError(
+            f"{', '.join(missing)}: the planner gave neither a plan nor a reason; please report this file"
+        )  # an axis is never left out in silence
     return Move(
         tracks,
         tuple(overshoot for outcome in outcomes.values() for overshoot in outcome.overshoots),
@@ -147,28 +148,10 @@ def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: float) 
     breaks: list[Array] = []
     coefficients: list[Array] = [np.empty((0, 6))]
     for first, last in pairwise(rests):
-        stretch = points[first : last + 1]
-        wheres, asked, duration = (
-            [p.where for p in stretch],
-            ramps_asked(stretch),
-            points[last].time - points[first].time,
-        )
-        if asked and sum(asked) > duration * (1 + ROUNDING):
-            outcome.too_long.append(RampsTooLong(axis, wheres[0], wheres[-1], *asked, duration))
-            continue
-        leg = leg_between(stretch, asked, limits)
-        evenness = tension if stretch[0].tension is None else stretch[0].tension
-        pieces = _directed(leg, limits, evenness)
-        if pieces is None:
-            pieces = _undirected(leg, limits, evenness)
-            if pieces is None:
-                outcome.unsolved.append((leg, wheres))
-                continue
-            outcome.overshoots.extend(overshoots(axis, leg, wheres, *pieces))
-        if asked:
-            outcome.long_ramps.extend(long_ramps(axis, leg, wheres, asked))
-        breaks.append(leg.times[0] + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])]))
-        coefficients.append(pieces.coefficients)
+        pieces = _plan_segment(axis, points[first : last + 1], limits, tension, outcome)
+        if pieces is not None:
+            breaks.append(points[first].time + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])]))
+            coefficients.append(pieces.coefficients)
     if outcome.unsolved or outcome.too_long:
         return outcome
     end = points[-1]
@@ -176,18 +159,41 @@ def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: float) 
     return outcome._replace(track=track)
 
 
-def _directed(leg: Segment, limits: Limits, tension: float) -> _Pieces | None:
-    """Without overshoot: cut where equal keys follow each other, each part by the coarsest rule that does."""
-    if np.any(np.abs(leg.steps) > HEADROOM * limits.velocity * leg.durations):
+def _plan_segment(
+    axis: Axis, points: Sequence[Waypoint], limits: Limits, tension: float, outcome: _Outcome
+) -> _Pieces | None:
+    """The pieces from one rest to the next. Adds to `outcome` its warnings, or, where this is None, why."""
+    names, asked = [point.where for point in points], ramps_asked(points)
+    duration = points[-1].time - points[0].time
+    if asked and sum(asked) > duration * (1 + ROUNDING):
+        outcome.too_long.append(RampsTooLong(axis, names[0], names[-1], *asked, duration))
         return None
-    flat = leg.steps == 0
+    segment = segment_between(points, asked, limits)
+    evenness = tension if points[0].tension is None else points[0].tension
+    pieces = _directed(segment, limits, evenness)
+    if pieces is None:
+        pieces = _undirected(segment, limits, evenness)
+        if pieces is None:
+            outcome.unsolved.append((segment, names))
+            return None
+        outcome.overshoots.extend(overshoots(axis, segment, names, *pieces))
+    if asked:
+        outcome.long_ramps.extend(long_ramps(axis, segment, names, asked))
+    return pieces
+
+
+def _directed(segment: Segment, limits: Limits, tension: float) -> _Pieces | None:
+    """Without overshoot: cut where equal keys follow each other, each part by the coarsest rule that does."""
+    if np.any(np.abs(segment.steps) > HEADROOM * limits.velocity * segment.durations):
+        return None
+    flat = segment.steps == 0
     cuts = (np.flatnonzero(flat[:-1] | flat[1:]) + 1).tolist()
     parts = []
     for first, last in pairwise([0, *cuts, len(flat)]):
         if flat[first]:
-            parts.append(_standing(leg, first))
+            parts.append(_standing(segment, first))
             continue
-        part = leg.part(first, last)
+        part = segment.part(first, last)
         rules = (Rule(n, True, tension) for n in PIECES if tension == 0 or n > 2)
         solved = next((pieces for pieces in (solve(part, limits, rule) for rule in rules) if pieces is not None), None)
         if solved is None:
@@ -196,10 +202,12 @@ def _directed(leg: Segment, limits: Limits, tension: float) -> _Pieces | None:
     return _Pieces(np.concatenate([p.widths for p in parts]), np.concatenate([p.coefficients for p in parts]))
 
 
-def _standing(leg: Segment, segment: int) -> _Pieces:
-    return _Pieces(leg.durations[segment : segment + 1], np.array([[leg.positions[segment], 0.0, 0.0, 0.0, 0.0, 0.0]]))
+def _standing(segment: Segment, interval: int) -> _Pieces:
+    return _Pieces(
+        segment.durations[interval : interval + 1], np.array([[segment.positions[interval], 0.0, 0.0, 0.0, 0.0, 0.0]])
+    )
 
 
-def _undirected(leg: Segment, limits: Limits, tension: float) -> _Pieces | None:
-    solved = solve(leg, limits, Rule(PIECES[-1], False, tension))
+def _undirected(segment: Segment, limits: Limits, tension: float) -> _Pieces | None:
+    solved = solve(segment, limits, Rule(PIECES[-1], False, tension))
     return None if solved is None else _Pieces(*solved)

@@ -1,13 +1,13 @@
-"""The minimum-jerk quadratic programme of one leg: from rest, through keys, to rest (planning.md, section B).
+"""The quadratic program of one segment: minimum jerk from rest, through keys, to rest.
 
-Unknown are position, velocity and acceleration at the knots, quintics lie between, and the Bernstein coefficients of
-their derivatives are bounded, so that whatever the solver returns keeps its limits in continuous time. Values known in
-advance (keys, rest at the ends, the turn at a key where the direction changes) are taken out of the unknowns rather
-than constrained. Ramps are a matter of cost: a leg that has them is cut where they end, and between them acceleration
-costs so much that there is none but what keys and limits force.
+The unknowns are position, velocity and acceleration at the knots, with a quintic between two knots. The Bernstein
+coefficients of its derivatives are bounded, so the limits hold in continuous time. What is known in advance (keys, rest
+at the ends, velocity 0 at a key where the direction changes) is no unknown. Ramps are a matter of cost: a segment with
+ramps is cut where they end, and acceleration between them is so expensive that there is only what keys and limits need.
+See docs/explanation/planning.md, "B. Keyframes".
 
-Durations may differ by a factor of a million (a twitch, then a day's drift) and the programme must stay within what a
-double can tell apart: knots beside a short segment are graded (`mesh`), each knot has the time scale of its shorter
+Durations may differ by a factor of a million (a twitch, then a drift of a day), so the numbers are kept within what a
+double can resolve: knots beside a short interval are graded (`mesh`), each knot has the time scale of its shorter
 piece, and the weights of the pieces are clipped.
 """
 
@@ -20,23 +20,23 @@ from scipy import sparse
 
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.mesh import Indices, mesh
-from teleop.planner.keyframes.qp_solver import Sparse, minimise
+from teleop.planner.keyframes.qp_solver import Sparse, minimize
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import BERNSTEIN, GRAM_ACCELERATION, GRAM_JERK, GRAM_VELOCITY, HERMITE, Array
 
-HEADROOM = 0.95  # of V, A and J, so that every sample is within a single step of the last (planning.md, section B)
+HEADROOM = 0.95  # share of V, A and J, so that each sample is one legal step from the last (planning page, "B")
 CLIP = 1e6  # largest ratio of a piece's weight to the median
 SMOOTHING = 1e-6  # least weight of jerk beside tension, or a day's drift would have none
 STEADY = 5.0  # acceleration between ramps weighs T / STEADY, jerk its ramp cubed: the speed is even within 2 %
-TAU = 0.25  # s: tension 1 weighs velocity as 1/TAU^4 (planning.md, section B)
+TAU = 0.25  # s: tension 1 weighs velocity as 1/TAU^4
 TOLERANCE = 1.01  # on the headroom: the solver's, small beside the 5 % that are left
-SMALLEST = 1e-9  # units; a leg that moves less is not scaled up further
-UNBOUND = 1e6  # a limit this many times beyond the leg's whole range is left out
+SMALLEST = 1e-9  # units; a segment that moves less is not scaled up further
+UNBOUND = 1e6  # a limit this many times beyond the segment's whole range is left out
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """How a leg is to be solved: pieces per segment, whether it may overshoot, and how much constant speed matters."""
+    """How to solve a segment: pieces per interval, `directed` for no overshoot, `tension` 0..1 for even speed."""
 
     pieces: int
     directed: bool
@@ -44,23 +44,23 @@ class Rule:
 
 
 class QuadraticProgram:
-    """The arrays of one leg: knots, unknowns, and rows. Limits are those the planner may use, before HEADROOM."""
+    """The arrays of one segment: knots, unknowns, and rows. Limits are those the planner may use, before HEADROOM."""
 
-    def __init__(self, leg: Segment, limits: Limits, rule: Rule) -> None:
-        self.leg, self.limits, self.rule = leg, limits, rule
-        durations, segments, ramps = leg.cuts()
+    def __init__(self, segment: Segment, limits: Limits, rule: Rule) -> None:
+        self.segment, self.limits, self.rule = segment, limits, rule
+        durations, intervals, ramps = segment.cuts()
         cut, self.widths, knots = mesh(durations, rule.pieces)
-        self.segment, self.ramps = segments[cut], ramps[cut]
-        keys = knots[np.searchsorted(segments, np.arange(len(leg.steps) + 1))]
+        self.interval, self.ramps = intervals[cut], ramps[cut]
+        keys = knots[np.searchsorted(intervals, np.arange(len(segment.steps) + 1))]
         count = len(self.widths) + 1
-        self.scale = max(float(np.ptp(leg.positions)), SMALLEST)
-        self.origin = float(leg.positions[0])
-        self.direction = np.sign(leg.steps) if rule.directed else np.zeros(len(leg.steps))
+        self.scale = max(float(np.ptp(segment.positions)), SMALLEST)
+        self.origin = float(segment.positions[0])
+        self.direction = np.sign(segment.steps) if rule.directed else np.zeros(len(segment.steps))
         times = np.concatenate([self.widths[:1], np.minimum(self.widths[:-1], self.widths[1:]), self.widths[-1:]])
         self.times = times
         self.known = np.full((count, 3), np.nan)
-        self.known[keys, 0] = (leg.positions - self.origin) / self.scale
-        self.known[[0, -1], 1:] = leg.ends * times[[0, -1], None] ** (1, 2) / self.scale
+        self.known[keys, 0] = (segment.positions - self.origin) / self.scale
+        self.known[[0, -1], 1:] = segment.ends * times[[0, -1], None] ** (1, 2) / self.scale
         if rule.directed:
             self.known[keys[1:-1][self.direction[:-1] != self.direction[1:]], 1] = 0.0
         free = np.isnan(self.known).ravel()
@@ -99,10 +99,10 @@ class QuadraticProgram:
         A ramp's jerk counts by the cube of its duration: a change of speed then costs the same in a short ramp as in a
         long one, or the whole way would be made in the longer of the two.
         """
-        if self.leg.ramps is None:
+        if self.segment.ramps is None:
             return self.widths**-5.0, np.zeros_like(self.widths)
-        whole = float(self.leg.times[-1] - self.leg.times[0])
-        least = max(min(self.leg.ramps), whole / CLIP)
+        whole = float(self.segment.times[-1] - self.segment.times[0])
+        least = max(min(self.segment.ramps), whole / CLIP)
         jerk = np.maximum(self.ramps, least) ** 3 / self.widths**5
         return jerk, np.where(self.ramps == 0, whole / STEADY / self.widths**3, 0.0)
 
@@ -136,8 +136,8 @@ class QuadraticProgram:
         return values[self.index] * self.local
 
     def keeps_limits(self, values: Array, relaxed: frozenset[int]) -> bool:
-        """Proof, apart from the solver's word and tolerance: V, A and J hold in continuous time."""
-        bound = ~np.isin(self.segment, list(relaxed))
+        """Whether V, A and J hold in continuous time: checked here, whatever the solver reports."""
+        bound = ~np.isin(self.interval, list(relaxed))
         return all(
             bool(np.all(np.abs(values @ BERNSTEIN[order].T)[bound] <= self.bounds(order)[bound, None] * TOLERANCE))
             for order in (1, 2, 3)
@@ -150,87 +150,87 @@ class QuadraticProgram:
         return pieces
 
 
-def _inequalities(programme: QuadraticProgram, relaxed: frozenset[int]) -> tuple[list[Sparse], list[Array]]:
+def _inequalities(program: QuadraticProgram, relaxed: frozenset[int]) -> tuple[list[Sparse], list[Array]]:
     """Rows and bounds of A x <= b for V, A, J, the direction and, without one, the soft limits."""
     matrices, bounds = [], []
     for order in (1, 2, 3):
-        # v and a at a piece's start are its neighbour's at the end, unless that neighbour has no limits
-        matrix, given, piece = programme.rows(order, skip=0 if relaxed or order == 3 else 1)
-        limit = programme.bounds(order)[piece]
-        limit[np.isin(programme.segment[piece], list(relaxed))] = np.inf
+        # v and a at a piece's start are its neighbor's at the end, unless that neighbor has no limits
+        matrix, given, piece = program.rows(order, skip=0 if relaxed or order == 3 else 1)
+        limit = program.bounds(order)[piece]
+        limit[np.isin(program.interval[piece], list(relaxed))] = np.inf
         upper = lower = limit
         if order == 1:
-            direction = programme.direction[programme.segment[piece]]
+            direction = program.direction[program.interval[piece]]
             upper = np.where(direction < 0, 0.0, limit)
             lower = np.where(direction > 0, 0.0, limit)
         for sign, bound in ((1.0, upper), (-1.0, lower)):
             keep = (bound < UNBOUND) & (np.diff(matrix.indptr) > 0)
             matrices.append(sign * matrix[keep])
             bounds.append(bound[keep] - sign * given[keep])
-    if not programme.rule.directed:
-        for matrix, bound in _soft_limits(programme):
+    if not program.rule.directed:
+        for matrix, bound in _soft_limits(program):
             matrices.append(matrix)
             bounds.append(bound)
     return matrices, bounds
 
 
-def _soft_limits(programme: QuadraticProgram) -> list[tuple[Sparse, Array]]:
-    matrix, given, _ = programme.rows(0, skip=1)
-    limits = programme.limits
+def _soft_limits(program: QuadraticProgram) -> list[tuple[Sparse, Array]]:
+    matrix, given, _ = program.rows(0, skip=1)
+    limits = program.limits
     rows = []
     for sign, limit in ((1.0, limits.maximum), (-1.0, limits.minimum)):
         if np.isfinite(limit):
-            bound = sign * (limit - programme.origin) / programme.scale - sign * given
+            bound = sign * (limit - program.origin) / program.scale - sign * given
             keep = np.diff(matrix.indptr) > 0
             rows.append((sign * matrix[keep], bound[keep]))
     return rows
 
 
 def solve(
-    leg: Segment, limits: Limits, rule: Rule, relaxed: frozenset[int] = frozenset()
+    segment: Segment, limits: Limits, rule: Rule, relaxed: frozenset[int] = frozenset()
 ) -> tuple[Array, Array] | None:
     """Widths (m,) and coefficients (m, 6) of the smoothest pieces, or None when this rule allows none.
 
-    V, A and J do not apply to the segments `relaxed`.
+    V, A and J do not apply to the intervals `relaxed`.
     """
-    programme = QuadraticProgram(leg, limits, rule)
-    matrices, bounds = _inequalities(programme, relaxed)
-    cost, linear = programme.cost()
-    solution = minimise(cost, linear, sparse.vstack(matrices, format="csc"), np.concatenate(bounds))
+    program = QuadraticProgram(segment, limits, rule)
+    matrices, bounds = _inequalities(program, relaxed)
+    cost, linear = program.cost()
+    solution = minimize(cost, linear, sparse.vstack(matrices, format="csc"), np.concatenate(bounds))
     if solution is None:
         return None
-    values = programme.hermite(solution)
-    if not programme.keeps_limits(values, relaxed):
+    values = program.hermite(solution)
+    if not program.keeps_limits(values, relaxed):
         return None
-    return programme.widths, programme.coefficients(values)
+    return program.widths, program.coefficients(values)
 
 
-def least_factors(leg: Segment, limits: Limits, rule: Rule) -> Array | None:
-    """By what each segment would have to exceed V, A and J: (n, 3) factors >= 1, as few above 1 as possible.
+def least_factors(segment: Segment, limits: Limits, rule: Rule) -> Array | None:
+    """By what each interval would have to exceed V, A and J: (n, 3) factors >= 1, as few above 1 as possible.
 
-    The elastic programme: a slack per segment and limit, their sum minimised. None when the soft limits forbid
+    The elastic program: a slack per interval and limit, their sum minimized. None when the soft limits forbid
     even that.
     """
-    programme = QuadraticProgram(leg, limits, rule)
-    segments, unknowns = len(leg.steps), programme.unknowns
+    program = QuadraticProgram(segment, limits, rule)
+    intervals, unknowns = len(segment.steps), program.unknowns
     matrices: list[Sparse] = []
     bounds: list[Array] = []
     for order in (1, 2, 3):
-        matrix, given, piece = programme.rows(order, skip=0)
-        limit = programme.bounds(order)[piece]
+        matrix, given, piece = program.rows(order, skip=0)
+        limit = program.bounds(order)[piece]
         slack = sparse.csr_matrix(
-            (-np.ones(len(piece)), (np.arange(len(piece)), 3 * programme.segment[piece] + order - 1)),
-            shape=(len(piece), 3 * segments),
+            (-np.ones(len(piece)), (np.arange(len(piece)), 3 * program.interval[piece] + order - 1)),
+            shape=(len(piece), 3 * intervals),
         )
         for sign in (1.0, -1.0):
             matrices.append(sparse.hstack([sparse.diags(sign / limit) @ matrix, slack]))
             bounds.append(1.0 - sign * given / limit)
-    for matrix, bound in [] if rule.directed else _soft_limits(programme):
-        matrices.append(sparse.hstack([matrix, sparse.csr_matrix((matrix.shape[0], 3 * segments))]))
+    for matrix, bound in [] if rule.directed else _soft_limits(program):
+        matrices.append(sparse.hstack([matrix, sparse.csr_matrix((matrix.shape[0], 3 * intervals))]))
         bounds.append(bound)
-    matrices.append(sparse.hstack([sparse.csr_matrix((3 * segments, unknowns)), -sparse.identity(3 * segments)]))
-    bounds.append(np.zeros(3 * segments))
-    linear = np.concatenate([np.zeros(unknowns), np.ones(3 * segments)])
+    matrices.append(sparse.hstack([sparse.csr_matrix((3 * intervals, unknowns)), -sparse.identity(3 * intervals)]))
+    bounds.append(np.zeros(3 * intervals))
+    linear = np.concatenate([np.zeros(unknowns), np.ones(3 * intervals)])
     cost = sparse.csc_matrix((len(linear), len(linear)))
-    solution = minimise(cost, linear, sparse.vstack(matrices, format="csc"), np.concatenate(bounds))
+    solution = minimize(cost, linear, sparse.vstack(matrices, format="csc"), np.concatenate(bounds))
     return None if solution is None else 1.0 + solution[unknowns:].reshape(-1, 3)

@@ -1,7 +1,7 @@
-"""Clarabel, the solver of the planner's quadratic programmes, and the only place that knows it.
+"""Solves the planner's quadratic programs with Clarabel, which only this module knows.
 
-Chosen over OSQP because it holds constraints to 1e-8 without tuning (libraries.md). One thread: the programmes are
-small, and starting threads costs more than they give.
+Clarabel holds constraints to 1e-8 without tuning; OSQP does not (docs/explanation/planning.md, "B. Keyframes"). It
+runs on one thread: the programs are small, and starting threads takes longer than solving.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ import numpy as np
 from teleop.planner.polynomial import Array
 
 clarabel: Any = import_module("clarabel")  # a compiled module without types
-Sparse = Any  # scipy.sparse: its types say less than nothing about what an operation returns
+Sparse = Any  # scipy.sparse: its own type stubs do not say what an operation returns
 
 SOLVED = (clarabel.SolverStatus.Solved, clarabel.SolverStatus.AlmostSolved)
 
 
-def minimise(cost: Sparse, linear: Array, matrix: Sparse, bound: Array) -> Array | None:
+def minimize(cost: Sparse, linear: Array, matrix: Sparse, bound: Array) -> Array | None:
     """The x of least x P x / 2 + q x with A x <= b, or None when there is none.
 
     `cost` is the upper triangle of P in csc, `linear` q, `matrix` A in csc, `bound` b.

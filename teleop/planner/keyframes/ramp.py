@@ -1,6 +1,6 @@
 """How long an axis takes to get up to speed, and to come to rest: the operator's ease, whichever way it was given.
 
-Seconds, a share of the way between two rests, or a name that stands for such a share all become one value here, and
+Seconds, a share of the way between two rests, or a name for such a share all become one value here, and
 seconds as soon as that way is known.
 """
 
@@ -19,7 +19,7 @@ class Ramp(NamedTuple):
     share: float = 0.0
 
     def over(self, duration: float) -> float:
-        """In seconds, of a leg that lasts `duration` seconds."""
+        """In seconds, of a segment that lasts `duration` seconds."""
         return self.seconds + self.share * duration
 
     def longer(self, factor: float) -> Ramp:
@@ -36,6 +36,6 @@ def quickest(change: float, limits: Limits) -> float:
 
 
 SMOOTHLY = 1.3  # times the time at full jerk, which has no headroom and is no quintic
-LONGEST_SHARE = 0.5  # of a leg, at each of its ends
+LONGEST_SHARE = 0.5  # of a segment, at each of its ends
 NAMES = {"sharp": Ramp(share=0.1), "medium": Ramp(share=0.25), "soft": Ramp(share=0.4)}
 SMOOTH = "smooth"  # the name for no ramp: all of the way is used to be as smooth as can be

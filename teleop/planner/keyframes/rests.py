@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from teleop.planner.trajectory import Move, Track
 
-STILL = 1e-6  # units per s and per s2: what a solver leaves of a 0
+AT_REST = 1e-6  # units per s and per s2: what a solver leaves of a 0
 SAME = 1e-6  # s: times that are closer are the same
 
 
@@ -32,7 +32,7 @@ def _of(track: Track) -> list[Rest]:
     breaks: list[float] = track.breaks.tolist()
     ends = [*breaks[1:], breaks[-1]]
     still = [not any(piece[1:]) for piece in track.coefficients.tolist()]
-    stopped = [abs(piece[1]) < STILL and abs(piece[2]) < STILL for piece in track.coefficients.tolist()]
+    stopped = [abs(piece[1]) < AT_REST and abs(piece[2]) < AT_REST for piece in track.coefficients.tolist()]
     pieces = [Rest(-inf, breaks[0])]
     pieces += [Rest(breaks[i], ends[i] if still[i] else breaks[i]) for i in range(len(still)) if stopped[i]]
     pieces.append(Rest(breaks[-1], inf))

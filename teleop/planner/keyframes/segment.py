@@ -1,4 +1,4 @@
-"""A leg: one axis from rest, through keys, to rest. What the planner's programmes are about, as plain arrays."""
+"""A segment: one axis from rest, through its keys, to rest, as arrays. An interval is what lies between two keys."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 
 from teleop.planner.polynomial import Array
 
-NEAR = 1e-6  # of a leg: a ramp that ends nearer than this to a key, or to the other ramp's end, ends there
+NEAR = 1e-6  # share of a segment: a ramp that ends nearer to a key, or to the other ramp's end, ends there
 
 
 @dataclass(frozen=True, eq=False)
 class Segment:
     """Times (n + 1,) in seconds and positions (n + 1,) in units of one axis; at rest at both ends only.
 
-    `ramps` are the seconds in which it is to get up to speed and to come to rest, None where that is left open. A leg
-    that is a window of a longer one has `ends` (2, 2): velocity and acceleration at its first and at its last key.
+    `ramps` are the seconds in which it gets up to speed and comes to rest, None where that is left open. A window of a
+    longer segment has `ends` (2, 2): velocity and acceleration at its first and at its last key.
     """
 
     times: Array
@@ -33,10 +33,10 @@ class Segment:
     def steps(self) -> Array:
         return np.diff(self.positions)
 
-    def stretched(self, segment: int, duration: float) -> Segment:
-        """With one segment lasting `duration` and the later ones as they were."""
+    def stretched(self, interval: int, duration: float) -> Segment:
+        """With one interval lasting `duration` and the later ones as they were."""
         later = self.times.copy()
-        later[segment + 1 :] += duration - self.durations[segment]
+        later[interval + 1 :] += duration - self.durations[interval]
         return replace(self, times=later)
 
     def part(self, first: int, last: int) -> Segment:
@@ -51,9 +51,9 @@ class Segment:
         return Segment(self.times[first : last + 1], self.positions[first : last + 1], None, states[[first, last]])
 
     def cuts(self) -> tuple[Array, NDArray[np.intp], Array]:
-        """The segments, cut where the ramps end: durations (k,), the segment of each, and the ramp that it lies in.
+        """The intervals, cut where the ramps end: durations (k,), the interval of each, and the ramp that it lies in.
 
-        That is given as its seconds, 0 between the ramps and inf for a leg that has none.
+        That is given as its seconds, 0 between the ramps and inf for a segment that has none.
         """
         if self.ramps is None:
             return self.durations, np.arange(len(self.steps)), np.full(len(self.steps), np.inf)

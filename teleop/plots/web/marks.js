@@ -29,7 +29,7 @@ function drawLimits(plot, quantity, pixel) {
     for (const limit of axis.limits[quantity]) {
       if (limit === null) continue;
       const y = plot.valToPos(limit, scaleOf(axis.unit), true);
-      ctx.strokeStyle = axis.colour;
+      ctx.strokeStyle = axis.color;
       line(ctx, bbox.left, y, bbox.left + bbox.width, y);
     }
   ctx.setLineDash([]);
@@ -50,7 +50,7 @@ function drawCues(plot, quantity, pixel) {
 // Diamonds on the curve, and a bar while a key holds; returns what was drawn, for the names.
 function drawKeys(plot, axis, quantity, pixel) {
   const { ctx, bbox } = plot, main = quantity === "position", size = (main ? 6 : 3.5) * pixel, drawn = [];
-  ctx.fillStyle = axis.colour;
+  ctx.fillStyle = axis.color;
   for (const key of axis.keys) {
     const x = plot.valToPos(key.at, "x", true), until = plot.valToPos(key.at + key.hold, "x", true);
     if (until < bbox.left || x > bbox.left + bbox.width || x - drawn.at(-1)?.x < size) continue;
@@ -60,7 +60,7 @@ function drawKeys(plot, axis, quantity, pixel) {
     ctx.beginPath();
     [[0, -size], [size, 0], [0, size], [-size, 0]].forEach(([dx, dy]) => ctx.lineTo(x + dx, y + dy));
     ctx.fill();
-    drawn.push({ x, y, colour: axis.colour, text: key.mark });
+    drawn.push({ x, y, color: axis.color, text: key.mark });
   }
   return drawn;
 }
@@ -70,15 +70,15 @@ function drawNames(plot, keys, pixel) {
   const taken = keys.map(({ x, y }) => [x, y, 6 * pixel]);
   ctx.textAlign = "center";
   ctx.textBaseline = "middle";
-  for (const { x, y, colour, text } of keys) {
+  for (const { x, y, color, text } of keys) {
     const half = ctx.measureText(text).width / 2 + pixel;
-    const centre = Math.min(Math.max(x, bbox.left + half), bbox.left + bbox.width - half);
+    const center = Math.min(Math.max(x, bbox.left + half), bbox.left + bbox.width - half);
     const free = (middle) => middle > bbox.top + high / 2 && middle < bbox.top + bbox.height - high / 2 &&
-      !taken.some(([cx, cy, wide]) => Math.abs(cx - centre) < half + wide && Math.abs(cy - middle) < high);
+      !taken.some(([cx, cy, wide]) => Math.abs(cx - center) < half + wide && Math.abs(cy - middle) < high);
     const middle = [y - 13 * pixel, y + 14 * pixel].find(free);
     if (middle === undefined) continue;
-    taken.push([centre, middle, half]);
-    ctx.fillStyle = colour;
-    ctx.fillText(text, centre, middle);
+    taken.push([center, middle, half]);
+    ctx.fillStyle = color;
+    ctx.fillText(text, center, middle);
   }
 }

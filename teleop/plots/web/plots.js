@@ -25,7 +25,7 @@ function card({ name, per }) {
   const values = move.axes.map((axis) => {
     const value = document.createElement("div");
     value.className = "value";
-    value.style.setProperty("--colour", axis.colour);
+    value.style.setProperty("--color", axis.color);
     value.innerHTML = "<i></i> <b></b> <span></span>";
     value.children[0].textContent = axis.name;
     heading.append(value);
@@ -53,7 +53,7 @@ function axisY(name, unit, side) {
 }
 
 function series(axis, dotted) {
-  const look = dotted ? { stroke: "#f1f3f5", width: 1, dash: [2, 3] } : { stroke: axis.colour, width: 2 };
+  const look = dotted ? { stroke: "#f1f3f5", width: 1, dash: [2, 3] } : { stroke: axis.color, width: 2 };
   return { ...look, scale: scaleOf(axis.unit), pxAlign: 0, spanGaps: true, points: { show: false } };
 }
 
@@ -88,7 +88,7 @@ for (const quantity of move.quantities) {
   const dots = move.axes.map((axis) => {
     const dot = document.createElement("div");
     dot.className = "dot";
-    dot.style.background = axis.colour;
+    dot.style.background = axis.color;
     dot.hidden = true;
     plot.over.append(dot);
     return dot;
@@ -174,7 +174,7 @@ for (const axis of move.axes) {
   const button = document.createElement("button");
   button.type = "button";
   button.textContent = axis.name;
-  button.style.setProperty("--colour", axis.colour);
+  button.style.setProperty("--color", axis.color);
   button.ariaPressed = "true";
   button.addEventListener("click", () => {
     axis.shown = !axis.shown;

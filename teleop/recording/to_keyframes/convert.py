@@ -1,7 +1,7 @@
 """A take as a sequence that can be edited: sparse keyframes whose own plan stays within a tolerance of the recording.
 
-What the keys are worth is asked of the program itself: the finished file is read, planned and compared with the
-recording at every hundredth of a second, and what that says is what the user is told. A recording of a hand at a stick
+The result is checked by the program itself: the finished file is read, planned and compared with the recording at every
+hundredth of a second, and that error is what the user sees. A recording of a hand at a stick
 is nearer to constant speeds, one of a planned move to least jerk: both are tried, and the sparser one is taken.
 """
 
@@ -23,8 +23,8 @@ from teleop.planner.keyframes.qp import HEADROOM
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
 from teleop.recording.replay import cues
-from teleop.recording.to_keyframes.fit import Leg, Style, fit
-from teleop.recording.to_keyframes.merge_keys import AxisKey, MergedKey, frames
+from teleop.recording.to_keyframes.fit import RecordedSegment, Style, fit
+from teleop.recording.to_keyframes.merge_keys import AxisKey, MergedKey, merge_keys
 from teleop.recording.to_keyframes.reference import GRID, Reference, references, too_fast
 from teleop.recording.to_keyframes.sequence_text import SequenceText, sequence_text
 from teleop.sequence.compile import load_performance
@@ -86,7 +86,7 @@ def keyframes(take: Take, tolerance: float, speed: float = 1.0, *, measured: boo
         if all(error.size <= allowed(axis, tolerance) for axis, error in errors.items()):
             return Fitted(text, best.frames, errors)
     missed = [f"{axis} {error.size:.3g} at {error.time:.2f} s" for axis, error in errors.items()]
-    raise UnplayableError([f"{take.path}: keyframes that came near enough did not as a file: {', '.join(missed)}"])
+    raise UnplayableError([f"{take.path}: the sequence file would miss the tolerance: {', '.join(missed)}"])
 
 
 def _best(take: Take, refs: Mapping[Axis, Reference], tolerance: float) -> _Attempt:
@@ -129,25 +129,25 @@ def _fitted(take: Take, refs: Mapping[Axis, Reference], tolerance: float, tensio
             axis, take.about.limits[axis], allowed(axis, tolerance), places_after_point(axis, tolerance), tension
         )
         keys[axis], unfit = _axis_keys(reference.slackened(slack), style, others)
-        problems += [_out_of_reach(take, leg, off) for leg, off in unfit]
-    return _Attempt(tension, [] if problems else frames(keys, refs), problems)
+        problems += [_out_of_reach(take, segment, off) for segment, off in unfit]
+    return _Attempt(tension, [] if problems else merge_keys(keys, refs), problems)
 
 
 def _axis_keys(
     reference: Reference, style: Style, others: Sequence[int]
-) -> tuple[list[AxisKey], list[tuple[Leg, Array | None]]]:
-    """The keys of one axis, and the legs that have none that are good enough, with how far they are off."""
+) -> tuple[list[AxisKey], list[tuple[RecordedSegment, Array | None]]]:
+    """The keys of one axis, and the segments that have none that are good enough, with how far they are off."""
     keys, unfit = [], []
     for before, after in pairwise(reference.rests):
-        leg = Leg(before.end, reference.positions[before.end : after.begin + 1], style)
-        found = fit(leg, reference.corners(before.end, after.begin), others)
-        if found.off is None or not leg.fits(found.off):
-            unfit.append((leg, found.off))
+        segment = RecordedSegment(before.end, reference.positions[before.end : after.begin + 1], style)
+        found = fit(segment, reference.corners(before.end, after.begin), others)
+        if found.off is None or not segment.fits(found.off):
+            unfit.append((segment, found.off))
         inner = sorted(place for place in found.keys if before.end < place < after.begin)
-        keys.append(AxisKey(before.begin, leg.position(before.end), before.end - before.begin))
+        keys.append(AxisKey(before.begin, segment.position(before.end), before.end - before.begin))
         keys += [AxisKey(place, found.keys[place]) for place in inner]
     last = reference.rests[-1]
-    end = Leg(last.begin, reference.positions[last.begin :], style).position(last.begin)
+    end = RecordedSegment(last.begin, reference.positions[last.begin :], style).position(last.begin)
     return [*keys, AxisKey(last.begin, end, last.end - last.begin)], unfit
 
 
@@ -158,17 +158,17 @@ def _too_fast(take: Take, axis: Axis, reference: Reference, tolerance: float) ->
         time, ahead = found
         slower = int(100 * HEADROOM * limits.velocity / float(np.abs(take.motion[axis][1]).max())) - 1
         yield (
-            f"{take.path}: until {time:.2f} s {axis} gets {ahead:.3g} ahead of {HEADROOM:.0%} of its velocity, which is"
-            f" all that a sequence may use: try --speed {slower}%"
+            f"{take.path}: {axis} is too fast at {time:.2f} s: a sequence may use {HEADROOM:.0%} of its velocity limit"
+            f" and would be {ahead:.3g} behind; use --speed {slower}%"
         )
 
 
-def _out_of_reach(take: Take, leg: Leg, off: Array | None) -> str:
-    seconds = f"{leg.begin / GRID:.2f} .. {(leg.begin + len(leg.positions) - 1) / GRID:.2f} s"
-    nearer = "" if off is None else f" no nearer than {float(np.abs(off).max()):.3g}"
+def _out_of_reach(take: Take, segment: RecordedSegment, off: Array | None) -> str:
+    seconds = f"{segment.begin / GRID:.2f} .. {(segment.begin + len(segment.positions) - 1) / GRID:.2f} s"
+    nearer = "" if off is None else f" closer than {float(np.abs(off).max()):.3g}"
     return (
-        f"{take.path}: {leg.style.axis} {seconds}: keyframes cannot follow it{nearer} with {HEADROOM:.0%} of its"
-        " limits, which is all that a sequence may use: try a lower --speed, or a higher --tolerance"
+        f"{take.path}: {segment.style.axis}, {seconds}: keyframes cannot follow the take{nearer}"
+        f" within {HEADROOM:.0%} of its limits; use a lower --speed or a higher --tolerance"
     )
 
 

@@ -21,9 +21,9 @@ from teleop.planner.polynomial import Array
 from teleop.recording.to_keyframes.reference import GRID
 
 NEAREST = 3  # places between two keys
-MARGIN = 0.98  # of what is allowed: what a leg is off by itself and as a part of the whole may differ a little
+MARGIN = 0.98  # of what is allowed: what a segment is off by itself and as a part of the whole may differ a little
 ASIDE = (0.0, 0.5, 0.85)  # of what is allowed: how far beside the recording a key may lie
-PRUNED = 40  # keys of a leg of which each is tried without: every trial plans all of the leg
+PRUNED = 40  # keys of a segment of which each is tried without: every trial plans all of the segment
 SHARED = 0.2  # of the way to the next key: a key that another axis has that near is as good a place
 
 Keys = Mapping[int, float]  # place of the grid -> units
@@ -41,7 +41,7 @@ class Style:
 
 
 @dataclass(frozen=True, eq=False)
-class Leg:
+class RecordedSegment:
     """One axis from rest to rest: `positions` (n,) from place `begin` on."""
 
     begin: int
@@ -53,7 +53,7 @@ class Leg:
         return self.style.allowed
 
     def position(self, place: int, aside: float = 0.0) -> float:
-        """What a key says there, in as many digits as an editor wants to see."""
+        """The position of a key there (units), rounded to the digits of the file and kept inside the soft limits."""
         wanted = round(float(self.positions[place - self.begin]) + aside, self.style.digits)
         return min(max(wanted, self.style.limits.minimum), self.style.limits.maximum)
 
@@ -74,37 +74,37 @@ class Leg:
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """The keys of a leg, its ends included, and how far (n,) their plan is off; None where they have no plan."""
+    """The keys of a segment, its ends included, and how far (n,) their plan is off; None where they have no plan."""
 
     keys: Keys
     off: Array | None
 
 
-def fit(leg: Leg, corners: Sequence[int], others: Sequence[int]) -> Fit:
+def fit(segment: RecordedSegment, corners: Sequence[int], others: Sequence[int]) -> Fit:
     """As few keys as are found; too few, where no more of them bring the plan any nearer.
 
     `corners` are places worth a key where there is no turn.
 
     `others` are the places, rising, at which other axes have keys: one of them is as good as a place nearby.
     """
-    last = leg.begin + len(leg.positions) - 1
-    turns = [leg.begin + turn for turn in turning_points(leg.positions, leg.allowed)]
-    ends: Keys = {place: leg.position(place) for place in (leg.begin, *turns, last)}
+    last = segment.begin + len(segment.positions) - 1
+    turns = [segment.begin + turn for turn in turning_points(segment.positions, segment.allowed)]
+    ends: Keys = {place: segment.position(place) for place in (segment.begin, *turns, last)}
     apart = [corner for corner in corners if all(abs(corner - end) >= NEAREST for end in ends)]
-    keys = {**ends, **{place: leg.position(place) for place in apart}}
-    off = leg.off(keys)
+    keys = {**ends, **{place: segment.position(place) for place in apart}}
+    off = segment.off(keys)
     if off is None:
-        keys, off = ends, leg.off(ends)
-    while off is not None and not leg.fits(off):
-        more = {place: leg.position(place) for place in _worst(leg, keys, off, others)}
+        keys, off = ends, segment.off(ends)
+    while off is not None and not segment.fits(off):
+        more = {place: segment.position(place) for place in _worst(segment, keys, off, others)}
         trial = {**keys, **more}
-        better = leg.off(trial) if more else None
+        better = segment.off(trial) if more else None
         if better is None:
-            trial, better = _one_by_one(leg, keys, off, list(more))
+            trial, better = _one_by_one(segment, keys, off, list(more))
         if len(trial) == len(keys):
             return Fit(keys, off)
         keys, off = trial, better
-    return Fit(keys, off) if off is None else _pruned(leg, keys, off)
+    return Fit(keys, off) if off is None else _pruned(segment, keys, off)
 
 
 def turning_points(positions: Array, least: float) -> Iterator[int]:
@@ -123,11 +123,11 @@ def turning_points(positions: Array, least: float) -> Iterator[int]:
             way, high = 1, index
 
 
-def _worst(leg: Leg, keys: Keys, off: Array, others: Sequence[int]) -> Iterator[int]:
+def _worst(segment: RecordedSegment, keys: Keys, off: Array, others: Sequence[int]) -> Iterator[int]:
     """Between each two keys where the plan is off by too much, the place where it is furthest off."""
     for first, second in pairwise(sorted(keys)):
-        between = np.abs(off[first - leg.begin : second - leg.begin + 1])
-        if between.max() <= MARGIN * leg.allowed or second - first < 2 * NEAREST:
+        between = np.abs(off[first - segment.begin : second - segment.begin + 1])
+        if between.max() <= MARGIN * segment.allowed or second - first < 2 * NEAREST:
             continue
         worst = min(max(first + int(between.argmax()), first + NEAREST), second - NEAREST)
         reach = round(SHARED * (second - first))
@@ -136,19 +136,19 @@ def _worst(leg: Leg, keys: Keys, off: Array, others: Sequence[int]) -> Iterator[
         yield min(shared, key=lambda place, worst=worst: abs(place - worst), default=worst)
 
 
-def _one_by_one(leg: Leg, keys: Keys, off: Array, places: list[int]) -> tuple[Keys, Array]:
+def _one_by_one(segment: RecordedSegment, keys: Keys, off: Array, places: list[int]) -> tuple[Keys, Array]:
     """As many of the new keys as have a plan and bring it nearer, each where and as it can be."""
     for place in places:
         known = sorted(keys)
         index = bisect(known, place)
         first, second = known[index - 1], known[index]
-        here = slice(first - leg.begin, second - leg.begin + 1)
+        here = slice(first - segment.begin, second - segment.begin + 1)
         for other in (place, (place + first) // 2, (place + second) // 2):
             if other - first < NEAREST or second - other < NEAREST:
                 continue
-            pull = float(np.clip(off[other - leg.begin], -leg.allowed, leg.allowed))
-            trials = ({**keys, other: leg.position(other, aside * pull)} for aside in ASIDE)
-            found = ((trial, leg.off(trial)) for trial in trials)
+            pull = float(np.clip(off[other - segment.begin], -segment.allowed, segment.allowed))
+            trials = ({**keys, other: segment.position(other, aside * pull)} for aside in ASIDE)
+            found = ((trial, segment.off(trial)) for trial in trials)
             nearer = next(
                 ((trial, new) for trial, new in found if new is not None and _peak(new[here]) < _peak(off[here])), None
             )
@@ -162,11 +162,11 @@ def _peak(off: Array) -> float:
     return float(np.abs(off).max())
 
 
-def _pruned(leg: Leg, keys: Keys, off: Array) -> Fit:
+def _pruned(segment: RecordedSegment, keys: Keys, off: Array) -> Fit:
     """Without the keys that it can do without."""
     for place in sorted(keys)[1:-1] if len(keys) <= PRUNED else []:
         fewer = {other: position for other, position in keys.items() if other != place}
-        without = leg.off(fewer)
-        if without is not None and leg.fits(without):
+        without = segment.off(fewer)
+        if without is not None and segment.fits(without):
             keys, off = fewer, without
     return Fit(keys, off)

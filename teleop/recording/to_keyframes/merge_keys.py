@@ -1,8 +1,8 @@
 """The keys of several axes as keyframes: one line for all that are at the same time.
 
-What a line says of stopping and holding it says for all of its axes. So a hold stands in a line only where all of them
-hold as long; a longer or shorter one is written as a second stop at its end. A key that is passed through and meets
-another axis's stop moves on by a hundredth of a second, along the recording.
+A stop or a hold in a line applies to all of its axes. So a line has a hold only where all of them hold as long; a
+longer or shorter one is written as a second stop at its end. A key that is passed through and meets another axis's stop
+moves on by a hundredth of a second, along the recording.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ BRIEF = 5  # places: a rest at the very end that is shorter is not worth a hold
 
 
 class AxisKey(NamedTuple):
-    """One axis at a place of the grid: units, and for how many places it stands there; None: it is passed through."""
+    """One axis at a place of the grid: units, and for how many places it holds; None: it is passed through."""
 
     place: int
     position: float
@@ -35,7 +35,7 @@ class MergedKey:
     hold: int = 0
 
 
-def frames(keys: Mapping[Axis, Sequence[AxisKey]], references: Mapping[Axis, Reference]) -> Sequence[MergedKey]:
+def merge_keys(keys: Mapping[Axis, Sequence[AxisKey]], references: Mapping[Axis, Reference]) -> Sequence[MergedKey]:
     """The keyframes, rising in time. An axis's first and last key stop by themselves, and the last may hold at will."""
     ends = {axis: (of_axis[0].place, of_axis[-1].place) for axis, of_axis in keys.items()}
     rests: Rests = {}
@@ -76,9 +76,9 @@ def _common_holds(rests: Rests, last: Mapping[Axis, int]) -> Mapping[int, int]:
     final = max(rests)
     holds = {}
     for place, of_place in rests.items():
-        wished = [key.hold or 0 for axis, key in of_place.items() if place != last[axis]]
+        asked = [key.hold or 0 for axis, key in of_place.items() if place != last[axis]]
         at_end = max((key.hold or 0 for key in of_place.values()), default=0) if place == final else 0
-        holds[place] = wished[0] if wished else at_end if at_end > BRIEF else 0
+        holds[place] = asked[0] if asked else at_end if at_end > BRIEF else 0
     return holds
 
 

@@ -1,7 +1,7 @@
-"""What keyframes are fitted to: where an axis was at every hundredth of a second, and where it stood still.
+"""What keyframes are fitted to: where an axis was at every hundredth of a second, and where it rested.
 
 Rests are found in what was commanded, where they are exact, also when the fit is to what was measured, which never
-quite stands still.
+quite rests.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def references(take: Take, speed: float = 1.0, *, measured: bool = False) -> Map
         raise UnplayableError([f"{take.path}: is empty: the run ended before its first tick"])
     silent = [axis.value for axis in take.axes if not take.measured.get(axis, np.empty((2, 0))).size]
     if measured and silent:
-        raise UnplayableError([f"{take.path}: nothing was measured of {', '.join(silent)}"])
+        raise UnplayableError([f"{take.path}: {', '.join(silent)} was never measured; leave out --measured"])
     limits = {axis: of_axis.scaled(GENTLER) for axis, of_axis in take.about.limits.items()}
     move = recorded_move(take, limits)
     places = int(np.ceil(move.duration / speed * GRID - 1e-6)) + 1

@@ -1,4 +1,4 @@
-"""Where a recorded axis stands still, and where it moves at one speed: what people would make keyframes of.
+"""Where a recorded axis rests, and where it moves at one speed: what people would make keyframes of.
 
 A momentary stop is the instant at which neither speed nor acceleration is left; where an axis only turns back, its
 acceleration is at its greatest. Axes that come to rest together do so within a few places of each other, as a move
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from teleop.core.axes import Axis
 from teleop.planner.polynomial import Array
 
-STILL = 1e-6  # unit/s, unit/s2
+AT_REST = 1e-6  # unit/s, unit/s2
 SLOW, GENTLE = 0.02, 0.1  # of the greatest speed and acceleration within a second around: what is left at a stop
 AROUND = 100  # places: that second
 APART = 15  # places between a momentary stop and another rest
@@ -34,7 +34,7 @@ class Span(NamedTuple):
 def rests(velocity: Array, acceleration: Array) -> Sequence[Span]:
     """All rests of an axis, rising; the first and the last place of the grid are taken for rests in any case."""
     last = len(velocity) - 1
-    found = [*_spans((np.abs(velocity) < STILL) & (np.abs(acceleration) < STILL))]
+    found = [*_spans((np.abs(velocity) < AT_REST) & (np.abs(acceleration) < AT_REST))]
     found += [Span(end, end) for end in sorted({0, last}) if not any(rest.begin <= end <= rest.end for rest in found)]
     for place in _momentary(velocity, acceleration):
         if not any(rest.begin - APART <= place <= rest.end + APART for rest in found):

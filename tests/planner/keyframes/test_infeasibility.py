@@ -88,9 +88,11 @@ def test_only_the_segment_in_the_way_is_blamed():
 
 def test_the_text_says_it_all():
     finding = Finding(PAN, "key 3", "key 4", "jerk", 2.031, 0.854, 1.022)
-    assert str(finding) == "pan, key 3 to key 4: jerk 2.03 x its limit in 0.854 s; 1.022 s would do"
+    assert str(finding) == (
+        "pan needs 1.022 s from key 3 to key 4, not 0.854 s (jerk would be 2.03 x its limit); or `fit: stretch`"
+    )
     beyond = Finding(TILT, "key 2", "key 2", "maximum", 1.5)
-    assert str(beyond) == "tilt, key 2: 1.5 beyond the soft limit (maximum)"
+    assert str(beyond) == "tilt is 1.5 deg above its maximum at key 2"
     assert "\n" not in str(Infeasible([finding, beyond]))
 
 

@@ -82,7 +82,7 @@ def test_overshoot_that_cannot_be_avoided_is_reported_with_its_size():
     if overshoot.first == "key 2":
         assert overshoot.size == pytest.approx(move.sample(times)[PAN][0].max() - 40.1, abs=1e-4)
     assert "overshoots by" in str(overshoot)
-    assert str(overshoot).startswith("pan, key ")
+    assert str(overshoot).startswith("pan overshoots by ")
 
 
 def test_a_hold_holds_exactly():

@@ -53,7 +53,7 @@ def test_a_ramp_shorter_than_the_limits_allow_is_as_short_as_they_do_and_said():
     move = plan({PAN: [Key(0, 0, leave=Ramp(0.05), where="key 1"), Key(4, 120, where="key 2")]}, LIMITS)
     assert [(ramp.last, ramp.asked) for ramp in move.long_ramps] == [("key 1", 0.05), ("key 2", 0.05)]
     taken = move.long_ramps[0].taken
-    assert str(move.long_ramps[0]) == f"pan, key 1: a ramp of {taken:.2f} s, not 0.05 s, to keep its limits"
+    assert str(move.long_ramps[0]) == f"pan needs a ramp of {taken:.2f} s at key 1, not 0.05 s"
     assert speeds(move, taken)[0] == pytest.approx(120 / (4 - taken), rel=0.05)
     assert speeds(move, taken / 2)[0] < 0.7 * speeds(move, taken)[0]
 
@@ -73,8 +73,8 @@ def test_ramps_that_do_not_fit_are_refused_all_at_once():
     with pytest.raises(Infeasible) as refusal:
         plan({PAN: keys}, LIMITS)
     assert [str(finding) for finding in refusal.value.findings] == [
-        "pan, key 1 to key 2: ramps of 3 s and 2 s do not fit into 4.000 s",
-        "pan, key 2 to key 3: ramps of 5 s and 5 s do not fit into 4.000 s",
+        "pan needs 5.000 s for its ramps (3 s + 2 s) from key 1 to key 2, not 4.000 s; or a shorter `ease`",
+        "pan needs 10.000 s for its ramps (5 s + 5 s) from key 2 to key 3, not 4.000 s; or a shorter `ease`",
     ]
     with pytest.raises(Infeasible):
         stretch({PAN: keys}, LIMITS)
@@ -135,5 +135,5 @@ def test_an_axis_that_the_solver_finds_no_way_for_is_refused_and_never_left_out(
     ]
     tilt = [Key(0, 0), Key(4, 10)]
     wide = Limits(-180, 180, 120, 240, 1200)
-    with pytest.raises(Infeasible, match=r"pan, key 1 to key 3: no plan was found; give it a longer ease"):
+    with pytest.raises(Infeasible, match=r"pan: no plan found from key 1 to key 3; use a longer `ease`"):
         plan({PAN: keys, Axis.TILT: tilt}, {PAN: wide, Axis.TILT: wide})

@@ -146,9 +146,9 @@ def test_a_cut_take_is_fitted_as_far_as_it_goes_and_stops(tmp_path: Path) -> Non
     [
         (
             Limits(-180, 180, 9, 240, 1200),
-            "pan gets 10.3 ahead of 95% of its velocity, which is all that a sequence may use: try --speed 55%",
+            "a sequence may use 95% of its velocity limit and would be 10.3 behind; use --speed 55%",
         ),
-        (Limits(-180, 180, 120, 7, 40), "keyframes cannot follow it"),
+        (Limits(-180, 180, 120, 7, 40), "keyframes cannot follow the take"),
     ],
 )
 def test_what_a_sequence_may_not_do_is_refused_with_when_and_what_would_help(
@@ -159,7 +159,7 @@ def test_what_a_sequence_may_not_do_is_refused_with_when_and_what_would_help(
     with pytest.raises(UnplayableError) as refusal:
         keyframes(read_take(path), 0.2)
     assert said in refusal.value.problems[0]
-    assert "try " in refusal.value.problems[0]
+    assert "use " in refusal.value.problems[0]
 
 
 def test_a_take_that_is_too_fast_for_a_sequence_is_fitted_at_the_speed_it_was_told(tmp_path: Path) -> None:
@@ -188,7 +188,7 @@ def test_the_command_writes_a_file_that_check_accepts_and_says_how_far_off_it_is
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        (["-o", "n.yaml"], "teleop: -o n.yaml: is there already; --overwrite writes over it\n"),
+        (["-o", "n.yaml"], "teleop: -o n.yaml: is there already; --overwrite replaces it\n"),
         (["-o", "n.txt"], "teleop: -o n.txt: its ending must be .yaml or .yml\n"),
         (["-o", "m.yaml", "--tolerance", "0"], "teleop: --tolerance 0: must be more than 0 degrees\n"),
         (["-o", "m.yaml", "--speed", "fast"], "--speed fast: must be a percentage above 0, as in 50%\n"),

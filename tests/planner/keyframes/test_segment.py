@@ -1,0 +1,49 @@
+"""Segments: their parts, windows, stretches, and the cuts where ramps end."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from teleop.planner.keyframes.segment import Segment
+
+SEGMENT = Segment(np.array([0.0, 2, 5, 9]), np.array([0.0, 10, 30, 20]), (1.0, 2.0))
+
+
+def test_stretching_an_interval_moves_the_later_keys_and_no_duration_but_its_own() -> None:
+    longer = SEGMENT.stretched(1, 4.0)
+    assert longer.durations.tolist() == [2, 4, 4]
+    assert longer.steps.tolist() == SEGMENT.steps.tolist()
+
+
+def test_a_part_has_as_much_of_the_ramps_as_there_is_time_for() -> None:
+    part = SEGMENT.part(0, 1)
+    assert part.ramps == (1.0, 1.0)
+    assert part.times.tolist() == [0, 2]
+
+
+def test_a_window_moves_at_its_ends_and_has_no_ramps() -> None:
+    states = np.arange(8.0).reshape(4, 2)
+    window = SEGMENT.window(1, 3, states)
+    assert window.ends.tolist() == [[2, 3], [6, 7]]
+    assert window.ramps is None
+
+
+def test_it_is_cut_where_its_ramps_end() -> None:
+    durations, intervals, ramps = SEGMENT.cuts()
+    assert durations.tolist() == [1, 1, 3, 2, 2]
+    assert intervals.tolist() == [0, 0, 1, 2, 2]
+    assert ramps.tolist() == [1, 0, 0, 0, 2]
+
+
+def test_a_ramp_that_ends_on_a_key_makes_no_cut() -> None:
+    segment = Segment(SEGMENT.times, SEGMENT.positions, (2.0 + 1e-9, 4.0))
+    durations, _, ramps = segment.cuts()
+    assert durations.tolist() == [2, 3, 4]
+    assert ramps.tolist() == pytest.approx([2, 0, 4])
+
+
+def test_without_ramps_there_are_no_cuts() -> None:
+    durations, _, ramps = Segment(SEGMENT.times, SEGMENT.positions).cuts()
+    assert durations.tolist() == [2, 3, 4]
+    assert np.isinf(ramps).all()
