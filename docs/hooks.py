@@ -1,8 +1,9 @@
-"""Makes the pages that the code or another folder already has: reference, profiles, sequences, changelog."""
+"""Makes the pages that the code or another folder already has: reference, examples, changelog."""
 
 from __future__ import annotations
 
 import json
+import posixpath
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -10,20 +11,17 @@ from typing import Any
 
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
 
 ROOT = Path(__file__).parents[1]
-INCLUDED = {
-    "how-to/profiles.md": "profiles/README.md",
-    "how-to/sequences.md": "sequences/README.md",
-    "changelog.md": "CHANGELOG.md",
-}
-"""Pages that are kept elsewhere in the repository, by the path that they have on the site."""
+LINK = re.compile(r"\[([^\]]+)\]\((?!https?://|#)([^)]+)\)")
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add the generated pages. Raises what the program raises: a page that cannot be made fails the build."""
-    pages = {path: _moved(ROOT / source) for path, source in INCLUDED.items()}
-    pages |= {
+    pages = {
+        "changelog.md": _without_links((ROOT / "CHANGELOG.md").read_text(encoding="utf-8")),
+        "how-to/examples.md": examples(),
         "reference/commands.md": commands(),
         "reference/keys.md": keys(),
         "reference/files.md": schemas(),
@@ -33,25 +31,28 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     return files
 
 
-def _moved(source: Path) -> str:
-    """A page of the repository with its links to files that are not on the site taken out."""
-    text = re.sub(r"\[([^\]]+)\]\((?!https?://|#)[^)]*?([\w-]+\.md)?(#[\w-]+)?\)", _link, source.read_text())
-    return _fences_without_marks(text)
+def _without_links(text: str) -> str:
+    """Links to files of the repository become plain text: the site does not have these files."""
+    return LINK.sub(r"\1", text)
 
 
-def _link(found: re.Match[str]) -> str:
-    known = {"README.md": "", "protocol-facts.md": "../protocol-facts.md"}
-    page = found[2] or ""
-    return f"[{found[1]}]({known[page]})" if known.get(page) else found[1]
+def examples() -> str:
+    """The list of examples/, then every program."""
+    folder = ROOT / "examples"
+    programs = sorted(folder.glob("*.py"))
+    text = (folder / "README.md").read_text(encoding="utf-8").replace("(../docs/", "(../")
+    for program in programs:
+        text = text.replace(f"({program.name})", f"(#{program.name.replace('.', '')})")
+    text = LINK.sub(lambda link: link[0] if link[2].endswith(".md") else link[1], text)
+    parts = [f"## {each.name}\n\n```python\n{each.read_text(encoding='utf-8')}```\n" for each in programs]
+    return "\n".join([text, *parts])
 
 
-def on_page_markdown(markdown: str, **_: Any) -> str:
-    return _fences_without_marks(markdown)
-
-
-def _fences_without_marks(text: str) -> str:
-    """What tests/docs reads behind a block's language is not for the reader."""
-    return re.sub(r"^```(\w+) [^\n]*$", r"```\1", text, flags=re.MULTILINE)
+def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
+    """Take out the marks behind a block's language, which are for tests/docs; lead links to examples/ to their page."""
+    examples_page = posixpath.relpath("how-to/examples.md", posixpath.dirname(page.file.src_uri))
+    markdown = re.sub(r"\((?:\.\./)+examples/README\.md\)", f"({examples_page})", markdown)
+    return re.sub(r"^```(\w+) [^\n]*$", r"```\1", markdown, flags=re.MULTILINE)
 
 
 def commands() -> str:
