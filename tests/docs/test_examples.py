@@ -23,7 +23,7 @@ from teleop.config.profile import load_profile
 from teleop.config.resources import folder
 
 ROOT = Path(__file__).parents[2]
-FILES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("*/README.md")]
+FILES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("[!.]*/README.md")]
 PAGES = {str(page.relative_to(ROOT)): page.read_text(encoding="utf-8") for page in sorted(FILES)}
 NOT_RUN = re.compile(r"<!-- no-run: \S.*?-->\n\n(?: {4}.*\n)+")
 FENCE = re.compile(r"^```(\w*)([^\n]*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
