@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import posixpath
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -94,28 +94,47 @@ def _block(text: str) -> list[str]:
 
 
 def keys() -> str:
-    """The keys of the terminal, from the keymaps."""
+    """The keys of the terminal, from the keymaps. Raises KeyError for a key's command that has no words below."""
+    from teleop.core.operator_input import Command, Press
     from teleop.inputs.keymaps import HELP
-    from teleop.inputs.playback_keymap import KEYS
+    from teleop.inputs.playback_keymap import KEYS, TRIM_KEYS
 
-    rows = [f"| {_cell(key)} | {_cell(what)} |" for key, what in HELP]
-    names: dict[str, list[str]] = {}
-    for key, press in KEYS.items():
-        if not key.startswith("\x1b["):
-            command = getattr(press, "command", None)
-            names.setdefault(str(command), []).append(_key(key))
-    played = [f"| {_cell('  '.join(dict.fromkeys(each)))} | {what} |" for what, each in names.items()]
-    head = ["| key | what it does |", "|---|---|"]
-    return "\n".join(["# Keys", "", "## teleop live", "", *head, *rows, "", "## teleop play", "", *head, *played, ""])
+    words = {
+        Command.STOP: "STOP all axes (motors stay on)",
+        Command.CLEAR: "clear STOP",
+        Command.PAUSE: "pause on the path, then continue",
+        Command.SLOWER: "slower",
+        Command.FASTER: "faster",
+        Command.NEXT: "next key, while paused",
+        Command.PREVIOUS: "previous key, while paused",
+        Command.GO: "start a move that waits; continue after a STOP",
+        Command.QUIT: "quit",
+        Command.RANGE: "next speed range of the trim",
+        Command.RECENTER: "take the trim back to 0",
+        Command.KEEP: "write the sequence with the trim in its keys",
+    }
+
+    def rows(keymap: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+        of: dict[Command, list[str]] = {}
+        for key, press in keymap.items():
+            if isinstance(press, Press) and not key.startswith("\x1b"):
+                of.setdefault(press.command, []).append(KEY_NAMES.get(key, key))
+        return ((" ".join(dict.fromkeys(names)), words[command]) for command, names in of.items())
+
+    trim = {key: press for key, press in TRIM_KEYS.items() if key not in KEYS}
+    parts = ["# Keys", "", "## teleop live", "", *_key_table(HELP)]
+    parts += ["## teleop play", "", *_key_table(rows(KEYS)), "The arrows right and left are `>` and `<`.", ""]
+    parts += ["## teleop play --trim", "", "These, and the keys of `teleop live` that move an axis.", ""]
+    return "\n".join([*parts, *_key_table(rows(trim))])
 
 
-def _key(key: str) -> str:
-    return {" ": "space", "\n": "Enter", "\r": "Enter", "\x1bOC": "right arrow", "\x1bOD": "left arrow"}.get(key, key)
+KEY_NAMES = {" ": "space", "\n": "Enter", "\r": "Enter"}
 
 
-def _cell(text: str) -> str:
-    escaped = text.replace("|", "\\|")
-    return f"`{escaped}`" if not re.search(r"\s\S.*\s", text) and "`" not in text else escaped
+def _key_table(rows: Iterable[tuple[str, str]]) -> Iterator[str]:
+    yield from ("| key | what it does |", "|---|---|")
+    yield from (f"| `{key}` | {what} |" for key, what in rows)
+    yield ""
 
 
 def schemas() -> str:
