@@ -52,7 +52,21 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
     """Take out the marks behind a block's language, which are for tests/docs; lead links to examples/ to their page."""
     examples_page = posixpath.relpath("how-to/examples.md", posixpath.dirname(page.file.src_uri))
     markdown = re.sub(r"\((?:\.\./)+examples/README\.md\)", f"({examples_page})", markdown)
+    if page.file.src_uri == "reference/api.md":
+        markdown = with_public_classes(markdown)
     return re.sub(r"^```(\w+) [^\n]*$", r"```\1", markdown, flags=re.MULTILINE)
+
+
+def with_public_classes(markdown: str) -> str:
+    """The API's page with an entry for each public class and error, in the order Rig, Move, then by name."""
+    import teleop
+
+    classes = {name: value for name in teleop.__all__ if isinstance(value := getattr(teleop, name), type)}
+    names = sorted(classes, key=lambda name: (name != "Rig", name != "Move", name != "TeleopError", name))
+    for mark, of_errors in (("<!-- classes -->", False), ("<!-- errors -->", True)):
+        chosen = [name for name in names if issubclass(classes[name], Exception) is of_errors]
+        markdown = markdown.replace(mark, "\n".join(f"::: teleop.{name}\n" for name in chosen))
+    return markdown
 
 
 def commands() -> str:

@@ -75,12 +75,10 @@ class Move:
 
     @property
     def title(self) -> str:
-        """The title of the sequence, or the name of its file."""
         return self.compiled.title
 
     @property
     def axes(self) -> tuple[Axis, ...]:
-        """The axes that the move has keys for; each is equal to its name, as in `"pan"`."""
         return tuple(self.compiled.move.tracks)
 
     @property
@@ -128,11 +126,8 @@ class AxisReport:
     """How far the readings of one axis were from what was commanded at their time, in units."""
 
     readings: int
-    """Number of readings that were compared."""
     rms: float
-    """Root mean square of the error, in degrees; focus 0..1."""
     peak: float
-    """Largest error, in degrees; focus 0..1."""
 
 
 @dataclass(frozen=True)
@@ -140,15 +135,10 @@ class Report:
     """How a run went. `ok` is True when it reached its end; else `reason` says what ended it."""
 
     ok: bool
-    """Whether the run reached its end."""
     reason: str
-    """What ended the run early, on one line; "" when it reached its end."""
     seconds: float
-    """Length of the move that was played, in s, without the way to its first keyframe."""
     axes: Mapping[str, AxisReport]
-    """The errors of each axis of the move, by its name."""
     take: Path | None = None
-    """The file that the run was recorded to, None when it was not recorded."""
 
 
 def plan(sequence: Source, rig: str | Path = "sim") -> Move:
@@ -206,12 +196,10 @@ class Rig:
 
     @property
     def name(self) -> str:
-        """The name of the rig, from its profile."""
         return self._session.profile.name
 
     @property
     def axes(self) -> tuple[Axis, ...]:
-        """The axes of the rig; each is equal to its name, as in `"pan"`."""
         return tuple(self._session.axes)
 
     @property
