@@ -161,9 +161,22 @@ def schemas() -> str:
         parts += [f"## {kind}", "", *_table(whole)]
         for name, inner in whole.get("$defs", {}).items():
             if inner.get("properties"):
-                parts += [f"### {kind}: {name}", "", *([inner["description"], ""] if "description" in inner else [])]
+                parts += [f"### {_place(name, whole)} of a {kind}", "", *filter(None, [inner.get("description")]), ""]
                 parts += _table(inner)
     return "\n".join(parts)
+
+
+def _place(name: str, whole: Mapping[str, Any]) -> str:
+    """Where a part of a schema is used: the keys that have it as their value."""
+    sections = (whole, *whole["$defs"].values())
+    keys = [
+        key
+        for each in sections
+        for key, value in each.get("properties", {}).items()
+        if f'/{name}"' in json.dumps(value)
+    ]
+    kind = whole["$defs"][name]["properties"].get("type", {}).get("const")
+    return ", ".join(f"`{key}`" for key in dict.fromkeys(keys)) + (f" with `type: {kind}`" if kind else "")
 
 
 def _table(section: Mapping[str, Any]) -> Iterator[str]:
