@@ -53,19 +53,22 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
     examples_page = posixpath.relpath("how-to/examples.md", posixpath.dirname(page.file.src_uri))
     markdown = re.sub(r"\((?:\.\./)+examples/README\.md\)", f"({examples_page})", markdown)
     if page.file.src_uri == "reference/api.md":
-        markdown = with_public_classes(markdown)
+        markdown = with_public_names(markdown)
     return re.sub(r"^```(\w+) [^\n]*$", r"```\1", markdown, flags=re.MULTILINE)
 
 
-def with_public_classes(markdown: str) -> str:
-    """The API's page with an entry for each public class and error, in the order Rig, Move, then by name."""
+def with_public_names(markdown: str) -> str:
+    """The API's page with an entry for each public function, class and error; Rig and Move are the first classes."""
     import teleop
 
-    classes = {name: value for name in teleop.__all__ if isinstance(value := getattr(teleop, name), type)}
-    names = sorted(classes, key=lambda name: (name != "Rig", name != "Move", name != "TeleopError", name))
-    for mark, of_errors in (("<!-- classes -->", False), ("<!-- errors -->", True)):
-        chosen = [name for name in names if issubclass(classes[name], Exception) is of_errors]
-        markdown = markdown.replace(mark, "\n".join(f"::: teleop.{name}\n" for name in chosen))
+    kinds: dict[str, list[str]] = {"functions": [], "classes": [], "errors": []}
+    for name in sorted(teleop.__all__, key=lambda name: (name != "Rig", name != "Move", name != "TeleopError", name)):
+        value = getattr(teleop, name)
+        kind = "functions" if not isinstance(value, type) else "errors" if issubclass(value, Exception) else "classes"
+        kinds[kind].append(name)
+    for kind, names in kinds.items():
+        entries = [f"::: teleop.{name}\n    options: {{heading_level: 3}}\n" for name in names]
+        markdown = markdown.replace(f"<!-- {kind} -->", "\n".join(entries))
     return markdown
 
 

@@ -1,11 +1,12 @@
 """The site, as built: it loads nothing from elsewhere, and its reference has every public name, command and key."""
 
-import inspect
 import re
 import subprocess
 import sys
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
+from types import FunctionType
 
 import pytest
 
@@ -54,10 +55,21 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def text_of(page: Path) -> str:
-    return re.sub(r"<[^>]+>", "", page.read_text(encoding="utf-8"))
+    """What a reader sees of a page."""
+    return unescape(re.sub(r"<[^>]+>", "", page.read_text(encoding="utf-8")))
 
 
-def test_it_has_all_it_should_and_loads_nothing_from_elsewhere(site: Path) -> None:
+def words(text: str) -> str:
+    """Only letters and digits, a space between: the same in a docstring and on a page."""
+    return " ".join(re.findall(r"\w+", text))
+
+
+def first(docstring: str | None) -> str:
+    """The words of a docstring's first paragraph."""
+    return words((docstring or "").partition("\n\n")[0])
+
+
+def test_a_page_loads_nothing_from_elsewhere(site: Path) -> None:
     pages = list(site.rglob("*.html"))
     assert len(pages) > 18
     for page in pages:
@@ -65,22 +77,32 @@ def test_it_has_all_it_should_and_loads_nothing_from_elsewhere(site: Path) -> No
     for sheet in site.rglob("*.css"):
         assert re.findall(r"(?:@import|url\()\s*[\"']?(?:https?:)?//[^)\"']*", sheet.read_text(encoding="utf-8")) == []
 
-    api = Loaded((site / "reference/api.html").read_text(encoding="utf-8")).ids
-    documented = {name.rpartition("teleop.")[2].removeprefix("api.") for name in api}
-    for name in teleop.__all__:
-        value = getattr(teleop, name)
-        assert name in documented
-        assert inspect.getdoc(value), name
-        if inspect.isclass(value) and not issubclass(value, Exception) and value is not teleop.State:
-            members = [each for each in (*vars(value), *value.__annotations__) if not each.startswith("_")]
-            assert {f"{name}.{each}" for each in members} <= documented
 
+@pytest.mark.parametrize("name", teleop.__all__)
+def test_the_reference_has_each_public_name_with_its_docstring(site: Path, name: str) -> None:
+    page = site / "reference/api.html"
+    documented, described = Loaded(page.read_text(encoding="utf-8")).ids, words(text_of(page))
+    value = getattr(teleop, name)
+    assert f"teleop.{name}" in documented
+    assert first(value.__doc__)
+    assert first(value.__doc__) in described
+    if isinstance(value, type) and not issubclass(value, Exception):
+        own = vars(value)
+        members = [each for each in (*own, *value.__annotations__) if not each.startswith("_")]
+        assert {f"teleop.{name}.{each}" for each in members} <= documented or value is teleop.State
+        described_ones = [own[each] for each in members if isinstance(own.get(each), property | FunctionType)]
+        assert all(first(each.__doc__) in described for each in described_ones)
+
+
+def test_the_reference_has_each_command(site: Path) -> None:
     commands = text_of(site / "reference/commands.html")
     for command in (*COMMANDS, *filter(None, EXAMPLES)):
         assert f"Usage: teleop {command} " in commands, command
 
-    keys = text_of(site / "reference/files.html")
-    for kind in KINDS:
-        whole = schema(kind)
-        for section in (whole, *whole.get("$defs", {}).values()):
-            assert all(key in keys for key in section.get("properties", {}))
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_reference_has_each_key_of_a_file(site: Path, kind: str) -> None:
+    keys = text_of(site / "reference/files.html").split()
+    whole = schema(kind)
+    for section in (whole, *whole.get("$defs", {}).values()):
+        assert set(section.get("properties", {})) <= set(keys)
