@@ -27,21 +27,27 @@ PRINTS = {
 ALLOWED = {"teleop", "numpy"} | sys.stdlib_module_names
 
 
+STALLED = "the computer stalled for"  # how a run ends when the machine gave it no time for 0.25 s
+
+
 def of(path: Path) -> str:
     return path.stem
 
 
+def run(program: Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    """As a user runs it, who has installed `teleop`: the tree is not on the path."""
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    environment["TMPDIR"] = str(folder)
+    return subprocess.run(
+        [sys.executable, program], cwd=folder, env=environment, capture_output=True, text=True, timeout=100
+    )
+
+
 @pytest.mark.parametrize("program", PROGRAMS, ids=of)
 def test_it_runs_and_prints_what_it_shows(program: Path, tmp_path: Path) -> None:
-    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    ran = subprocess.run(
-        [sys.executable, program],
-        cwd=tmp_path,
-        env={**environment, "TMPDIR": str(tmp_path)},
-        capture_output=True,
-        text=True,
-        timeout=100,
-    )
+    ran = run(program, tmp_path)
+    while STALLED in ran.stderr:  # by a busy machine, in the one program that runs in real time
+        ran = run(program, tmp_path)
     assert ran.returncode == 0, ran.stderr
     assert ran.stderr == ""
     assert re.search(PRINTS[program.stem], ran.stdout, re.DOTALL), ran.stdout
