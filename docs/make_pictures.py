@@ -41,7 +41,7 @@ LONGEST = 60  # s for a text to appear
 TELEOP = [sys.executable, "-c", "import sys; from teleop.cli import main; main(sys.argv[1:])"]
 SCREENS: dict[str, tuple[list[str], Keys, str]] = {
     "check": (["check", "reveal"], (), r"Cues: "),
-    "play": (["play", "reveal"], (), r"[89]\.\d / 15\.0 s"),
+    "play": (["play", "reveal"], (), r"[5-9]\.\d / 15\.0 s"),
     "live": (["live"], (("arrows jog", "L"), (r"pan .* \+10\.00 ", "K"), (r"tilt .* \+10\.00 ", "s1")), "presets +1"),
 }
 """By picture: the command, what is typed, and the text that it has when the picture is taken."""
@@ -50,14 +50,19 @@ SCREENS: dict[str, tuple[list[str], Keys, str]] = {
 def main(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, (command, keys, until) in SCREENS.items():
-        with tempfile.TemporaryDirectory() as place:
-            screen = run(command, keys, until, Path(place))
+        screen = None
+        while screen is None:
+            with tempfile.TemporaryDirectory() as place:
+                screen = run(command, keys, until, Path(place))
         (folder / f"{name}.svg").write_text(drawn(screen, " ".join(["teleop", *command])), encoding="utf-8")
     photograph(folder)
 
 
-def run(command: Sequence[str], keys: Keys, until: str, place: Path) -> list[list[Char]]:
-    """The screen of a command, started in the folder `place`, once it shows `until`; then the command is ended."""
+def run(command: Sequence[str], keys: Keys, until: str, place: Path) -> list[list[Char]] | None:
+    """The screen of a command, started in the folder `place`, once it shows `until`; then the command is ended.
+
+    None when the run ended because a busy computer stalled it. Raises TimeoutError when the text does not come.
+    """
     master, slave = os.openpty()
     fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", LINES, COLUMNS, 0, 0))
     environment = {**os.environ, "TERM": "xterm-256color", "XDG_STATE_HOME": str(place)}
@@ -79,6 +84,10 @@ def run(command: Sequence[str], keys: Keys, until: str, place: Path) -> list[lis
             wait_for(text, master, screen, stream)
             os.write(master, typed.encode())
         return [[screen.buffer[line][column] for column in range(COLUMNS)] for line in range(LINES)]
+    except TimeoutError as error:
+        if "the computer stalled" not in str(error):
+            raise
+        return None
     finally:
         process.terminate()
         while read(master):
