@@ -1,7 +1,12 @@
-"""Every example of README.md and docs/ does what its page says: Python blocks and `teleop` commands, page by page.
+"""Every example of every page does what its page says: Python, YAML and shell blocks, page by page.
 
-A fenced block with `file=NAME` is a file that the commands of its page use. What needs hardware, a hand or an
-installation has `<!-- no-run: reason -->` above it.
+Behind the language of a fenced block, for these tests only (the site does not show it):
+
+- `file=NAME`: the commands of the page find the block in this file.
+- `sequence`, `pad`, `rig`: YAML of that kind, checked as one.
+- `rig=NAME`: keys that replace those of a shipped profile.
+
+What needs hardware, an operator or an installation has `<!-- no-run: reason -->` above it.
 """
 
 import os
@@ -14,24 +19,42 @@ import pytest
 import yaml
 
 from teleop.config.inputs_section import PadSection
+from teleop.config.profile import load_profile
+from teleop.config.resources import folder
 
 ROOT = Path(__file__).parents[2]
-PAGES = {str(page.relative_to(ROOT)): page for page in [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]}
+FILES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("[!.]*/README.md")]
+PAGES = {str(page.relative_to(ROOT)): page.read_text(encoding="utf-8") for page in sorted(FILES)}
 NOT_RUN = re.compile(r"<!-- no-run: \S.*?-->\n\n(?: {4}.*\n)+")
-FENCE = re.compile(r"^```(\w+)([^\n]*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-DOCS = [page for page in PAGES if page != "README.md"]  # .ci/run types the README's commands, in real time
+FENCE = re.compile(r"^```(\w*)([^\n]*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 def blocks(page: str) -> list[tuple[str, str, str]]:
-    """Each fenced block: its language, what follows on that line, and its text."""
-    return FENCE.findall(PAGES[page].read_text(encoding="utf-8"))
+    """Each fenced block: its language, the mark behind it, and its text."""
+    return [(language, mark.strip(), text) for language, mark, text in FENCE.findall(PAGES[page])]
 
 
-def commands(page: str) -> list[str]:
-    """The `teleop` lines of a page's indented and shell blocks that are to be run, in order."""
-    text = NOT_RUN.sub("", PAGES[page].read_text(encoding="utf-8"))
-    shell = "".join(body for language, _, body in FENCE.findall(text) if language == "shell")
-    return re.findall(r"^(?: {4,8})?(teleop \S.*)$", FENCE.sub("", text) + shell, re.MULTILINE)
+def shell_lines(page: str) -> list[str]:
+    """The lines that a reader types, in order: those of indented and shell blocks that are to be run."""
+    text = NOT_RUN.sub("", PAGES[page])
+    fenced = "".join(body for language, _, body in FENCE.findall(text) if language == "shell")
+    indented = re.findall(r"^ {4,8}(\S.*)$", _without_lists(FENCE.sub("", text)), re.MULTILINE)
+    return [*indented, *fenced.splitlines()]
+
+
+def _without_lists(text: str) -> str:
+    """Text without the continuation lines of list entries: a block of commands follows an empty line or a heading."""
+    kept: list[str] = []
+    inside = False
+    for line in text.splitlines():
+        indented = line.startswith("    ")
+        inside = indented and (inside or not kept or not kept[-1].strip() or kept[-1].startswith("#"))
+        kept.append(line if inside or not indented else line.lstrip())
+    return "\n".join(kept)
+
+
+def having(language: str, mark: str = "") -> list[str]:
+    return [page for page in PAGES if any(each[0] == language and mark in each[1] for each in blocks(page))]
 
 
 def python(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
@@ -42,11 +65,13 @@ def python(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
 
 
 def teleop(line: str, cwd: Path) -> subprocess.CompletedProcess[str]:
-    words = line.partition("#")[0].split()[1:]
-    return python("-c", "import sys; from teleop.cli import main; main(sys.argv[1:])", *words, cwd=cwd)
+    """Run a command; what it plays on a simulated rig takes simulated time."""
+    words = line.partition(" #")[0].split()[1:]
+    fast = ["--fast"] if words[0] == "play" and "--fast" not in words else []
+    return python("-c", "import sys; from teleop.cli import main; main(sys.argv[1:])", *words, *fast, cwd=cwd)
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if any(each[0] == "python" for each in blocks(page))])
+@pytest.mark.parametrize("page", having("python"))
 def test_python(page: str, tmp_path: Path) -> None:
     for language, _, text in blocks(page):
         if language == "python":
@@ -54,31 +79,54 @@ def test_python(page: str, tmp_path: Path) -> None:
             assert ran.returncode == 0, ran.stderr
 
 
-@pytest.mark.parametrize("page", [page for page in DOCS if commands(page)])
+@pytest.mark.parametrize("page", [page for page in PAGES if shell_lines(page)])
 def test_commands(page: str, tmp_path: Path) -> None:
-    for _, marks, text in blocks(page):
-        if name := re.search(r"file=(\S+)", marks):
+    for _, mark, text in blocks(page):
+        if name := re.search(r"file=(\S+)", mark):
             (tmp_path / name[1]).write_text(text, encoding="utf-8")
-    for line in commands(page):
+    for line in shell_lines(page):
+        assert line.startswith("teleop "), f"{line}: what is not a teleop command needs a no-run mark"
         ran = teleop(line, tmp_path)
         assert ran.returncode == 0, f"{line}\n{ran.stderr}"
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if any("sequence" in each[1] for each in blocks(page))])
+@pytest.mark.parametrize("page", having("yaml", "sequence"))
 def test_sequences(page: str, tmp_path: Path) -> None:
-    for _, marks, text in blocks(page):
-        if "sequence" in marks:
+    for _, mark, text in blocks(page):
+        if "sequence" in mark:
             (tmp_path / "example.yaml").write_text(text, encoding="utf-8")
             ran = teleop("teleop check example.yaml", tmp_path)
             assert ran.returncode == 0, ran.stderr
 
 
-def test_pads() -> None:
-    pads = [text for page in PAGES for language, marks, text in blocks(page) if (language, marks) == ("yaml", " pad")]
-    for text in pads:
-        PadSection.model_validate(yaml.safe_load(text))
-    assert pads
+@pytest.mark.parametrize("page", having("yaml", "rig"))
+def test_profiles(page: str, tmp_path: Path) -> None:
+    for _, mark, text in blocks(page):
+        if found := re.fullmatch(r"rig(?:=(\S+))?", mark):
+            rig = yaml.safe_load((folder("profiles") / f"{found[1]}.yaml").read_text()) if found[1] else {}
+            file = tmp_path / "rig.yaml"
+            file.write_text(yaml.safe_dump({**rig, **yaml.safe_load(text)}), encoding="utf-8")
+            assert load_profile(str(file)).limits
 
 
-def test_there_are_commands_to_run() -> None:
-    assert sum(len(commands(page)) for page in DOCS) > 12
+@pytest.mark.parametrize("page", having("yaml", "pad"))
+def test_pads(page: str) -> None:
+    for _, mark, text in blocks(page):
+        if mark == "pad":
+            PadSection.model_validate(yaml.safe_load(text))
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_each_block_is_one_that_is_tried(page: str) -> None:
+    for language, mark, text in blocks(page):
+        assert language in ("python", "yaml", "shell", "csv", "text", ""), text
+        assert language != "yaml" or re.match(r"sequence|pad$|rig", mark), text
+        assert language != "csv" or "file=" in mark, text
+
+
+def test_there_are_examples_of_each_kind() -> None:
+    assert sum(len(shell_lines(page)) for page in PAGES) > 25
+    assert len(having("yaml", "sequence")) > 3
+    assert len(having("yaml", "rig")) > 3
+    assert having("yaml", "pad")
+    assert len(having("python")) > 1
