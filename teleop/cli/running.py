@@ -13,6 +13,7 @@ from teleop.cli.screens.folded import complain, tell
 from teleop.cli.screens.run_view import RunView, error_table
 from teleop.cli.signals import signals_to
 from teleop.core.axes import Axis
+from teleop.core.events import DeviceCommand
 from teleop.core.interfaces import Sink, Source
 from teleop.core.run_state import Result, RunStateMachine
 from teleop.devices.gimbal.commands import CommandSink, Unheard
@@ -97,7 +98,10 @@ def print_take(take: Recorder | None) -> None:
 
 
 def commands(
-    rig: Rig, axes: Sequence[Axis], say: Callable[[str], object], done: Callable[[str], object] = lambda _words: None
+    rig: Rig,
+    axes: Sequence[Axis],
+    say: Callable[[str], object],
+    done: Callable[[DeviceCommand], object] = lambda _command: None,
 ) -> list[Sink]:
     """What gives a gimbal its own commands, where the rig has one, and what watches the links; `say` is for both.
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-from teleop.config.inputs_section import DRONE
+from teleop.config.device_commands import DRONE
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
 from teleop.core.axes import Axis, Limits, Motion
@@ -26,7 +26,7 @@ from teleop.manual.recall import Recall, reachable
 from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
 
 CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)  # what a recentre takes to 0
-FOLLOW = "gimbal follow "
+FOLLOW = "follow "  # begins the name of the gimbal's command
 CENTRED_STICK = PositionTarget(0.0)  # of a drone: nothing moves, but somebody is there
 
 
@@ -75,9 +75,9 @@ class Operator:
             Command.RECENTER: self._recenter,
             Command.RECORD: self._record,
             Command.SHUTTER: lambda _hand, _press: self._actions.append(Action.SHUTTER),
-            Command.TELL: self._tell,
-            Command.ENGAGE: lambda _hand, _press: self._tell_drone("engage"),
-            Command.DISENGAGE: lambda _hand, _press: self._tell_drone("disengage"),
+            Command.TELL: self._send_command,
+            Command.ENGAGE: lambda _hand, _press: self._send_to_drone(DeviceCommand(DRONE, "engage")),
+            Command.DISENGAGE: lambda _hand, _press: self._send_to_drone(DeviceCommand(DRONE, "disengage")),
             Command.QUIT: self._quit,
         }
         self.begin = math.inf  # when the run begins, on the loop's clock
@@ -93,10 +93,10 @@ class Operator:
         """Tell the operator something, now."""
         self._log.say(self._now, text)
 
-    def confirmed(self, words: str) -> None:
-        """The gimbal has done what it was told in these words."""
-        if words.startswith(FOLLOW):
-            self._follow = words.removeprefix(FOLLOW)
+    def confirmed(self, command: DeviceCommand) -> None:
+        """The gimbal has confirmed this command."""
+        if command.device == "gimbal" and command.name.startswith(FOLLOW):
+            self._follow = command.name.removeprefix(FOLLOW)
 
     def camera_answered(self, action: Action, done: bool) -> None:
         """The camera has done this, or it did not: it refused, is silent, or there is none."""
@@ -230,19 +230,21 @@ class Operator:
         self._recording = not self._recording
         self._actions.append(Action.RECORD if self._recording else Action.STOP)
 
-    def _tell_drone(self, word: str) -> None:
-        if word == "engage" and self._stopped:
+    def _send_to_drone(self, command: DeviceCommand) -> None:
+        if command.name == "engage" and self._stopped:
             self.say("drone: not engaged: STOP is not cleared")
         else:
-            self._actions.append(DeviceCommand(f"{DRONE}{word}"))
+            self._actions.append(command)
 
-    def _tell(self, _hand: Interlock, press: Press) -> None:
-        if press.words.startswith(DRONE):
-            self._tell_drone(press.words.removeprefix(DRONE).strip())
+    def _send_command(self, _hand: Interlock, press: Press) -> None:
+        command = press.device_command
+        assert command is not None, "TELL has a command"
+        if command.device == DRONE:
+            self._send_to_drone(command)
         elif self._moving:
-            self.say(f"{press.words} refused: an axis is moving")
+            self.say(f"{command} refused: an axis is moving")
         else:
-            self._actions.append(DeviceCommand(press.words))
+            self._actions.append(command)
 
     def _refuse(self, _hand: Interlock, press: Press) -> None:
         self.say(f"{press.command}: works only while a sequence plays")

@@ -13,6 +13,7 @@ from typing import Any, Literal, NamedTuple
 from pydantic import ConfigDict
 
 from teleop.config.base_model import Section
+from teleop.config.device_commands import parse_command
 from teleop.config.document import Location, Wrong, mapping
 from teleop.config.json_types import Time
 from teleop.core.axes import Axis
@@ -23,11 +24,11 @@ from teleop.dji.gimbal.command_table import find, is_taken_back
 from teleop.dji.message import FieldError, Message
 
 KINDS = ("camera", "follow", "recenter", "send", "wait")
-FOLLOW: Mapping[str, str] = {
-    "lock": "gimbal follow lock",
-    "pan": "gimbal follow yaw",
-    "yaw": "gimbal follow yaw",  # the gimbal's own word for it, and that of `teleop send`
-    "sport": "gimbal follow sport",
+FOLLOW: Mapping[str, DeviceCommand] = {
+    "lock": DeviceCommand("gimbal", "follow lock"),
+    "pan": DeviceCommand("gimbal", "follow yaw"),
+    "yaw": DeviceCommand("gimbal", "follow yaw"),  # the gimbal's own word for it, and that of `teleop send`
+    "sport": DeviceCommand("gimbal", "follow sport"),
 }
 CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)
 """What a recentre takes to 0, and what moves when the gimbal does something by itself."""
@@ -70,8 +71,10 @@ class CueSection(Section):
         """What is done; None where that is motion."""
         if self.camera:
             return Action(self.camera)
-        if self.follow or self.send:
-            return DeviceCommand(FOLLOW[self.follow] if self.follow else " ".join((self.send or "").split()))
+        if self.follow:
+            return FOLLOW[self.follow]
+        if self.send:
+            return parse_command(self.send)
         return Wait() if self.wait else None
 
     @property
@@ -96,8 +99,8 @@ class Cue(NamedTuple):
     def name(self) -> str:
         """For people, in a word or a few."""
         match self.action:
-            case DeviceCommand(words):
-                return words
+            case DeviceCommand():
+                return str(self.action)
             case Wait():
                 return "wait"
             case _:

@@ -294,7 +294,11 @@ def cues_from(cues: Sequence[Cue], start_at: float) -> tuple[list[TickEvent], li
     run-up begins, and the gimbal has been told how to follow.
     """
     before = [cue.action for cue in cues if cue.at < start_at - _INSTANT]
-    follows = [act for act in before if isinstance(act, DeviceCommand) and act.words.startswith("gimbal follow")]
+    follows = [
+        act
+        for act in before
+        if isinstance(act, DeviceCommand) and act.device == "gimbal" and act.name.startswith("follow")
+    ]
     going_on = []
     for on, off in LASTING:
         switches = [act for act in before if act in (on, off)]

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from sky import FLIGHT, VIRTUAL_RC, Sky, sky
 
 from teleop.core.axes import STICKS
+from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command
 from teleop.devices.drone.engagement import Stage
 from teleop.sim.drone.controls import Pilot, Switch
@@ -31,8 +32,8 @@ ACTS: Mapping[str, Callable[[Sky], object]] = {
     "disengage": lambda scene: scene.keys.press(Command.DISENGAGE),
     "forward": lambda scene: scene.pad.hold(**dict.fromkeys(STICKS, 0.8)),
     "centre": lambda scene: scene.pad.hold(**dict.fromkeys(STICKS, 0.0)),
-    "arm": lambda scene: scene.keys.press(Command.TELL, words="drone arm"),
-    "mode": lambda scene: scene.keys.press(Command.TELL, words="drone mode-a"),
+    "arm": lambda scene: scene.keys.press(Command.TELL, device_command=DeviceCommand("drone", "arm")),
+    "mode": lambda scene: scene.keys.press(Command.TELL, device_command=DeviceCommand("drone", "mode-a")),
     "stale": lambda scene: setattr(scene.pad, "trouble", "silent for 0.2 s"),
     "back": lambda scene: setattr(scene.pad, "trouble", ""),
     "stop": lambda scene: scene.keys.press(Command.STOP),

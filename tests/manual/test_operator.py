@@ -614,12 +614,12 @@ def test_quitting_stops_every_axis_and_ends_the_run(desk: Desk) -> None:
 def test_a_device_s_own_command_is_refused_while_anything_moves(desk: Desk) -> None:
     desk.pad.hold(pan=1.0)
     desk.run(0.2)
-    desk.press(Command.TELL, words="gimbal follow lock")
+    desk.press(Command.TELL, device_command=DeviceCommand("gimbal", "follow lock"))
     assert (desk.actions, desk.messages[0]) == ([], "gimbal follow lock refused: an axis is moving")
     desk.pad.hold()
     desk.run(1)
-    desk.press(Command.TELL, words="gimbal follow lock")
-    assert desk.actions == [DeviceCommand("gimbal follow lock")]
+    desk.press(Command.TELL, device_command=DeviceCommand("gimbal", "follow lock"))
+    assert desk.actions == [DeviceCommand("gimbal", "follow lock")]
 
 
 def test_the_dial_is_passed_on_while_it_turns_and_once_as_it_rests(desk: Desk) -> None:

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teleop.core.axes import Axis, Limits, Motion
+from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command
 from teleop.core.setpoints import PositionTarget, Stop, VelocityTarget
 from teleop.core.timing import PERIOD
@@ -41,7 +42,7 @@ def happen(hand: FakeInput, kind: str, what: object) -> None:
             hand.deflections = what
         case "press":
             assert isinstance(what, Command)
-            hand.press(what, 1, "gimbal follow lock")
+            hand.press(what, 1, DeviceCommand("gimbal", "follow lock"))
         case "turn":
             assert isinstance(what, tuple)
             hand.turn(*what)

@@ -33,9 +33,9 @@ LIMITS = {PAN: Limits(-180, 180, 60, 120, 600), TILT: Limits(-50, 50, 40, 90, 48
 KEYS = {PAN: [Key(0, 0), Key(2, 30), Key(4, 60, stop=True), Key(8, -30)], TILT: [Key(0, 0), Key(3, 25), Key(8, -20)]}
 CUES = [
     Cue(0, Action.RECORD),
-    Cue(1, DeviceCommand("gimbal follow lock")),
+    Cue(1, DeviceCommand("gimbal", "follow lock")),
     Cue(1.5, Action.SHUTTER),
-    Cue(6, DeviceCommand("gimbal follow yaw")),
+    Cue(6, DeviceCommand("gimbal", "follow yaw")),
     Cue(8, Action.STOP),
 ]
 DT = 0.01
@@ -172,7 +172,7 @@ def test_after_clear_the_run_goes_on_from_where_it_was_left_and_no_cue_is_lost_o
     left = run.sequence.playback.time(run.now)
     run.press(STOP)
     run.run(4)
-    assert run.acts == [Action.RECORD, DeviceCommand("gimbal follow lock")]
+    assert run.acts == [Action.RECORD, DeviceCommand("gimbal", "follow lock")]
     run.press(CLEAR)
     assert run.guard.note == "STOP cleared. Press p or Enter to continue, q to end."
     rest = dict(run.motion)

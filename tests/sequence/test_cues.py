@@ -31,9 +31,9 @@ def test_each_kind_becomes_what_its_device_is_told(tmp_path: Path) -> None:
     )
     assert performance.cues == [
         Cue(0, Action.FOCUS),
-        Cue(0, DeviceCommand("gimbal follow yaw")),
-        Cue(0, DeviceCommand("gimbal follow yaw")),
-        Cue(4.2, DeviceCommand("gimbal set_stiffness pitch=40 roll=40 yaw=40")),
+        Cue(0, DeviceCommand("gimbal", "follow yaw")),
+        Cue(0, DeviceCommand("gimbal", "follow yaw")),
+        Cue(4.2, DeviceCommand("gimbal", "set_stiffness", ("pitch=40", "roll=40", "yaw=40"))),
     ]
     assert [cue.name for cue in performance.cues[:2]] == ["focus", "gimbal follow yaw"]
 
@@ -58,7 +58,7 @@ def test_each_kind_becomes_what_its_device_is_told(tmp_path: Path) -> None:
         ("at: 0, recenter: now", "6:23: cue 1: recenter must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not 'now'"),
         (
             "at: 0, send: gimbal folow lock",
-            "6:19: cue 1: send cannot be sent: there is no command 'gimbal folow lock', did you mean 'gimbal follow",
+            "6:19: cue 1: send cannot be sent: unknown command gimbal folow lock; did you mean gimbal follow",
         ),
         (
             "at: 0, send: gimbal set_stiffness pitch=140 roll=40 yaw=40",
@@ -99,7 +99,8 @@ def test_what_changes_the_gimbals_ways_needs_a_rest_and_is_told_where_one_is(tmp
         "with `pass: stop` at 5.1 s",
     ]
     for rest in ("0", "4", "4.5", "5", "9", "100"):
-        assert load(tmp_path, cued(f"at: {rest}, follow: lock")).cues[0].action == DeviceCommand("gimbal follow lock")
+        lock = load(tmp_path, cued(f"at: {rest}, follow: lock")).cues[0].action
+        assert lock == DeviceCommand("gimbal", "follow lock")
 
 
 def test_a_wait_needs_rest_and_a_drone_that_hovers(tmp_path: Path) -> None:

@@ -123,12 +123,12 @@ def test_cues_before_a_start_in_mid_move_are_left_out_but_the_camera_is_recordin
 
 
 def test_a_start_in_mid_move_finds_the_gimbal_told_how_to_follow_and_the_camera_focusing():
-    lock, pan = DeviceCommand("gimbal follow lock"), DeviceCommand("gimbal follow yaw")
+    lock, pan = DeviceCommand("gimbal", "follow lock"), DeviceCommand("gimbal", "follow yaw")
     cues = [
         Cue(0, lock),
         Cue(0, Action.FOCUS),
         Cue(1, pan),
-        Cue(1, DeviceCommand("gimbal version")),
+        Cue(1, DeviceCommand("gimbal", "version")),
         Cue(4, Action.END_FOCUS),
     ]
     stage = Stage(THERE, Cycle(preroll=1, start_at=2.5), cues)

@@ -104,7 +104,7 @@ def test_rests_are_holds_or_stops_of_the_same_length(tmp_path: Path) -> None:
 
 def test_actions_of_the_camera_are_cues_and_numbers_are_for_people(tmp_path: Path) -> None:
     keys = {PAN: [Key(0, -1 / 3), Key(5, 100 / 3)]}
-    acts = {100: [Action.RECORD], 333: [Action.SHUTTER, DeviceCommand("gimbal recenter")], 500: [Action.STOP]}
+    acts = {100: [Action.RECORD], 333: [Action.SHUTTER, DeviceCommand("gimbal", "recenter")], 500: [Action.STOP]}
     move = plan(keys, SIM)
     path = write_take(tmp_path / "take.mcap", {PAN: move.tracks[PAN].at}, 5, acts=acts, limits={PAN: SIM[PAN]})
     text = keyframes(read_take(path), 0.2).text
