@@ -65,7 +65,7 @@ def copy(
         with file.open("xb") as target:  # exclusive: never over a file that somebody made meanwhile
             target.write(source.read_bytes())
     except FileExistsError:
-        raise UsageError(f"{file}: is there already; nothing is ever written over") from None
+        raise UsageError(f"{file}: exists already and is not overwritten") from None
     except OSError as error:
         raise DeviceError(f"{file}: cannot be written: {error.strerror or error}") from None
     if as_json:
@@ -117,7 +117,7 @@ def _refuse(file: Path) -> None:
     if file.is_dir():
         raise UsageError(f"{file}: is a folder; name the file too, as in {file / 'mine.yaml'}")
     if file.exists() or file.is_symlink():
-        raise UsageError(f"{file}: is there already; nothing is ever written over")
+        raise UsageError(f"{file}: exists already and is not overwritten")
     if file.suffix.lower() not in (".yaml", ".yml"):
         raise UsageError(f"{file}: a file needs its ending, {file.name}.yaml")
     if not file.parent.is_dir():

@@ -20,14 +20,12 @@ class ShootOptions:
         Parameter(help="A timelapse's move at its clip's speed, no shutter.", negative=(), show_default=False),
     ] = False
     resume: Annotated[
-        bool, Parameter(help="Go on with a timelapse where it was left.", negative=(), show_default=False)
+        bool, Parameter(help="Continue a timelapse where it stopped.", negative=(), show_default=False)
     ] = False
-    restart: Annotated[
-        bool, Parameter(help="Begin a timelapse anew, forgetting where it was left.", negative=(), show_default=False)
-    ] = False
+    restart: Annotated[bool, Parameter(help="Start a timelapse over.", negative=(), show_default=False)] = False
     in_doubt: Annotated[
         Literal["shoot", "skip"],
-        Parameter(help="With --resume, a frame of which nobody can say whether it was shot: shoot it again, or not."),
+        Parameter(help="With --resume: shoot a frame that may be missing again, or skip it."),
     ] = "shoot"
 
     def check(self, file: str, timelapse: bool) -> None:
@@ -35,7 +33,7 @@ class ShootOptions:
         asked = [name for name in ("rehearse", "resume", "restart") if getattr(self, name)]
         in_doubt = ["in-doubt"] if self.in_doubt != NOTHING_ASKED.in_doubt else []
         if not timelapse and (unfit := asked + in_doubt):
-            raise DocumentError([f"--{unfit[0]}: {file} is no timelapse"])
+            raise DocumentError([f"--{unfit[0]}: {file} is not a timelapse"])
         if len(asked) > 1:
             raise DocumentError([f"--{asked[0]} and --{asked[1]} do not go together"])
 

@@ -237,7 +237,7 @@ def _command_error(command: str) -> str:
     try:
         parse_command(command)
     except (ValueError, FieldError) as error:
-        return f"cannot be sent: {error}"
+        return f": {error}"
     return ""
 
 

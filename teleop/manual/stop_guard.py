@@ -274,9 +274,9 @@ class StopGuard:
                 if trouble:
                     continue
             elif trouble:
-                self.say(f"{trouble}: its STOP does not count")
+                self.say(f"{trouble}: its STOP does not work")
             else:
-                self.say(f"{relay.name}: its STOP counts{' again' if before else ''}")
+                self.say(f"{relay.name}: its STOP works{' again' if before else ''}")
             relay.trouble = trouble
         if self._lost and self._hold is Hold.FREE:
             paused = self._source.pause(now) if self._source.pauses else False

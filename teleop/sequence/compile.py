@@ -110,7 +110,7 @@ def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
         if needs_rest and not any(rest.start - SAME <= at <= rest.end + SAME for rest in places):
             yield place.line(f"{path_text(place.location)} {_where_it_may_be(move, places, at)}")
         elif isinstance(action, Wait) and held:
-            text = f"would hold {' and '.join(held)} deflected, and the drone would fly on: let it be 0 by then"
+            text = f"holds {' and '.join(held)} deflected, so the drone keeps flying: bring it to 0 before"
             yield place.line(f"{path_text(place.location)} {text}")
 
 

@@ -121,13 +121,13 @@ def moved_rules(cue: Any, here: Location, moved: Collection[str]) -> Iterator[Wr
     """What is wrong with one cue, which has passed `cue_rules`, in a sequence that moves the axes `moved`."""
     turns = any(axis in moved for axis in CENTRED)
     if mapping(cue).get("recenter") is not None and not turns:
-        yield (*here, "recenter"), "moves pan, tilt and roll, and no keyframe has one of them"
+        yield (*here, "recenter"), "needs a keyframe with pan, tilt or roll"
     words = mapping(cue).get("send")
     message = find(words.split()) if words else None
     if isinstance(message, _BY_ITSELF) and turns:
-        yield (*here, "send"), "would have the gimbal move by itself, against the keyframes"
+        yield (*here, "send"), "moves the gimbal by itself, against the keyframes"
     if isinstance(message, focus.Calibrate) and Axis.FOCUS in moved:
-        yield (*here, "send"), "would have the focus motor move by itself, against the keyframes"
+        yield (*here, "send"), "moves the focus motor by itself, against the keyframes"
 
 
 def _unsendable(words: str) -> str:
@@ -135,11 +135,11 @@ def _unsendable(words: str) -> str:
         message = find(words.split())
         message.check()
     except FieldError as error:
-        return f"cannot be sent: {error}"
+        return f": {error}"
     if isinstance(message, camera.Command | camera.ShortCommand) and message.command in _CAMERA:
         return f"must be written as camera: {_CAMERA[camera.CameraCommand(message.command)].value}"
     if is_taken_back(message):
-        return f"would be taken back by what is streamed: {_instead(message)}"
+        return f"conflicts with the motion of the run: {_instead(message)}"
     return ""
 
 

@@ -64,12 +64,12 @@ def _with_centre(
     last = before[-1] if before else replace(after[0], at=0.0, hold=0.0)
     rested, stops = last.at + last.hold, last.stop or last.hold > 0 or len(before) == 1 or not after
     if rested > at + SAME:
-        raise KeysError(f"is while {last.where} holds {axis} (until {rested:g} s)")
+        raise KeysError(f"begins while {last.where} holds {axis} (until {rested:g} s)")
     if before and after and (not stops or at > rested + SAME) and after[0].position != last.position:
-        rest = f"it rests until {rested:g} s" if stops else f"with pass: stop in {last.where} it would rest there"
-        raise KeysError(f"is while {axis} is on its way to {after[0].where}; {rest}")
+        rest = f"it rests until {rested:g} s" if stops else f"add `pass: stop` to {last.where}"
+        raise KeysError(f"begins while {axis} moves to {after[0].where}; {rest}")
     if after and after[0].at <= at + duration + SAME:
-        raise KeysError(f"must be over before {after[0].where} ({after[0].at:g} s), where {axis} is to be elsewhere")
+        raise KeysError(f"must end before {after[0].where} ({after[0].at:g} s), where {axis} is elsewhere")
     whole = 360.0 * round(last.position / 360) if limits.continuous else 0.0
     start = replace(last, at=at, hold=0.0, stop=True, where=where)
     if before and rested >= at - SAME:

@@ -159,7 +159,7 @@ class Playback:
         here = self._pace.at(now)[0]
         index = bisect_right(self._keys, here + 1e-3) if keys > 0 else bisect_left(self._keys, here - 1e-3) - 1
         if not 0 <= index < len(self._keys):
-            self.refusal = f"there is no keyframe {'after' if keys > 0 else 'before'} this one"
+            self.refusal = f"no key {'after' if keys > 0 else 'before'} this one"
             return
         target = self._keys[index]
         self._ask(lambda pace, start: go_to(self._move, self._limits, pace, target, start), now)
@@ -201,4 +201,4 @@ def fastest(move: Move, limits: Mapping[Axis, Limits]) -> float:
 def allowed(rate: float, most: float) -> None:
     """Raises PlanError when the move cannot be played at `rate`."""
     if not 0 <= rate <= most:
-        raise PlanError(f"the move allows at most {math.floor(100 * most)} % of its speed, not {100 * rate:.0f} %")
+        raise PlanError(f"maximum playback speed: {math.floor(100 * most)} %, not {100 * rate:.0f} %")

@@ -23,10 +23,10 @@ from teleop.sequence.source import SequencePhase, SequenceSource
 PACE = 0.1  # of the written speed, by which a key changes it
 LOOK = 0.05  # s between two looks at the keys while nothing moves
 HINTS = (Hint("space", "STOP"), Hint("p", "pause"), Hint("q", "end"), Hint("- +", "speed"), Hint("< >", "key"))
-WAITING_HINTS = (Hint("enter", "goes on"), Hint("space", "STOP"), Hint("q", "end"))
+WAITING_HINTS = (Hint("enter", "continue"), Hint("space", "STOP"), Hint("q", "end"))
 HELP = "space STOP  p pause  - + speed  < > key  q end"
-WAITING_HELP = "enter goes on  space STOP  q end"
-ARMED_HELP = "enter starts it now  space STOP  q end"
+WAITING_HELP = "enter continue  space STOP  q end"
+ARMED_HELP = "enter start  space STOP  q end"
 TRIM_HELP = "arrows hjkl [ ] ( ) trim  v its speed  z to 0  w write"
 
 
@@ -62,7 +62,7 @@ class PlaybackControls:
         playback = self._sequence.playback
         pace = f"{playback.chosen:.0%}"
         if playback.paused:
-            pace = "paused" if playback.chosen == 1 else f"paused, goes on at {pace}"
+            pace = "paused" if playback.chosen == 1 else f"paused, continues at {pace}"
         line = ARMED_HELP if self._sequence.phase is SequencePhase.ARMED else f"{pace}  {HELP}"
         line = WAITING_HELP if self._sequence.waiting else line
         line = f"{self._sequence.missed}: {line}" if self._sequence.missed else line
@@ -158,11 +158,11 @@ class PlaybackControls:
         elif press.command is Command.GO or (press.command is Command.PAUSE and self._sequence.waiting):
             self._sequence.go()
         elif press.command not in self._asked:
-            self._note = f"{press.command}: not while a sequence is played"
+            self._note = f"{press.command}: not available while a sequence plays"
         elif self._sequence.phase is not SequencePhase.PLAYING:
             self._note = "the move has not begun"
         elif self._sequence.waiting and press.command in (Command.NEXT, Command.PREVIOUS):
-            self._note = f"the move waits for you: {WAITING_HELP}"
+            self._note = f"the move is waiting: {WAITING_HELP}"
         else:
             self._asked[press.command](now)
 
@@ -177,7 +177,7 @@ class PlaybackControls:
             case Command.SLOWER | Command.FASTER if not by_keys:
                 trimming.change_range(1 if press.command is Command.FASTER else -1)
             case Command.KEEP:
-                self._note = self._keep() if self._keep else "there is no --trim-out to write the trim to"
+                self._note = self._keep() if self._keep else "trim not written: give --trim-out"
             case _:
                 return False
         return True
@@ -195,14 +195,14 @@ class PlaybackControls:
     def _trim_note(self, trimming: LiveOffset) -> str:
         said = f"  {trimming.messages[0].text}" if trimming.messages else ""
         if not self._trims:
-            return f"the trim waits until the rig is in place{said}\n{TRIM_HELP}"
+            return f"the trim begins once the rig is at the start{said}\n{TRIM_HELP}"
         offsets = "  ".join(f"{axis} {round(o.position, 3) + 0.0:+.3f}" for axis, o in trimming.offsets.items())
         return f"trim at {trimming.share:.0%}  {offsets}{said}\n{TRIM_HELP}"
 
     def _pause(self, now: float) -> None:
         playback = self._sequence.playback
         if self._sequence.flies:
-            self._note = f"a drone goes on flying while its sticks are paused: {HELP}"
+            self._note = f"a drone keeps flying while its sticks are paused: {HELP}"
             return
         (playback.resume if playback.paused else playback.pause)(now)
 

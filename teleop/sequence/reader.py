@@ -90,25 +90,25 @@ class SequenceReader:
         try:
             path, name = find(move, "sequences", "sequence", chain[-1].parent)
         except DocumentError as error:
-            self.problems.append(document.problem(here, f"cannot be: {error}"))
+            self.problems.append(document.problem(here, f": {error}"))
             return None
         around = [*chain, path.resolve()]
         if path.resolve() in chain:
             circle = " -> ".join(each.name for each in around[chain.index(path.resolve()) :])
-            self.problems.append(document.problem(here, f"would go on for ever: {circle}"))
+            self.problems.append(document.problem(here, f"includes itself: {circle}"))
         elif len(chain) > DEEPEST:
             self.problems.append(document.problem(here, f"is too deep: at most {DEEPEST} files within files"))
         elif self._files > MOST_FILES:
             if self._files == MOST_FILES + 1:
                 self._files += 1  # said once
-                self.problems.append(document.problem(here, f"is too much: at most {MOST_FILES} files are included"))
+                self.problems.append(document.problem(here, f"is too much: at most {MOST_FILES} files can be included"))
         else:
             line, column = document.places["include", index]
             note = f" (included at {document.name}:{line}:{column}){document.note}"
             shown = name if is_bare(move) else str(Path(document.name).parent / move)
             inner = self.read(path, shown, note, chain)
             if inner is not None and is_timelapse(inner.document.data):
-                self.problems.append(document.problem(here, "is a timelapse, whose times are frames and not seconds"))
+                self.problems.append(document.problem(here, "is a timelapse: its times are frames, not seconds"))
             return inner
         return None
 

@@ -56,7 +56,7 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
             continue
         frame = mapping(frame)
         if all(frame.get(axis) is None for axis in AXES) and not any(ALIASES.get(key) in AXES for key in frame):
-            yield ("keyframes", index), f"names no axis ({', '.join(AXES[:4])})"
+            yield ("keyframes", index), f"has no axis ({', '.join(AXES[:4])})"
         at, wrong = _time(frame, "at", when)
         hold, wrong_hold = _time(frame, "hold", when)
         for key, text in (("at", wrong), ("hold", wrong_hold)):
@@ -130,18 +130,18 @@ def rig_rules(
     for index, cue in enumerate(sequence(data, "cues")):
         for kind, device in DEVICES.items():
             if devices is not None and kind in mapping(cue) and device not in devices:
-                yield ("cues", index, kind), f"cannot be: {rig} has no {device}; its sinks are {', '.join(devices)}"
+                yield ("cues", index, kind), f": {rig} has no {device}; its sinks are {', '.join(devices)}"
     by_name = {axis.value: axis_limits for axis, axis_limits in limits.items()}
     yield from panorama_limits(data, by_name, rig)
     if devices is not None and "camera" not in devices and mapping(data, "panorama"):
-        yield ("panorama",), f"cannot be: {rig} has no camera; its sinks are {', '.join(devices)}"
+        yield ("panorama",), f": {rig} has no camera; its sinks are {', '.join(devices)}"
     for index, frame in enumerate(sequence(data, "keyframes")):
         for axis in AXES:
             position = number(mapping(frame).get(axis))
             if position is None or not math.isfinite(position):
                 continue
             if axis not in by_name:
-                yield ("keyframes", index, axis), f"cannot be: {rig} has no {axis}; it has {', '.join(by_name)}"
+                yield ("keyframes", index, axis), f": {rig} has no {axis}; it has {', '.join(by_name)}"
             elif not by_name[axis].minimum <= position <= by_name[axis].maximum:
                 low, high = by_name[axis].minimum, by_name[axis].maximum
                 yield ("keyframes", index, axis), f"must be within {low:g}..{high:g} ({rig}), not {position:g}"

@@ -159,14 +159,14 @@ class SequenceSource:
             case SequencePhase.PREROLL:
                 return f"starts in {left:4.1f} s"
             case SequencePhase.ARMED:
-                return f"waits for {self.staging.trigger.said(now)}" if self.staging.trigger else ""
+                return f"waiting for {self.staging.trigger.said(now)}" if self.staging.trigger else ""
             case SequencePhase.REJOINING:
                 return f"back to the path {left:4.1f} s"
             case SequencePhase.RETURNING:
                 return f"back to one {left:4.1f} s"
         elapsed = self.playback.time(now)
         if self.waiting:
-            return f"{elapsed:6.1f} / {self.duration:.1f} s  waits for you"
+            return f"{elapsed:6.1f} / {self.duration:.1f} s  waiting for you"
         if elapsed < self.staging.start_at and self.playback.opening < self.staging.start_at:
             return f"run-up to {self.staging.start_at:.1f} s"
         time = f"{min(elapsed, self.duration):6.1f} / {self.duration:.1f} s"

@@ -131,8 +131,10 @@ def _overlaps(axis: Axis, blocks: Sequence[Block]) -> Iterator[str]:
         first = block.keys[0]
         meets = abs(first.at - last.end) < SAME and first.position == last.keys[-1].position
         if first.at < last.end + SAME and not meets:
-            text = f"{block.name} must be after {last.name} is done with {axis} ({last.end:g} s)"
-            yield block.place.line(text if block.name != last.name else f"{block.name} wants {axis} twice at once")
+            text = f"{block.name} must begin after {last.name} ends ({axis}, {last.end:g} s)"
+            yield block.place.line(
+                text if block.name != last.name else f"{block.name} uses {axis} twice at the same time"
+            )
         last = max(last, block, key=lambda each: each.end)
 
 
@@ -143,7 +145,7 @@ def finish(script: Timeline, limits: Mapping[Axis, Limits]) -> Iterator[str]:
     for axis, of_axis in script.keys.items():
         if (count := (len(of_axis) - 1) * times + 1) > MOST_KEYS:
             where = ("repeat", "times") if sheet.repeat else ()
-            yield document.problem(where, f"would be {count} keys of {axis}; at most {MOST_KEYS}")
+            yield document.problem(where, f"needs {count} keys of {axis}; the maximum is {MOST_KEYS}")
             return
     if sheet.repeat:
         try:

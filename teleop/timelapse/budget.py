@@ -64,7 +64,7 @@ def budget(
     if slots.frames < 2:
         return [], []
     if 2 * min(slots.first, slots.last) <= abs(slots.change):
-        return [f"changes by {abs(slots.change):.3g} s from frame to frame, too much for its shortest"], []
+        return [f"changes by {abs(slots.change):.3g} s per frame, too much for its shortest interval"], []
     fixed = phases.prefocus + phases.exposure + phases.post
     if continuous:
         problems, warnings = _held(np.full(slots.frames - 1, fixed), slots, lambda _frame: phases.said())
@@ -102,7 +102,7 @@ def _too_short(intervals: Array, needs: Array, worst: int, takes: str, slots: Sc
         return f"must be at least {least:.2f} s, not {intervals[worst]:g} s: {takes}"
     many = int(np.count_nonzero(intervals < needs - ROUNDING))
     others = f" ({many} frames are too short)" if many > 1 else ""
-    return f"is {intervals[worst]:.2f} s where at least {least:.2f} s would do: {takes}{others}"
+    return f"is {intervals[worst]:.2f} s and must be at least {least:.2f} s: {takes}{others}"
 
 
 def _speed(move: Move, slots: Schedule, limits: Mapping[Axis, Limits]) -> tuple[list[str], list[str]]:

@@ -60,7 +60,7 @@ class FrameLog:
             return True
         self._in_a_row += 1
         if outcome.code is None:
-            said = f"the camera did not answer at frame {outcome.frame}: whether it was shot is in doubt"
+            said = f"frame {outcome.frame} may be missing: the camera did not answer"
         else:
             said = f"the camera refused to shoot frame {outcome.frame} (return code {outcome.code:#04x})"
             self._progress.refused += 1
@@ -75,7 +75,7 @@ class FrameLog:
     def check(self, frame: int) -> None:
         """Raises TeleopError when nothing can be written down any more; `frame` is the one that waits for it."""
         if self._book.trouble:
-            raise TeleopError(f"{self._book.trouble}; frame {frame} has not been shot")
+            raise TeleopError(f"{self._book.trouble}; frame {frame} was not shot")
 
     def finish(self) -> Note:
         """The last frame is behind."""
@@ -84,4 +84,4 @@ class FrameLog:
     def check_end(self) -> None:
         """Raises TeleopError when the end could not be written down."""
         if self._book.trouble:
-            raise TeleopError(f"{self._book.trouble}; the shoot is past its last frame all the same")
+            raise TeleopError(f"{self._book.trouble}; the last frame is done all the same")

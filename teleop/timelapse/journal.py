@@ -146,7 +146,7 @@ def open_journal(
     Raises UsageError where none of that is what a user can have meant, and where another process is at it.
     """
     if resume and not path.exists():
-        raise UsageError(f"--resume: there is nothing to resume: no {path.name} in {path.absolute().parent}")
+        raise UsageError(f"--resume: no shoot to resume: no {path.name} in {path.absolute().parent}")
     try:
         database = _locked(path)
         facts, frames = _read(database)
@@ -207,14 +207,14 @@ def _refuse(
 ) -> None:
     """Raise UsageError where what was asked for does not go with what the journal says."""
     finished, same = bool(facts.get("finished")), facts.get("identity") == shoot.identity
-    left = f"the shoot of {facts.get('file')} was left at frame {next_frame(frames)} of {facts.get('frames')}"
+    left = f"the shoot of {facts.get('file')} stopped at frame {next_frame(frames)} of {facts.get('frames')}"
     if resume and (finished or not facts):
-        raise UsageError(f"--resume: there is nothing to resume: {path} is of a shoot that has been finished")
+        raise UsageError(f"--resume: no shoot to resume: the shoot of {path} is finished")
     if resume and not same:
-        changed = f"{shoot.file} is not what it was then" if facts.get("file") == shoot.file else "that is another file"
-        raise UsageError(f"--resume: {path}: {left}, and {changed}: put it back, or begin anew with --restart")
+        changed = f"{shoot.file} has changed since" if facts.get("file") == shoot.file else "it is another file"
+        raise UsageError(f"--resume: {path}: {left}, and {changed}: restore it, or start over with --restart")
     if not resume and not restart and frames and not finished:
-        way = "go on with --resume, or begin anew with --restart" if same else "--restart begins anew and forgets it"
+        way = "continue with --resume, or start over with --restart" if same else "start over with --restart"
         raise UsageError(f"{path}: {left}: {way}")
 
 
@@ -228,5 +228,5 @@ def _explained(error: Exception) -> str:
     if "locked" in text:
         return "another teleop is shooting with this journal"
     if "not a database" in text or isinstance(error, ValueError):
-        return "is no journal of a timelapse"
+        return "is not a timelapse journal"
     return f"cannot be used: {text}"

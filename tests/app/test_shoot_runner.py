@@ -469,4 +469,4 @@ def test_an_end_that_cannot_be_written_down_is_no_lost_frame(stage: Stage) -> No
         book.finish = full  # type: ignore[attr-defined]  # in front of the journal's own
         ended = stage.shoot(book)
     assert (ended.result, len(stage.shots)) == (Result.FAILED, 6)
-    assert ended.reasons[0] == "dusk.journal cannot be written: full; the shoot is past its last frame all the same"
+    assert ended.reasons[0] == "dusk.journal cannot be written: full; the last frame is done all the same"

@@ -64,7 +64,7 @@ def test_a_hundred_thousand_keyframes_are_too_many_and_it_says_so_soon(tmp_path:
     assert time.thread_time() - began < SOON
     assert problem == "shoot.yaml:32001:10: holds too many values"
     text = "keyframes:\n" + "".join(f"  - {{at: {i}, pan: {i % 7}}}\n" for i in range(12_000))
-    assert problems_of(tmp_path, text) == ["shoot.yaml:1:1: would be 12000 keys of pan; at most 10000"]
+    assert problems_of(tmp_path, text) == ["shoot.yaml:1:1: needs 12000 keys of pan; the maximum is 10000"]
 
 
 def test_of_many_errors_the_first_are_told_and_the_others_counted(tmp_path: Path) -> None:
@@ -74,11 +74,11 @@ def test_of_many_errors_the_first_are_told_and_the_others_counted(tmp_path: Path
     with pytest.raises(DocumentError) as caught:
         load_performance(str(tmp_path / "wrong.yaml"), LIMITS, "the rig")
     assert time.thread_time() - began < SOON
-    assert len(caught.value.problems) + caught.value.more == 10_000  # each names no axis, and a key that is not known
+    assert len(caught.value.problems) + caught.value.more == 10_000  # each has no axis, and a key that is not known
     done = teleop("check", "wrong.yaml", cwd=tmp_path)
     assert done.returncode == 2
     lines = done.stderr.splitlines()
-    assert lines[0].startswith("wrong.yaml:2:5: key 1 names no axis")
+    assert lines[0].startswith("wrong.yaml:2:5: key 1 has no axis")
     assert (len(lines), lines[-1]) == (51, "teleop: and 9950 more")
 
 

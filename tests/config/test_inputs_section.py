@@ -124,7 +124,7 @@ def test_a_rig_without_inputs_has_none(tmp_path: Path) -> None:
         (
             "{controls: {X: {press: tell, command: gimbal folow lock}}}",
             43,
-            "controls.X.command cannot be sent: unknown command gimbal folow lock; did you mean gimbal follow lock?",
+            "controls.X.command: unknown command gimbal folow lock; did you mean gimbal follow lock?",
         ),
         (
             "{controls: {H: {up: {press: store}}}}",

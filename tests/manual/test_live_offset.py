@@ -262,7 +262,7 @@ def test_a_pads_buttons_change_the_trims_speed_and_the_keys_that_of_the_move():
     assert scene.trimming.share == 1.0
     scene.pad.press(Command.STORE, 3)
     scene.run(0.1)
-    assert "store: not while a sequence is played" in scene.conductor.note
+    assert "store: not available while a sequence plays" in scene.conductor.note
 
 
 def test_the_trim_is_kept_when_the_key_says_so_and_shown():

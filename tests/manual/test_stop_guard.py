@@ -240,14 +240,14 @@ def test_a_trigger_that_went_by_during_a_stop_leaves_the_start_to_the_operator()
     run = Run(Cycle(0.2, trigger=trigger))
     run.until(SequencePhase.ARMED)
     run.press(STOP)
-    trigger.late = "18:30:00 was 5.0 s before the rig was in place"
+    trigger.late = "18:30:00 was 5.0 s before the rig reached the start"
     run.run(1)
     run.press(CLEAR, GO)
     run.until(SequencePhase.ARMED)
     trigger.fires = True
     run.run(2)
     assert run.sequence.phase is SequencePhase.ARMED
-    assert run.conductor.note.startswith("18:30:00 was 5.0 s before the rig was in place: enter starts it now")
+    assert run.conductor.note.startswith("18:30:00 was 5.0 s before the rig reached the start: enter start ")
     run.press(GO)
     run.run(1)
     assert run.sequence.phase is SequencePhase.PLAYING
@@ -340,7 +340,7 @@ def test_an_input_whose_stop_is_lost_pauses_the_run(phase: SequencePhase) -> Non
     run.press(PAUSE)
     run.pad.stop = ""
     run.tick()
-    assert run.said[1:] == ["pad: its STOP counts again"]
+    assert run.said[1:] == ["pad: its STOP works again"]
     while not run.over:
         run.tick()
     assert run.acts == [cue.action for cue in CUES]
@@ -351,7 +351,7 @@ def test_an_input_that_is_absent_from_the_start_blocks_nothing() -> None:
     run.pad.stop = "pad: cannot be opened"
     while not run.over:
         run.tick()
-    assert run.said == ["pad: cannot be opened: its STOP does not count"]
+    assert run.said == ["pad: cannot be opened: its STOP does not work"]
     assert run.acts == [cue.action for cue in CUES]
 
 

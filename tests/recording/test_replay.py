@@ -126,5 +126,5 @@ def test_a_take_at_the_limits_themselves_is_repeated_at_its_own_speed(tmp_path: 
     faster = teleop("play", "full.mcap", "--fast", "--speed", "120%", cwd=tmp_path)
     assert (faster.returncode, faster.stderr) == (
         2,
-        "--speed 120%: the move allows at most 97 % of its speed, not 120 %\n",
+        "--speed 120%: maximum playback speed: 97 %, not 120 %\n",
     )

@@ -187,7 +187,7 @@ def test_a_trigger_starts_the_move_once_the_rig_is_in_place_and_not_before():
     for _ in range(200):
         stage.step()
     assert stage.pan == State(0.0)
-    assert stage.source.said(stage.now) == "waits for the button"
+    assert stage.source.said(stage.now) == "waiting for the button"
     assert stage.source.next_change(stage.now) == stage.now
     button.pulled = True
     stage.step()

@@ -85,7 +85,7 @@ def test_p_pauses_and_goes_on():
     assert show.conductor.note == f"paused  {HELP}"
     assert show.conductor.next_change(show.now) <= show.now + 0.05
     show.press(SLOWER)
-    assert show.conductor.note == f"paused, goes on at 90%  {HELP}"
+    assert show.conductor.note == f"paused, continues at 90%  {HELP}"
     show.press(FASTER)
     show.press(PAUSE)
     assert show.run(1) > here
@@ -198,8 +198,8 @@ def test_a_wait_holds_for_the_operator_and_no_cue_drifts(speed: float, key: Pres
     assert len(held) > 3000
     assert all(follow == pytest.approx((30, 0, 0), abs=1e-5) for follow in held)
     assert [act for _, act in show.acts] == [Action.STOP]
-    assert "waits for you" in show.sequence.said(show.now)
-    assert "enter goes on" in show.conductor.note
+    assert "waiting for you" in show.sequence.said(show.now)
+    assert "enter continue" in show.conductor.note
     assert show.now < show.conductor.next_change(show.now) <= show.now + 0.06
     went = show.now
     show.keys.pressed.append(key)
@@ -233,7 +233,7 @@ def test_while_it_waits_it_cannot_be_stepped_and_the_speed_counts_afterwards() -
     assert show.sequence.waiting
     show.keys.pressed.append(NEXT)
     show.watch(DT)
-    assert "the move waits for you" in show.conductor.note
+    assert "the move is waiting" in show.conductor.note
     show.keys.pressed.append(GO)
     went = show.now
     show.watch(8)
@@ -259,5 +259,5 @@ def test_a_drone_is_not_paused() -> None:
     conductor.read(sequence.begin + 1)
     pressed.pressed.append(PAUSE)
     conductor.read(sequence.begin + 1.01)
-    assert "a drone goes on flying" in conductor.note
+    assert "a drone keeps flying" in conductor.note
     assert not sequence.playback.changing(sequence.begin + 1.01)

@@ -64,7 +64,7 @@ def test_what_is_no_plain_number_is_refused_beforehand_and_all_of_it(tmp_path: P
     with pytest.raises(DocumentError) as refusal:
         trimmed(tmp_path, text)
     assert [problem.partition(".yaml:")[2] for problem in refusal.value.problems] == [
-        "5:26: cue 1: recenter goes to 0 in any case: --trim-out cannot move it",
+        "5:26: cue 1: recenter always goes to 0: --trim-out cannot move it",
         "2:18: key 1: pan must be a plain number to be moved by --trim-out",
         "3:18: key 2: pan must be a plain number to be moved by --trim-out",
         "2:18: key 3: pan must be a plain number to be moved by --trim-out",
@@ -73,7 +73,7 @@ def test_what_is_no_plain_number_is_refused_beforehand_and_all_of_it(tmp_path: P
 
 def test_nothing_is_written_over_and_what_cannot_be_written_is_said(tmp_path: Path):
     (tmp_path / "out.yaml").write_text("precious")
-    with pytest.raises(UsageError, match="is there already"):
+    with pytest.raises(UsageError, match="exists already"):
         trimmed(tmp_path, TEXT)
     (tmp_path / "out.yaml").unlink()
     with pytest.raises(OutputError, match=r"out\.yaml: cannot be written: No such file or directory"):

@@ -67,17 +67,29 @@ def test_it_is_written_ahead_and_synchronously(path: Path) -> None:
 @pytest.mark.parametrize(
     ("states", "finished", "shoot", "how", "said"),
     [
-        ((Frame.DONE,), False, SHOOT, {}, "the shoot of dusk.yaml was left at frame 1 of 720: go on with --resume, or"),
-        ((Frame.DONE,), False, Shoot("dusk.yaml", "x", 720), {}, "left at frame 1 of 720: --restart begins anew"),
+        (
+            (Frame.DONE,),
+            False,
+            SHOOT,
+            {},
+            "shoot of dusk.yaml stopped at frame 1 of 720: continue with --resume",
+        ),
+        (
+            (Frame.DONE,),
+            False,
+            Shoot("dusk.yaml", "x", 720),
+            {},
+            "stopped at frame 1 of 720: start over with",
+        ),
         (
             (Frame.DONE,),
             False,
             Shoot("dusk.yaml", "x", 720),
             {"resume": True},
-            "was left at frame 1 of 720, and dusk.yaml is not what it was then: put it back, or begin anew",
+            "stopped at frame 1 of 720, and dusk.yaml has changed since: restore it, or start over",
         ),
-        ((Frame.DONE,), False, Shoot("x.yaml", "x", 9), {"resume": True}, "and that is another file"),
-        ((Frame.DONE,), True, SHOOT, {"resume": True}, "there is nothing to resume"),
+        ((Frame.DONE,), False, Shoot("x.yaml", "x", 9), {"resume": True}, "and it is another file"),
+        ((Frame.DONE,), True, SHOOT, {"resume": True}, "no shoot to resume"),
     ],
 )
 def test_it_refuses_what_nobody_can_have_meant(
@@ -117,7 +129,7 @@ def test_a_second_hand_is_refused_and_the_first_goes_on(path: Path) -> None:
 
 def test_what_is_no_journal_is_left_alone(path: Path) -> None:
     path.write_bytes(b"my diary" * 1000)
-    with pytest.raises(UsageError, match="is no journal of a timelapse"), open_journal(path, SHOOT, restart=True):
+    with pytest.raises(UsageError, match="is not a timelapse journal"), open_journal(path, SHOOT, restart=True):
         pass
     assert path.read_bytes() == b"my diary" * 1000
 

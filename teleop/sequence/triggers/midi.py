@@ -124,7 +124,7 @@ class TimecodeTrigger(_MidiTrigger):
     def said(self, now: float) -> str:
         position = self.timecode.position(now)
         if math.isnan(position):
-            return f"timecode {self._label}; none has come yet"
+            return f"timecode {self._label}; none received yet"
         left = self._label.time(self.timecode.rate) - position
-        where = f"{left:.1f} s to go" if left > 0 else "it is past that"
-        return f"timecode {self._label}; {where}{'' if self.timecode.runs(now) else ', it stands'}"
+        where = f"{left:.1f} s to go" if left > 0 else "already past"
+        return f"timecode {self._label}; {where}{'' if self.timecode.runs(now) else ', stopped'}"

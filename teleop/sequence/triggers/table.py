@@ -71,7 +71,7 @@ class ClockTrigger:
     def arm(self, now: float) -> None:  # noqa: ARG002 - the wall clock decides
         late = self._wall() - self._at
         if late > PERIOD:
-            raise DeviceError(f"{self._name} was {late:.1f} s before the rig was in place")
+            raise DeviceError(f"{self._name} was {late:.1f} s before the rig reached the start")
 
     def fired(self, now: float) -> bool:  # noqa: ARG002
         return self._wall() >= self._at - PERIOD / 2
@@ -95,7 +95,7 @@ def read_trigger(text: str, now: Callable[[], float]) -> Trigger:
 
 def _key(rest: str, _now: Callable[[], float]) -> Trigger:
     if rest:
-        raise WrittenError("is just key; it is the enter key")
+        raise WrittenError("must be just key: the Enter key")
     return KeyTrigger()
 
 

@@ -100,7 +100,7 @@ def test_a_time_that_passes_before_the_rig_is_in_place_is_no_start():
     wall = Wall("2026-11-25T18:29:58")
     trigger = ClockTrigger("18:30", wall)
     wall.now += 5
-    with pytest.raises(DeviceError, match=r"18:30:00 was 3\.0 s before the rig was in place"):
+    with pytest.raises(DeviceError, match=r"18:30:00 was 3\.0 s before the rig reached the start"):
         trigger.arm(0.0)
 
 
