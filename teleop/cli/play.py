@@ -98,7 +98,7 @@ def play(
     ask_to_fly(performance.title, axes, i_understand)
     rate, stage = percentage("--speed", speed), staging.staging(performance, clock, waits)
     try:
-        source = SequenceSource(performance, sequence_limits(profile.limits, left), rate, staging=stage)
+        source = SequenceSource(performance, sequence_limits(profile.limits, left), rate, cycle=stage)
     except NoRunUp as error:
         raise DocumentError([f"--start-at {staging.start_at}: {error}"]) from None
     except PlanError as error:

@@ -64,8 +64,8 @@ class SequenceRun:
             status = aboard.status if is_flown(axes) else None
             taking = recording(self.take, profile.name, title, limits, status, patient=self.patient)
             recorder = stack.enter_context(taking)
-            if source.staging.trigger is not None:
-                source.staging.trigger.open(stack)
+            if source.cycle.trigger is not None:
+                source.cycle.trigger.open(stack)
             rig = stack.enter_context(open_rig(profile, self.clock))
             watchers = self._watchers(stack, rig, axes, [each for each in (conductor, guard) if each], extras)
             status_of = source.status if conductor is None else conductor.status
@@ -114,7 +114,7 @@ class SequenceRun:
             watchers.append(stack.enter_context(self.keys))
         watchers += conducting
         watchers += [extra for extra in extras if isinstance(extra, TrimReport)]
-        if self.source.staging.compared:
+        if self.source.cycle.compared:
             repeatability = Repeatability(self.source.place)
             watchers.append(repeatability)
             extras.insert(0, PassesReport(repeatability))

@@ -7,7 +7,8 @@ way to a key. What changes how the gimbal behaves is given only where every axis
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 from pydantic import ConfigDict
@@ -23,6 +24,8 @@ from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.command_table import find, is_taken_back
 from teleop.dji.message import FieldError, Message
 
+LASTING = ((Action.RECORD, Action.STOP), (Action.FOCUS, Action.END_FOCUS))  # what begins it, and ends it
+INSTANT = 1e-6  # s: two times that are closer are the same
 KINDS = ("camera", "follow", "recenter", "send", "wait")
 FOLLOW: Mapping[str, DeviceCommand] = {
     "lock": DeviceCommand("gimbal", "follow lock"),
@@ -105,6 +108,25 @@ class Cue(NamedTuple):
                 return "wait"
             case _:
                 return str(getattr(self.action, "value", self.action))
+
+
+def cues_from(cues: Sequence[Cue], start_at: float) -> tuple[list[TickEvent], list[Cue]]:
+    """What to do in place, and in a pass that begins at `start_at` (s), in mid move.
+
+    What came before is not made up for, but for what would be going on by then: the camera records, or focuses, as the
+    run-up begins, and the gimbal has been told how to follow.
+    """
+    before = [cue.action for cue in cues if cue.at < start_at - INSTANT]
+    follows = [
+        act
+        for act in before
+        if isinstance(act, DeviceCommand) and act.device == "gimbal" and act.name.startswith("follow")
+    ]
+    going_on = []
+    for on, off in LASTING:
+        switches = [act for act in before if act in (on, off)]
+        going_on += [Cue(-math.inf, on)] if switches[-1:] == [on] else []
+    return [*follows[-1:]], [*going_on, *cues[len(before) :]]
 
 
 def cue_rules(cue: Any, here: Location) -> Iterator[Wrong]:

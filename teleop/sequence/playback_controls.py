@@ -18,7 +18,9 @@ from teleop.core.operator_input import Command, Input, Press
 from teleop.core.run_status import Hint, RunStatus
 from teleop.core.setpoints import Demand, StateTarget, Stop
 from teleop.manual.live_offset import LiveOffset
-from teleop.sequence.source import SequencePhase, SequenceSource
+from teleop.sequence.phases import SequencePhase
+from teleop.sequence.progress import run_status
+from teleop.sequence.source import SequenceSource
 
 PACE = 0.1  # of the written speed, by which a key changes it
 LOOK = 0.05  # s between two looks at the keys while nothing moves
@@ -71,7 +73,7 @@ class PlaybackControls:
 
     def status(self, now: float) -> RunStatus:
         """What a view shows of the run at `now`; for the control thread."""
-        status, playback = self._sequence.status(now), self._sequence.playback
+        status, playback = run_status(self._sequence, now), self._sequence.playback
         note = playback.refusal or self._note or self._sequence.missed
         if self._trimming:
             note = f"{note}\n{self._trim_note(self._trimming)}".strip()
@@ -86,11 +88,11 @@ class PlaybackControls:
 
     @property
     def resumable(self) -> bool:
-        return not self._sequence.flies
+        return not self._sequence.moves_drone
 
     @property
     def pauses(self) -> bool:
-        return self._sequence.travels
+        return self._sequence.phase is SequencePhase.PLAYING
 
     busy, quits = False, True  # nothing that it has begun has to be ended
 
@@ -201,7 +203,7 @@ class PlaybackControls:
 
     def _pause(self, now: float) -> None:
         playback = self._sequence.playback
-        if self._sequence.flies:
+        if self._sequence.moves_drone:
             self._note = f"a drone keeps flying while its sticks are paused: {HELP}"
             return
         (playback.resume if playback.paused else playback.pause)(now)

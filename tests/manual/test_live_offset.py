@@ -20,8 +20,9 @@ from teleop.planner.live import Live
 from teleop.planner.offset_limits import sequence_limits, trim_limits
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cycle import Cycle
+from teleop.sequence.phases import SequencePhase
 from teleop.sequence.playback_controls import PlaybackControls
-from teleop.sequence.source import SequencePhase, SequenceSource
+from teleop.sequence.source import SequenceSource
 
 PAN, TILT = Axis.PAN, Axis.TILT
 LIMITS = {PAN: Limits(-170, 170, 60, 120, 600), TILT: Limits(-30, 40, 40, 90, 480)}

@@ -25,8 +25,9 @@ from teleop.planner.live import Live
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.cycle import Cycle
+from teleop.sequence.phases import SequencePhase
 from teleop.sequence.playback_controls import PlaybackControls
-from teleop.sequence.source import SequencePhase, SequenceSource
+from teleop.sequence.source import SequenceSource
 
 PAN, TILT = Axis.PAN, Axis.TILT
 LIMITS = {PAN: Limits(-180, 180, 60, 120, 600), TILT: Limits(-50, 50, 40, 90, 480)}

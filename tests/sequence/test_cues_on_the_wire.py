@@ -58,7 +58,7 @@ def heard(
     performance = load_performance(str(folder / "cued.yaml"), profile.limits, "the rig")
     with open_rig(profile, clock) as rig:
         tap = wire.tapped(rig)
-        source = SequenceSource(performance, profile.limits, speed, staging=Cycle(0.5, passes=passes))
+        source = SequenceSource(performance, profile.limits, speed, cycle=Cycle(0.5, passes=passes))
         told = CommandSink(next(iter(rig.connections.values())), lambda _text: None)
         ended = rig.loop(list(performance.move.tracks), [source], [told]).run()
     assert (ended.result, ended.reasons) == (Result.DONE, [])

@@ -15,6 +15,7 @@ from teleop.planner.live import Live
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.playback_controls import HELP, PlaybackControls
+from teleop.sequence.progress import progress_text
 from teleop.sequence.source import SequenceSource
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600)}
@@ -198,7 +199,7 @@ def test_a_wait_holds_for_the_operator_and_no_cue_drifts(speed: float, key: Pres
     assert len(held) > 3000
     assert all(follow == pytest.approx((30, 0, 0), abs=1e-5) for follow in held)
     assert [act for _, act in show.acts] == [Action.STOP]
-    assert "waiting for you" in show.sequence.said(show.now)
+    assert "waiting for you" in progress_text(show.sequence, show.now)
     assert "enter continue" in show.conductor.note
     assert show.now < show.conductor.next_change(show.now) <= show.now + 0.06
     went = show.now

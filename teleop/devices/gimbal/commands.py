@@ -85,7 +85,7 @@ class CommandSink:
             self._say(f"{command}: {error}")
             return
         if is_taken_back(message):
-            self._say(f"{command} refused: it would fight what is streamed")
+            self._say(f"{command} refused: the run's motion would undo it")
             return
         if not message.has_reply:
             self._connection.stream(message)

@@ -69,10 +69,10 @@ def test_a_refusal_and_silence_are_said_and_are_no_fault() -> None:
     ("words", "said"),
     [
         ("gimbal folow lock", "unknown command gimbal folow lock; did you mean gimbal follow lock?"),
-        ("gimbal recenter", "refused: it would fight what is streamed"),
-        ("gimbal selfie", "refused: it would fight what is streamed"),
-        ("gimbal speed yaw=10 roll=0 pitch=0", "refused: it would fight what is streamed"),
-        ("focus set position=5", "refused: it would fight what is streamed"),
+        ("gimbal recenter", "refused: the run's motion would undo it"),
+        ("gimbal selfie", "refused: the run's motion would undo it"),
+        ("gimbal speed yaw=10 roll=0 pitch=0", "refused: the run's motion would undo it"),
+        ("focus set position=5", "refused: the run's motion would undo it"),
         ("gimbal dial speed=9999", "speed"),
     ],
 )
