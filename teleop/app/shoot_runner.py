@@ -135,17 +135,17 @@ class Shooting:
     def _one_run(self) -> tuple[Ended, Sequence[BaseException], bool]:
         """How it ended, what was raised in it, and whether the rig was reached."""
         timelapse, first = self._timelapse, self._journal.next
-        carriage = GlideMover(timelapse, self._executor) if timelapse.continuous else StepMover(timelapse)
+        mover = GlideMover(timelapse, self._executor) if timelapse.continuous else StepMover(timelapse)
         relays = [Relay(each) for each in self._inputs]
         keys = Together(relays) if relays else None
-        source = TimelapseSource(timelapse, carriage, self._journal, first, self.progress, self._slot, keys)
+        source = TimelapseSource(timelapse, mover, self._journal, first, self.progress, self._slot, keys)
         self._source = source
         guard = StopGuard(source, relays, self._say, LOOK, self.guard.stopped_by if self.guard else "")
         self.guard = guard
         self._runs += 1
         try:
             with open_rig(self._profile, self._clock) as rig:
-                shutter = ShutterSink(rig.connections[self._camera], source.heard)
+                shutter = ShutterSink(rig.connections[self._camera], source.on_shutter_result)
                 notes = LinkNotes(rig.connections.values(), self._say)
                 watchers = [shutter, source, guard, notes, *self._watchers]
                 self._loop = rig.loop(list(timelapse.limits), [guard], watchers)

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from teleop.cli.drone_run import Aboard, is_flown
@@ -31,6 +32,7 @@ from teleop.planner.offset_limits import trim_limits
 from teleop.recording.writer import recording
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.playback_controls import PlaybackControls
+from teleop.sequence.progress import run_status
 from teleop.sequence.source import SequenceSource
 from teleop.sequence.trim_export import TrimmedFile
 
@@ -68,7 +70,7 @@ class SequenceRun:
                 source.cycle.trigger.open(stack)
             rig = stack.enter_context(open_rig(profile, self.clock))
             watchers = self._watchers(stack, rig, axes, [each for each in (conductor, guard) if each], extras)
-            status_of = source.status if conductor is None else conductor.status
+            status_of = partial(run_status, source) if conductor is None else conductor.status
             keys = NO_KEYS if self.keys is None else RUN_HINTS
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             display = RunView(title, limits, shown, self.as_json, take_words(recorder), hints=keys)

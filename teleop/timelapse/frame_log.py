@@ -13,7 +13,7 @@ from teleop.core.events import ShutterResult
 from teleop.timelapse.journal import Frame, Note
 from teleop.timelapse.progress import Progress
 
-PATIENCE = 10  # frames in a row without a picture, after which going on is pointless
+MOST_FAILURES = 10  # frames in a row without a picture, after which to continue is pointless
 
 
 class FrameBook(Protocol):
@@ -47,30 +47,30 @@ class FrameLog:
         self._progress.lost.append(frame)
         self._book.note(frame, Frame.MISSED)
 
-    def heard(self, outcome: ShutterResult) -> None:
-        """What the camera said; a picture is written down at once."""
-        if outcome.code == 0:
-            self._book.note(outcome.frame, Frame.DONE)
+    def on_result(self, result: ShutterResult) -> None:
+        """Take the camera's answer; a picture is written down at once."""
+        if result.code == 0:
+            self._book.note(result.frame, Frame.DONE)
 
-    def past(self, outcome: ShutterResult) -> bool:
+    def is_past(self, result: ShutterResult) -> bool:
         """Whether the shoot is past that frame. Raises DeviceError where what the camera did is to end it."""
-        if outcome.code == 0:
+        if result.code == 0:
             self._progress.shot += 1
             self._in_a_row = 0
             return True
         self._in_a_row += 1
-        if outcome.code is None:
-            said = f"frame {outcome.frame} may be missing: the camera did not answer"
+        if result.code is None:
+            reason = f"frame {result.frame} may be missing: the camera did not answer"
         else:
-            said = f"the camera refused to shoot frame {outcome.frame} (return code {outcome.code:#04x})"
+            reason = f"the camera refused to shoot frame {result.frame} (return code {result.code:#04x})"
             self._progress.refused += 1
-            self.unshot(outcome.frame)
-        if not self._go_on or self._in_a_row >= PATIENCE:
-            raise DeviceError(said)
-        if outcome.code is None:
-            self._progress.doubtful.append(outcome.frame)
-            self._book.note(outcome.frame, Frame.DOUBTFUL)
-        return outcome.code is None
+            self.unshot(result.frame)
+        if not self._go_on or self._in_a_row >= MOST_FAILURES:
+            raise DeviceError(reason)
+        if result.code is None:
+            self._progress.doubtful.append(result.frame)
+            self._book.note(result.frame, Frame.DOUBTFUL)
+        return result.code is None
 
     def check(self, frame: int) -> None:
         """Raises TeleopError when nothing can be written down any more; `frame` is the one that waits for it."""

@@ -284,7 +284,7 @@ def test_the_frame_in_doubt_is_named_and_shot_again_or_not(stage: Stage, in_doub
     assert stage.shoot(resume=True, in_doubt=in_doubt).result is Result.DONE
     assert len(stage.shots) == shots, "the press that nobody answered took no picture here"
     [said] = stage.said
-    assert said.startswith("frame 3 is in doubt")
+    assert said.startswith("frame 3 may be missing: the shoot stopped at its shutter")
     assert stage.shooting.progress.doubtful == ([3] if in_doubt == "skip" else [])
 
 
@@ -444,7 +444,7 @@ def test_a_shoot_that_was_killed_after_its_last_frame_has_nothing_left_to_shoot(
     assert stage.shoot(resume=True).result is Result.DONE
     assert stage.shots == []
     assert stage.shooting.progress.shot == 6
-    with pytest.raises(UsageError, match="has been finished"), stage.journal(resume=True):
+    with pytest.raises(UsageError, match="is finished"), stage.journal(resume=True):
         pass
 
 

@@ -87,7 +87,7 @@ class Shoot:
             self.steps.append((self.now, event))
             code = self.answers.get(event.frame, 0)
             if event.step is ShutterStep.PRESS:
-                self.source.heard(ShutterResult(event.frame, code))
+                self.source.on_shutter_result(ShutterResult(event.frame, code))
         self.now = round(self.now + PERIOD, 6)
 
     def times(self, step: ShutterStep) -> dict[int, float]:
