@@ -28,7 +28,7 @@ from teleop.devices.shutter import ShutterSink
 from teleop.inputs.keyboard import CLOSED
 from teleop.manual.stop_guard import Relay, StopGuard, Together
 from teleop.timelapse.compile import Timelapse
-from teleop.timelapse.journal import Frame, Journal
+from teleop.timelapse.journal import FrameState, Journal
 from teleop.timelapse.movers import GlideMover, StepMover
 from teleop.timelapse.progress import Progress
 from teleop.timelapse.source import TimelapseSource
@@ -81,10 +81,10 @@ class Shooting:
         self._inputs = [*([] if keys is None else [keys]), *inputs]
         self.guard: StopGuard | None = None
         self._camera = camera_link(profile)
-        shot = sum(state is Frame.DONE for state in journal.frames.values())
+        shot = sum(state is FrameState.DONE for state in journal.frames.values())
         self.progress = Progress(timelapse.slots, timelapse.fps, shot, frame=journal.next)
-        self.progress.doubtful += [each for each, state in journal.frames.items() if state is Frame.DOUBTFUL]
-        self.progress.lost += [each for each, state in journal.frames.items() if state is Frame.MISSED]
+        self.progress.doubtful += [each for each, state in journal.frames.items() if state is FrameState.DOUBTFUL]
+        self.progress.lost += [each for each, state in journal.frames.items() if state is FrameState.MISSED]
         self._begin = math.inf  # when the first frame of the first run was due
         self._source: TimelapseSource | None = None
         self.links: Mapping[str, Mapping[str, int]] = {}
@@ -187,7 +187,7 @@ class Shooting:
             return
         said = f"frame {frame} may be missing: the shoot stopped at its shutter"
         if self._in_doubt == "skip":
-            self._journal.note(frame, Frame.DOUBTFUL)
+            self._journal.note(frame, FrameState.DOUBTFUL)
             self._journal.catch_up()
             self.progress.doubtful.append(frame)
             self._say(f"{said}; it counts as shot")

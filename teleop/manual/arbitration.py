@@ -24,7 +24,7 @@ LATE = 0.05  # s after which a recall is said to have been late
 
 
 class Arbitration:
-    """`hands` in the order of their priority; `say` is for what the operator has to know.
+    """`locks` in the order of their priority; `say` is for what the operator has to know.
 
     `drivers` are the hands whose sticks deflect an axis, `deflections` (-1..1) by how much, `recall` what is under way.
     """
@@ -32,13 +32,13 @@ class Arbitration:
     def __init__(
         self,
         limits: Mapping[Axis, Limits],
-        hands: Sequence[Interlock],
+        locks: Sequence[Interlock],
         sticks: SticksSection,
         say: Callable[[str], object],
     ) -> None:
-        self._limits, self._hands, self._say = limits, hands, say
+        self._limits, self._locks, self._say = limits, locks, say
         self._sticks = [axis for axis in limits if axis.is_stick]
-        self._steering = {
+        self._shaping = {
             axis: VelocityShaping(of, sticks.ramp, sticks.low_pass) for axis, of in limits.items() if not axis.is_stick
         }
         self._jog = Jog(limits)
@@ -52,7 +52,7 @@ class Arbitration:
         self._jog.clear()
         self.recall = recall
 
-    def wishes(self, now: float, seconds: float, motion: Motion, share: float) -> dict[Axis, Setpoint]:
+    def setpoints(self, now: float, seconds: float, motion: Motion, share: float) -> dict[Axis, Setpoint]:
         """What trusted hands want of the axes that they move, and rest for those that they moved.
 
         `seconds` since the last time; `share` is what full deflection is of an axis's velocity.
@@ -61,26 +61,26 @@ class Arbitration:
         self._take_steps(now, motion)
         sent = self._sent(now, motion, share)
         demand: dict[Axis, Setpoint] = self._held()
-        for axis, steering in self._steering.items():
+        for axis, shaping in self._shaping.items():
             deflection = self.deflections.get(axis, 0.0)
-            hand = None if axis in sent else self.drivers.get(axis, self._driven.get(axis))
-            lost = hand is None or not hand.trusted
+            lock = None if axis in sent else self.drivers.get(axis, self._driven.get(axis))
+            lost = lock is None or not lock.unlocked
             if lost:
-                steering.drop()
-            wish = steering.wish(deflection, share, motion[axis], seconds)
+                shaping.drop()
+            setpoint = shaping.setpoint(deflection, share, motion[axis], seconds)
             if axis in sent or deflection or (lost and axis in self._driven):
-                self._driven[axis] = None if lost else hand
+                self._driven[axis] = None if lost else lock
             if axis in sent:
                 demand[axis] = sent[axis]
-            elif wish is None:
+            elif setpoint is None:
                 self._driven.pop(axis, None)
             elif axis in self._driven:
-                demand[axis] = VelocityTarget(0.0) if lost else wish
+                demand[axis] = VelocityTarget(0.0) if lost else setpoint
         return demand
 
     def _held(self) -> dict[Axis, Setpoint]:
         """A drone's sticks, where hands that are trusted hold them."""
-        mapped = {axis for hand in self._hands if hand.trusted for axis in hand.said.deflections}
+        mapped = {axis for lock in self._locks if lock.unlocked for axis in lock.held.deflections}
         return {axis: PositionTarget(self.deflections.get(axis, 0.0)) for axis in self._sticks if axis in mapped}
 
     @property
@@ -91,63 +91,63 @@ class Arbitration:
     def _merge(self) -> None:
         """Which hand drives which axis: the first one trusted that deflects it. A stick ends what was under way."""
         self.drivers, self.deflections = {}, {}
-        for hand in self._hands:
-            if not hand.trusted:
+        for lock in self._locks:
+            if not lock.unlocked:
                 continue
-            for axis, deflection in hand.said.deflections.items():
+            for axis, deflection in lock.held.deflections.items():
                 if deflection and axis in self._limits and axis not in self.drivers:
-                    self.drivers[axis], self.deflections[axis] = hand, deflection
+                    self.drivers[axis], self.deflections[axis] = lock, deflection
                     self._jog.drop(axis)
         if self.recall and (axis := self.deflected):
             self._end_recall(f"{self.drivers[axis].name} moved {axis}")
 
     def _take_steps(self, now: float, motion: Motion) -> None:
         """Steps, and sliders that were moved: both send an axis somewhere, unless a stick has it."""
-        for hand in self._hands:
-            for axis, units in hand.said.steps.items():
-                click = hand.said.click.get(axis, 0.0)
-                if units and self._may_send(hand, axis) and self._jog.step(axis, units, motion[axis], hand, now, click):
+        for lock in self._locks:
+            for axis, units in lock.held.steps.items():
+                click = lock.held.click.get(axis, 0.0)
+                if units and self._may_send(lock, axis) and self._jog.step(axis, units, motion[axis], lock, now, click):
                     self._say(f"{axis} is at its soft limit")
-            for axis, share in hand.slid().items():
-                if self._may_send(hand, axis):
-                    self._jog.slide(axis, share, hand, now)
+            for axis, share in lock.slid().items():
+                if self._may_send(lock, axis):
+                    self._jog.slide(axis, share, lock, now)
 
-    def _may_send(self, hand: Interlock, axis: Axis) -> bool:
-        if hand.said.trouble:
+    def _may_send(self, lock: Interlock, axis: Axis) -> bool:
+        if lock.held.trouble:
             return False
-        if not hand.trusted:
-            self._say(f"{hand.name} is locked: {hand.waits_for}")
+        if not lock.unlocked:
+            self._say(f"{lock.name} is locked: {lock.waits_for}")
         elif axis not in self._limits:
             self._say(f"{axis} is not an axis of this rig")
         elif axis.is_stick:
             self._say(f"{axis} moves only while a stick is held")
         elif axis not in self.drivers:
             if self.recall:
-                self._end_recall(f"{hand.name} moved {axis}")
+                self._end_recall(f"{lock.name} moved {axis}")
             return True
         return False
 
     def _sent(self, now: float, motion: Motion, share: float) -> dict[Axis, Setpoint]:
         """The axes that are on their way to a position, and there; `share` is the speed range, for steps."""
         recall = self.recall
-        if recall and not recall.asker.trusted:
+        if recall and not recall.asker.unlocked:
             self._end_recall(f"{recall.asker.name}: {recall.asker.waits_for}")
         elif recall and recall.is_over(motion):
             late = now - recall.begun - recall.seconds
             slow = f" in {late + recall.seconds:.1f} s: its axes go no faster" if late > LATE else ""
             self._end_recall(f"{recall.title} reached{slow}", reached=True)
-        return self.recall.wishes() if self.recall else self._jog.wishes(now, motion, share)
+        return self.recall.setpoints() if self.recall else self._jog.setpoints(now, motion, share)
 
     def _end_recall(self, why: str, reached: bool = False) -> None:
         assert self.recall is not None
         self._say(why if reached else f"{self.recall.title} ended: {why}")
         self.recall = None
 
-    def let_go(self) -> None:
+    def drop_all(self) -> None:
         """Nothing moves by hand any more, and what does is to rest as soon as it may."""
         self.recall = None
         self._jog.clear()
         self.drivers, self.deflections = {}, {}
-        for steering in self._steering.values():
-            steering.drop()
+        for shaping in self._shaping.values():
+            shaping.drop()
         self._driven = dict.fromkeys(self._limits)

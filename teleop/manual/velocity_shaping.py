@@ -27,7 +27,7 @@ class VelocityShaping:
         """The hand is gone: what it asked for no longer counts, not even as a memory of the low-pass."""
         self._smooth = 0.0
 
-    def wish(self, deflection: float, share: float, state: State, seconds: float) -> VelocityTarget | None:
+    def setpoint(self, deflection: float, share: float, state: State, seconds: float) -> VelocityTarget | None:
         """What is asked of the axis, `seconds` after the last time; None once it rests and nothing is asked.
 
         `deflection` is -1..1, `share` what full deflection is of the axis's velocity, `state` what it is commanded now.

@@ -33,7 +33,7 @@ FOLLOW: Mapping[str, DeviceCommand] = {
     "yaw": DeviceCommand("gimbal", "follow yaw"),  # the gimbal's own word for it, and that of `teleop send`
     "sport": DeviceCommand("gimbal", "follow sport"),
 }
-CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)
+CENTERED = (Axis.PAN, Axis.TILT, Axis.ROLL)
 """What a recentre takes to 0, and what moves when the gimbal does something by itself."""
 
 _BY_ITSELF = (gimbal.Calibrate, gimbal.ActiveTrack, gimbal.Orient)
@@ -141,7 +141,7 @@ def cue_rules(cue: Any, here: Location) -> Iterator[Wrong]:
 
 def moved_rules(cue: Any, here: Location, moved: Collection[str]) -> Iterator[Wrong]:
     """What is wrong with one cue, which has passed `cue_rules`, in a sequence that moves the axes `moved`."""
-    turns = any(axis in moved for axis in CENTRED)
+    turns = any(axis in moved for axis in CENTERED)
     if mapping(cue).get("recenter") is not None and not turns:
         yield (*here, "recenter"), "needs a keyframe with pan, tilt or roll"
     words = mapping(cue).get("send")

@@ -74,15 +74,15 @@ class Shots(NamedTuple):
 
 def grid(fov: list[float], overlap: float, pan: list[float], tilt: list[float]) -> Grid:
     """The frames that show all between two edges each way, `overlap` being a share; all else in deg."""
-    across = centres(pan[0], pan[1], fov[0], overlap, _is_circle(pan))
-    return Grid(across, centres(tilt[0], tilt[1], fov[1], overlap))
+    across = centers(pan[0], pan[1], fov[0], overlap, _is_circle(pan))
+    return Grid(across, centers(tilt[0], tilt[1], fov[1], overlap))
 
 
 def _is_circle(pan: Sequence[float]) -> bool:
     return abs(pan[1] - pan[0]) >= 360
 
 
-def centres(first: float, last: float, fov: float, overlap: float, circle: bool = False) -> list[float]:
+def centers(first: float, last: float, fov: float, overlap: float, circle: bool = False) -> list[float]:
     """Where to aim, from the first edge to the last, in deg."""
     start, end = outermost(first, last, fov, overlap, circle)
     count = _count(abs(last - first), fov, overlap, circle)

@@ -23,7 +23,7 @@ AHEAD = 0.08  # s from asking for a change to its beginning; the search takes 9 
 LATER = 2.0  # times further ahead when it was found too late
 WRITTEN = 1.0  # the speed that a move was written for
 FASTEST = 2.0  # times the speed that a move was written for
-PATIENCE = 0.05  # s between two looks at a paused move
+ASK_AGAIN = 0.05  # s between two looks at a paused move
 _INSTANT = 1e-6  # s: times on the loop's grid that are closer are the same
 
 Search = Callable[[TimeScaling, float], TimeScaling]  # from the present pace, for a change at that time
@@ -97,7 +97,7 @@ class Playback:
         here, rate, _ = self._pace.at(now)
         if math.isinf(time):
             return math.inf
-        return now + (max(time - here, 0.0) / rate if rate > 0 else PATIENCE)
+        return now + (max(time - here, 0.0) / rate if rate > 0 else ASK_AGAIN)
 
     def rate(self, now: float) -> float:
         """How many seconds of the move go by in a second."""

@@ -22,8 +22,8 @@ from teleop.sequence.phases import SequencePhase
 from teleop.sequence.progress import run_status
 from teleop.sequence.source import SequenceSource
 
-PACE = 0.1  # of the written speed, by which a key changes it
-LOOK = 0.05  # s between two looks at the keys while nothing moves
+SPEED_STEP = 0.1  # of the written speed, by which a key changes it
+KEYS_PERIOD = 0.05  # s between two looks at the keys while nothing moves
 HINTS = (Hint("space", "STOP"), Hint("p", "pause"), Hint("q", "end"), Hint("- +", "speed"), Hint("< >", "key"))
 WAITING_HINTS = (Hint("enter", "continue"), Hint("space", "STOP"), Hint("q", "end"))
 HELP = "space STOP  p pause  - + speed  < > key  q end"
@@ -47,13 +47,13 @@ class PlaybackControls:
     ) -> None:
         self._sequence, self._keys, self._trimming, self._keep = sequence, keys, trimming, keep
         self._note = self._stopped = ""
-        self._pausing = False  # for a lost input
+        self._lost_pauses = False  # for a lost input
         self._noted = sequence.phase  # when that was
         playback = sequence.playback
-        self._asked: Mapping[Command, Callable[[float], None]] = {
+        self._actions: Mapping[Command, Callable[[float], None]] = {
             Command.PAUSE: self._pause,
-            Command.SLOWER: lambda now: self._change_speed(-PACE, now),
-            Command.FASTER: lambda now: self._change_speed(PACE, now),
+            Command.SLOWER: lambda now: self._change_speed(-SPEED_STEP, now),
+            Command.FASTER: lambda now: self._change_speed(SPEED_STEP, now),
             Command.NEXT: lambda now: playback.step(1, now),
             Command.PREVIOUS: lambda now: playback.step(-1, now),
         }
@@ -62,10 +62,10 @@ class PlaybackControls:
     def note(self) -> str:
         """What the operator is to know now, in a line or two."""
         playback = self._sequence.playback
-        pace = f"{playback.chosen:.0%}"
+        speed = f"{playback.chosen:.0%}"
         if playback.paused:
-            pace = "paused" if playback.chosen == 1 else f"paused, continues at {pace}"
-        line = ARMED_HELP if self._sequence.phase is SequencePhase.ARMED else f"{pace}  {HELP}"
+            speed = "paused" if playback.chosen == 1 else f"paused, continues at {speed}"
+        line = ARMED_HELP if self._sequence.phase is SequencePhase.ARMED else f"{speed}  {HELP}"
         line = WAITING_HELP if self._sequence.waiting else line
         line = f"{self._sequence.missed}: {line}" if self._sequence.missed else line
         line = playback.refusal or self._note or (line if self._keys else "no terminal: Ctrl-C stops")
@@ -98,16 +98,16 @@ class PlaybackControls:
 
     def pause(self, now: float) -> bool | None:
         playback = self._sequence.playback
-        if not self._pausing and not playback.paused:
-            self._pausing = True
+        if not self._lost_pauses and not playback.paused:
+            self._lost_pauses = True
             playback.pause(now)
         elif playback.paused or not playback.changing(now):
-            self._pausing = False
+            self._lost_pauses = False
             return playback.paused
         return None
 
     def suspend(self, now: float) -> None:
-        self._pausing = False
+        self._lost_pauses = False
         self._sequence.suspend(now)
         if self._trimming:
             self._trimming.halt()
@@ -122,7 +122,7 @@ class PlaybackControls:
         self._sequence.resume(now, bare)
 
     def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
-        self._hear(now)
+        self._check_keys(now)
         demand, acts = self._sequence.read(now)
         if self._noted is not self._sequence.phase:
             self._note, self._noted = "", self._sequence.phase
@@ -134,7 +134,7 @@ class PlaybackControls:
         change = self._sequence.next_change(now)
         if math.isinf(change):
             return change
-        return now if self._trimming else min(change, now + LOOK)
+        return now if self._trimming else min(change, now + KEYS_PERIOD)
 
     def write(self, tick: Tick) -> None:  # noqa: ARG002 - only whether the run is to end
         """Raises Interrupted once it has been stopped."""
@@ -144,29 +144,29 @@ class PlaybackControls:
     def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
         return None
 
-    def _hear(self, now: float) -> None:
+    def _check_keys(self, now: float) -> None:
         if self._trimming is None:
             for press in self._keys.read(now).presses if self._keys else ():
-                self._obey(press, now)
+                self._handle(press, now)
             return
         for name, press in self._trimming.read(now):
             if not self._turn_trim(self._trimming, name, press):
-                self._obey(press, now)
+                self._handle(press, now)
 
-    def _obey(self, press: Press, now: float) -> None:
+    def _handle(self, press: Press, now: float) -> None:
         self._note = ""
         if press.command is Command.QUIT:
             self._stopped = self._stopped or f"stopped by {self._keys.name if self._keys else 'hand'}"
         elif press.command is Command.GO or (press.command is Command.PAUSE and self._sequence.waiting):
             self._sequence.go()
-        elif press.command not in self._asked:
+        elif press.command not in self._actions:
             self._note = f"{press.command}: not available while a sequence plays"
         elif self._sequence.phase is not SequencePhase.PLAYING:
             self._note = "the move has not begun"
         elif self._sequence.waiting and press.command in (Command.NEXT, Command.PREVIOUS):
             self._note = f"the move is waiting: {WAITING_HELP}"
         else:
-            self._asked[press.command](now)
+            self._actions[press.command](now)
 
     def _turn_trim(self, trimming: LiveOffset, name: str, press: Press) -> bool:
         """Whether it was for the trim. On a device, slower and faster are; the keys have them for the move."""
@@ -185,7 +185,7 @@ class PlaybackControls:
         return True
 
     def _trimmed(self, trimming: LiveOffset, demand: Demand) -> Demand:
-        states = {axis: State(*wish) for axis, wish in demand.items() if isinstance(wish, StateTarget)}
+        states = {axis: State(*setpoint) for axis, setpoint in demand.items() if isinstance(setpoint, StateTarget)}
         return {axis: StateTarget(*state) for axis, state in trimming.step(states, self._trims).items()}
 
     @property
@@ -195,11 +195,11 @@ class PlaybackControls:
         return phase is not SequencePhase.OVER and not (phase is SequencePhase.EASING and self._sequence.number == 1)
 
     def _trim_note(self, trimming: LiveOffset) -> str:
-        said = f"  {trimming.messages[0].text}" if trimming.messages else ""
+        message = f"  {trimming.messages[0].text}" if trimming.messages else ""
         if not self._trims:
-            return f"the trim begins once the rig is at the start{said}\n{TRIM_HELP}"
+            return f"the trim begins once the rig is at the start{message}\n{TRIM_HELP}"
         offsets = "  ".join(f"{axis} {round(o.position, 3) + 0.0:+.3f}" for axis, o in trimming.offsets.items())
-        return f"trim at {trimming.share:.0%}  {offsets}{said}\n{TRIM_HELP}"
+        return f"trim at {trimming.share:.0%}  {offsets}{message}\n{TRIM_HELP}"
 
     def _pause(self, now: float) -> None:
         playback = self._sequence.playback
@@ -210,5 +210,5 @@ class PlaybackControls:
 
     def _change_speed(self, share: float, now: float) -> None:
         playback = self._sequence.playback
-        faster = max(PACE, round(playback.chosen / PACE) * PACE + share)
-        playback.speed(min(faster, playback.at_most) if faster > playback.chosen else faster, now)
+        chosen = max(SPEED_STEP, round(playback.chosen / SPEED_STEP) * SPEED_STEP + share)
+        playback.speed(min(chosen, playback.at_most) if chosen > playback.chosen else chosen, now)

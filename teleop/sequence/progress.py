@@ -23,7 +23,7 @@ def progress_text(sequence: SequenceSource, now: float) -> str:
     if sequence.phase in _LABELS:
         return f"{_LABELS[sequence.phase]} {max(0.0, sequence.until - now):4.1f} s"
     if sequence.phase is SequencePhase.ARMED:
-        return f"waiting for {sequence.cycle.trigger.said(now)}" if sequence.cycle.trigger else ""
+        return f"waiting for {sequence.cycle.trigger.waits_for(now)}" if sequence.cycle.trigger else ""
     elapsed = sequence.playback.time(now)
     if sequence.waiting:
         return f"{elapsed:6.1f} / {sequence.duration:.1f} s  waiting for you"

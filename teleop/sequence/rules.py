@@ -67,7 +67,7 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
         if before and at <= before[1]:
             yield (
                 ("keyframes", index, "at"),
-                f"must be after {numbered('keyframes', before[0])} ({_said(before[1], when)})",
+                f"must be after {numbered('keyframes', before[0])} ({_time_text(before[1], when)})",
             )
         else:
             yield from _hold_rules(index, frame, at, free, when)
@@ -105,11 +105,11 @@ def _hold_rules(
         if frame.get(axis) is not None and at < end:
             yield (
                 ("keyframes", index, "at"),
-                f"must be after {numbered('keyframes', holder)} has held {axis} (until {_said(end, when)})",
+                f"must be after {numbered('keyframes', holder)} has held {axis} (until {_time_text(end, when)})",
             )
 
 
-def _said(time: float, when: When) -> str:
+def _time_text(time: float, when: When) -> str:
     return f"frame {time:g}" if when is frames else f"{time:g} s"
 
 

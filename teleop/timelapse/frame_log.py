@@ -10,7 +10,7 @@ from typing import Protocol
 
 from teleop.core.errors import DeviceError, TeleopError
 from teleop.core.events import ShutterResult
-from teleop.timelapse.journal import Frame, Note
+from teleop.timelapse.journal import FrameState, Note
 from teleop.timelapse.progress import Progress
 
 MOST_FAILURES = 10  # frames in a row without a picture, after which to continue is pointless
@@ -21,7 +21,7 @@ class FrameBook(Protocol):
 
     trouble: str
 
-    def note(self, frame: int | None, state: Frame) -> Note: ...
+    def note(self, frame: int | None, state: FrameState) -> Note: ...
 
     def finish(self) -> Note: ...
 
@@ -36,21 +36,21 @@ class FrameLog:
     def begin(self, frame: int) -> Note:
         """Its shutter is due. Raises TeleopError as `check` does."""
         self.check(frame)
-        return self._book.note(frame, Frame.BEGUN)
+        return self._book.note(frame, FrameState.BEGUN)
 
     def unshot(self, frame: int) -> None:
         """Begun, and its shutter was not pressed."""
-        self._book.note(frame, Frame.UNSHOT)
+        self._book.note(frame, FrameState.UNSHOT)
 
     def lost(self, frame: int) -> None:
         """Its place has been passed without a picture."""
         self._progress.lost.append(frame)
-        self._book.note(frame, Frame.MISSED)
+        self._book.note(frame, FrameState.MISSED)
 
     def on_result(self, result: ShutterResult) -> None:
         """Take the camera's answer; a picture is written down at once."""
         if result.code == 0:
-            self._book.note(result.frame, Frame.DONE)
+            self._book.note(result.frame, FrameState.DONE)
 
     def is_past(self, result: ShutterResult) -> bool:
         """Whether the shoot is past that frame. Raises DeviceError where what the camera did is to end it."""
@@ -69,7 +69,7 @@ class FrameLog:
             raise DeviceError(reason)
         if result.code is None:
             self._progress.doubtful.append(result.frame)
-            self._book.note(result.frame, Frame.DOUBTFUL)
+            self._book.note(result.frame, FrameState.DOUBTFUL)
         return result.code is None
 
     def check(self, frame: int) -> None:

@@ -29,7 +29,7 @@ class Bench:
     def demand(self) -> dict:
         for lock in self.locks:
             lock.read(0.0, True)
-        return self.arbitration.wishes(0.0, 0.01, self.motion, 0.5)
+        return self.arbitration.setpoints(0.0, 0.01, self.motion, 0.5)
 
 
 def test_the_first_input_has_an_axis_that_both_deflect_and_the_second_the_others() -> None:
@@ -72,7 +72,7 @@ def test_a_stick_ends_a_recall_and_says_so() -> None:
 
 def test_a_step_of_a_locked_input_is_refused_with_the_reason() -> None:
     bench = Bench()
-    bench.locks[0].distrust()
+    bench.locks[0].relock()
     bench.first.hold(pan=1.0)
     bench.first.turn(Axis.TILT, 1.0)
     assert Axis.TILT not in bench.demand()
@@ -84,6 +84,6 @@ def test_once_everything_is_let_go_every_axis_rests() -> None:
     bench.first.hold(pan=1.0)
     bench.demand()
     bench.first.hold(pan=0.0)
-    bench.arbitration.let_go()
+    bench.arbitration.drop_all()
     bench.motion[Axis.PAN] = State(1.0, 30.0)
     assert bench.demand()[Axis.PAN] == VelocityTarget(0.0)

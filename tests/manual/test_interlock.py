@@ -18,10 +18,10 @@ def test_an_input_is_locked_until_its_sticks_were_centered() -> None:
     assert lock.waits_for == CENTER
     pad.hold(pan=0.0)
     lock.read(0.1, True)
-    assert lock.trusted
+    assert lock.unlocked
     pad.hold(pan=0.5)
     lock.read(0.2, True)
-    assert lock.trusted, "once is enough"
+    assert lock.unlocked, "once is enough"
 
 
 def test_an_enable_button_held_from_the_beginning_does_not_count() -> None:
@@ -43,7 +43,7 @@ def test_the_switch_is_for_inputs_without_an_enable_button() -> None:
     lock.read(0.0, False)
     with_button.enabled = True
     lock.read(0.1, False)
-    assert lock.trusted
+    assert lock.unlocked
 
 
 def test_after_a_trouble_it_must_be_centered_again() -> None:

@@ -121,7 +121,9 @@ def check_demand(desk: Desk, hands: list[FakeInput], witnesses: list[Witness]) -
         assert desk.demand == {axis: Stop() for axis in LIMITS}
         return
     trusted = [
-        hand for hand, witness in zip(hands, witnesses, strict=True) if witness.may_move(hand, desk.status.hands_on)
+        hand
+        for hand, witness in zip(hands, witnesses, strict=True)
+        if witness.may_move(hand, desk.status.manual_control)
     ]
     for axis, wish in desk.demand.items():
         deflected = any(hand.deflections.get(axis) for hand in trusted)

@@ -38,7 +38,7 @@ def test_a_stop_ends_at_rest_on_the_side_that_the_axis_moves_to(velocity: float)
 
 def test_it_is_over_when_every_axis_rests_at_its_target() -> None:
     recall = Recall("preset 1", Interlock(FakeInput()), {Axis.PAN: 10.0, Axis.TILT: 0.0}, 5.0, 3.0)
-    assert recall.wishes() == {Axis.PAN: PositionTarget(10.0, 3.0), Axis.TILT: PositionTarget(0.0, 3.0)}
+    assert recall.setpoints() == {Axis.PAN: PositionTarget(10.0, 3.0), Axis.TILT: PositionTarget(0.0, 3.0)}
     assert recall.end == 8.0
     assert recall.is_over({Axis.PAN: State(10.0), Axis.TILT: State(0.0)})
     assert not recall.is_over({Axis.PAN: State(10.0), Axis.TILT: State(0.0, 1.0)})

@@ -47,7 +47,7 @@ def test_a_locked_input_that_is_deflected_is_explained_once_until_it_is_unlocked
     pad.hold(pan=0.0)
     lock.read(0.1, True)
     assert list(log.changes([lock], {})) == []
-    lock.distrust()
+    lock.relock()
     pad.hold(pan=1.0)
     lock.read(0.2, True)
     assert list(log.changes([lock], {})) == ["pad is locked: center its sticks"]

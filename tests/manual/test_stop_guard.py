@@ -62,7 +62,7 @@ class Trigger:
     def fired(self, now: float) -> bool:
         return self.fires
 
-    def said(self, now: float) -> str:
+    def waits_for(self, now: float) -> str:
         return "a test"
 
 

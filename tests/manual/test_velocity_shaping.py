@@ -17,7 +17,7 @@ TICK = 0.01
 
 @given(st.floats(-1, 1), st.floats(0.05, 1))
 def test_without_a_low_pass_a_deflection_is_its_share_of_the_velocity(deflection: float, share: float) -> None:
-    target = VelocityShaping(LIMITS, 0, 0).wish(deflection, share, MOVING, TICK)
+    target = VelocityShaping(LIMITS, 0, 0).setpoint(deflection, share, MOVING, TICK)
     assert target is not None
     assert target.velocity == pytest.approx(deflection * share * 120)
     assert (target.acceleration, target.jerk) == (None, None)
@@ -25,8 +25,8 @@ def test_without_a_low_pass_a_deflection_is_its_share_of_the_velocity(deflection
 
 def test_an_axis_that_rests_and_is_not_deflected_is_asked_nothing() -> None:
     shaping = VelocityShaping(LIMITS, 0.5, 0.1)
-    assert shaping.wish(0.0, 1.0, REST, TICK) is None
-    assert shaping.wish(0.0, 1.0, MOVING, TICK) == VelocityTarget(0.0, *shaping._gentle())
+    assert shaping.setpoint(0.0, 1.0, REST, TICK) is None
+    assert shaping.setpoint(0.0, 1.0, MOVING, TICK) == VelocityTarget(0.0, *shaping._gentle())
 
 
 @given(st.lists(st.floats(-1, 1), min_size=1, max_size=50), st.floats(0.02, 1))
@@ -34,7 +34,7 @@ def test_the_low_pass_never_leaves_the_range_of_what_was_asked(deflections: list
     shaping = VelocityShaping(LIMITS, 0, constant)
     low, high = min(0.0, *deflections), max(0.0, *deflections)
     for deflection in deflections:
-        target = shaping.wish(deflection, 1.0, MOVING, TICK)
+        target = shaping.setpoint(deflection, 1.0, MOVING, TICK)
         assert target is not None
         assert low * 120 - 1e-9 <= target.velocity <= high * 120 + 1e-9
 
@@ -42,16 +42,16 @@ def test_the_low_pass_never_leaves_the_range_of_what_was_asked(deflections: list
 def test_a_dropped_input_leaves_no_memory_in_the_low_pass() -> None:
     shaping = VelocityShaping(LIMITS, 0, 0.5)
     for _ in range(100):
-        shaping.wish(1.0, 1.0, MOVING, TICK)
+        shaping.setpoint(1.0, 1.0, MOVING, TICK)
     shaping.drop()
-    target = shaping.wish(0.0, 1.0, MOVING, TICK)
+    target = shaping.setpoint(0.0, 1.0, MOVING, TICK)
     assert target is not None
     assert target.velocity == 0
 
 
 @given(st.floats(0.01, 3), st.floats(0.05, 1))
 def test_a_ramp_is_gentler_and_never_beyond_the_limits(ramp: float, share: float) -> None:
-    target = VelocityShaping(LIMITS, ramp, 0).wish(1.0, share, REST, TICK)
+    target = VelocityShaping(LIMITS, ramp, 0).setpoint(1.0, share, REST, TICK)
     assert target is not None
     assert target.acceleration is not None
     assert target.jerk is not None

@@ -42,7 +42,7 @@ class Button:
     def fired(self, now: float) -> bool:
         return self.pulled
 
-    def said(self, now: float) -> str:
+    def waits_for(self, now: float) -> str:
         return "the button"
 
 

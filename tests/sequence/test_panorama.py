@@ -13,7 +13,7 @@ from sequences import load, problems_of
 from teleop.config.document import UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
-from teleop.sequence.panorama import centres, grid
+from teleop.sequence.panorama import centers, grid
 
 TEXT = "panorama:\n  fov: [54, 38]\n  overlap: 30%\n  pan: [-90, 90]\n  tilt: [30, -30]\n  every: 3s\n"
 
@@ -22,7 +22,7 @@ TEXT = "panorama:\n  fov: [54, 38]\n  overlap: 30%\n  pan: [-90, 90]\n  tilt: [3
 def test_all_is_seen_and_neighbours_share_what_was_asked_for(
     first: float, last: float, fov: float, overlap: float
 ) -> None:
-    aims = centres(first, last, fov, overlap)
+    aims = centers(first, last, fov, overlap)
     low, high = sorted((first, last))
     assert min(aims) - fov / 2 <= low + 1e-6
     assert max(aims) + fov / 2 >= high - 1e-6

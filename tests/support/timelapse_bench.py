@@ -13,7 +13,7 @@ from teleop.core.events import Exposure, ShutterResult, ShutterStep, Tick
 from teleop.core.timing import PERIOD
 from teleop.planner.live import Live
 from teleop.timelapse.compile import Timelapse, load_timelapse
-from teleop.timelapse.journal import Frame, Note
+from teleop.timelapse.journal import FrameState, Note
 from teleop.timelapse.movers import GlideMover, Mover, StepMover
 from teleop.timelapse.progress import Progress
 from teleop.timelapse.source import TimelapseSource
@@ -36,14 +36,14 @@ class Book:
         self.trouble = ""
         self.writes = True
 
-    def note(self, frame: int | None, state: Frame) -> Note:
+    def note(self, frame: int | None, state: FrameState) -> Note:
         self.notes.append(Note(frame, state, safe=self.writes))
         return self.notes[-1]
 
     def finish(self) -> Note:
-        return self.note(None, Frame.DONE)
+        return self.note(None, FrameState.DONE)
 
-    def states(self, frame: int) -> list[Frame]:
+    def states(self, frame: int) -> list[FrameState]:
         return [note.state for note in self.notes if note.frame == frame]
 
 

@@ -41,5 +41,5 @@ def test_a_ramp_of_intervals_must_not_pass_zero(tmp_path: Path) -> None:
 
 def test_a_frame_names_only_the_phases_that_take_time() -> None:
     phases = Phases(prefocus=0, exposure=0.5, post=0, settle=0.3, below=None)
-    assert phases.said(move=0.0, settle=0.3) == "exposure 0.5 s + settle 0.3 s"
-    assert Phases(0, 0, 0, 0, None).said() == "nothing"
+    assert phases.text(move=0.0, settle=0.3) == "exposure 0.5 s + settle 0.3 s"
+    assert Phases(0, 0, 0, 0, None).text() == "nothing"

@@ -8,7 +8,7 @@ from timelapse_bench import Book
 from teleop.core.errors import DeviceError, TeleopError
 from teleop.core.events import ShutterResult
 from teleop.timelapse.frame_log import MOST_FAILURES, FrameLog
-from teleop.timelapse.journal import Frame
+from teleop.timelapse.journal import FrameState
 from teleop.timelapse.progress import Progress
 from teleop.timelapse.schedule import Schedule
 
@@ -30,27 +30,29 @@ class Bench:
 def test_a_picture_is_written_down_before_and_after_it() -> None:
     bench = Bench(go_on=False)
     assert bench.shoot(4, DONE)
-    assert bench.book.states(4) == [Frame.BEGUN, Frame.DONE]
+    assert bench.book.states(4) == [FrameState.BEGUN, FrameState.DONE]
     assert bench.progress.shot == 1
 
 
 def test_a_refused_frame_is_due_again_and_one_without_an_answer_is_not() -> None:
     bench = Bench(go_on=True)
     assert not bench.shoot(4, REFUSED)
-    assert bench.book.states(4) == [Frame.BEGUN, Frame.UNSHOT]
+    assert bench.book.states(4) == [FrameState.BEGUN, FrameState.UNSHOT]
     assert bench.shoot(5, SILENT)
-    assert bench.book.states(5) == [Frame.BEGUN, Frame.DOUBTFUL]
+    assert bench.book.states(5) == [FrameState.BEGUN, FrameState.DOUBTFUL]
     assert (bench.progress.refused, bench.progress.doubtful, bench.progress.shot) == (1, [5], 0)
 
 
 @pytest.mark.parametrize(
     ("code", "reason", "state"),
     [
-        (REFUSED, "the camera refused to shoot frame 7 (return code 0x02)", Frame.UNSHOT),
-        (SILENT, "frame 7 may be missing: the camera did not answer", Frame.BEGUN),
+        (REFUSED, "the camera refused to shoot frame 7 (return code 0x02)", FrameState.UNSHOT),
+        (SILENT, "frame 7 may be missing: the camera did not answer", FrameState.BEGUN),
     ],
 )
-def test_by_default_a_camera_that_takes_no_picture_ends_the_shoot(code: int | None, reason: str, state: Frame) -> None:
+def test_a_camera_that_takes_no_picture_ends_the_shoot_by_default(
+    code: int | None, reason: str, state: FrameState
+) -> None:
     bench = Bench(go_on=False)
     with pytest.raises(DeviceError) as raised:
         bench.shoot(7, code)

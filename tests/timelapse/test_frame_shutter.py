@@ -9,7 +9,7 @@ from teleop.core.events import Exposure, ShutterResult, ShutterStep
 from teleop.timelapse.budget import Phases
 from teleop.timelapse.frame_log import FrameLog
 from teleop.timelapse.frame_shutter import ANSWER_TIMEOUT, FrameShutter
-from teleop.timelapse.journal import Frame
+from teleop.timelapse.journal import FrameState
 from teleop.timelapse.progress import Progress
 from teleop.timelapse.schedule import Schedule
 
@@ -50,7 +50,7 @@ def test_an_answer_counts_when_the_frame_is_done_and_only_once() -> None:
     one.on_result(ShutterResult(2, 0))
     assert not one.answered, "that was another frame"
     one.on_result(ShutterResult(3, 0))
-    assert book.states(3) == [Frame.BEGUN, Frame.DONE]
+    assert book.states(3) == [FrameState.BEGUN, FrameState.DONE]
     assert one.result(11.69) is None
     assert one.result(11.7) == ShutterResult(3, 0)
     assert one.result(11.8) is None
@@ -72,4 +72,4 @@ def test_a_frame_that_is_given_up_counts_as_not_begun(prefocus: float, steps: li
     one.begin(3, 10.0)
     one.give_up()
     assert [event.step for event in one.take_events() if isinstance(event, Exposure)] == steps
-    assert book.states(3) == [Frame.BEGUN, Frame.UNSHOT]
+    assert book.states(3) == [FrameState.BEGUN, FrameState.UNSHOT]

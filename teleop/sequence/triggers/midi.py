@@ -91,7 +91,7 @@ class StartTrigger(_MidiTrigger):
         began = self.timecode.starts > self._starts and self.timecode.run_from >= self._armed_at
         return began and self.timecode.runs(now)
 
-    def said(self, now: float) -> str:
+    def waits_for(self, now: float) -> str:
         return "MIDI timecode to stop and start again" if self.timecode.runs(now) else "MIDI timecode to start"
 
 
@@ -121,7 +121,7 @@ class TimecodeTrigger(_MidiTrigger):
             return False
         return timecode.runs(now) and self._before and left > -LATE
 
-    def said(self, now: float) -> str:
+    def waits_for(self, now: float) -> str:
         position = self.timecode.position(now)
         if math.isnan(position):
             return f"timecode {self._label}; none received yet"

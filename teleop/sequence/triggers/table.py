@@ -40,7 +40,7 @@ class KeyTrigger:
     def fired(self, now: float) -> bool:  # noqa: ARG002 - the sequence hears the key itself
         return False
 
-    def said(self, now: float) -> str:  # noqa: ARG002 - nothing to count down
+    def waits_for(self, now: float) -> str:  # noqa: ARG002 - nothing to count down
         return "enter"
 
 
@@ -76,7 +76,7 @@ class ClockTrigger:
     def fired(self, now: float) -> bool:  # noqa: ARG002
         return self._wall() >= self._at - PERIOD / 2
 
-    def said(self, now: float) -> str:  # noqa: ARG002
+    def waits_for(self, now: float) -> str:  # noqa: ARG002
         left = max(0, round(self._at - self._wall()))
         parts = ((left // 3600, "h"), (left // 60 % 60, "min"), (left % 60, "s"))
         return f"{self._name}, in {' '.join(f'{count} {unit}' for count, unit in parts if count) or '0 s'}"
