@@ -1,7 +1,7 @@
 """One axis under a stick: from a deflection to the velocity that is asked of the planner, and how gently.
 
-The low-pass takes the noise out of a hand: 3 % of it doubles the jerk (planning.md, A). The ramp is the damping
-control: gentler limits, with which full speed takes that long. They follow the speed that is to be ramped, not only
+The low-pass takes out the noise of a hand: 3 % of it doubles the jerk (docs/explanation/planning.md, A). The ramp is
+the damping control: gentler limits, with which full speed takes that long. They follow the speed that is to be ramped, not only
 the range: a range lowered in full flight, or a preset left at its fastest, is to stop as soon as any other motion.
 """
 
@@ -24,7 +24,7 @@ class VelocityShaping:
         self._smooth = self._fastest = 0.0
 
     def drop(self) -> None:
-        """The hand is gone: what it asked for no longer counts, not even as a memory of the low-pass."""
+        """Forget the input, and what the low-pass remembers of it."""
         self._smooth = 0.0
 
     def setpoint(self, deflection: float, share: float, state: State, seconds: float) -> VelocityTarget | None:
