@@ -1,8 +1,8 @@
 """One axis under a stick: from a deflection to the velocity that is asked of the planner, and how gently.
 
 The low-pass takes out the noise of a hand: 3 % of it doubles the jerk (docs/explanation/planning.md, A). The ramp is
-the damping control: gentler limits, with which full speed takes that long. They follow the speed that is to be ramped, not only
-the range: a range lowered in full flight, or a preset left at its fastest, is to stop as soon as any other motion.
+the damping control: gentler limits, with which full speed takes that long. They follow the speed that is to be ramped,
+not only the range: a range lowered at full speed, or a preset left at its fastest, stops as soon as any other motion.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.time_scaling import TimeScaling, at_most, change_rate, go_to, run_up, state_at, steady
 from teleop.planner.trajectory import Move
 
-AHEAD = 0.08  # s from asking for a change to its beginning; the search takes 9 ms in the median (docs/explanation/planning.md, C)
+AHEAD = 0.08  # s from asking for a change to its beginning; the search takes 9 ms (docs/explanation/planning.md, C)
 LATER = 2.0  # times further ahead when it was found too late
 WRITTEN = 1.0  # the speed that a move was written for
 FASTEST = 2.0  # times the speed that a move was written for
