@@ -35,7 +35,7 @@ from teleop.core.run_state import Result
 from teleop.monitors.tracking_error import Score, TrackingErrorMonitor
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
-from teleop.sequence.compile import CompiledSequence, load_performance
+from teleop.sequence.compile import CompiledSequence, load_sequence
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -363,7 +363,7 @@ def _compiled(sequence: Source, profile: Profile) -> CompiledSequence:
     if timelapse := load_timelapse(str(sequence), profile.limits, profile.name):
         return timelapse.rehearsal()
     devices = [sink.type for sink in profile.sinks]
-    return load_performance(str(sequence), profile.limits, profile.name, devices)
+    return load_sequence(str(sequence), profile.limits, profile.name, devices)
 
 
 def _compiled_content(content: Mapping[str, Any], profile: Profile) -> CompiledSequence:

@@ -65,7 +65,7 @@ class Options:
         too, it is the rehearsal, whose warnings are left to whoever rehearses. Raises DocumentError, and with --json
         prints it.
         """
-        from teleop.sequence.compile import load_performance
+        from teleop.sequence.compile import load_sequence
         from teleop.timelapse.compile import load_timelapse
 
         timelapse = None
@@ -80,7 +80,7 @@ class Options:
                 performance = timelapse.rehearsal()
             else:
                 devices = [sink.type for sink in profile.sinks]
-                performance = load_performance(file, limits, profile.name, devices)
+                performance = load_sequence(file, limits, profile.name, devices)
         except DocumentError as error:
             if share < 1 and isinstance(error, UnplayableError):
                 error = UnplayableError([*error.problems, f"{file}: was planned with {share:.0%} of the rig's limits"])

@@ -1,11 +1,11 @@
-"""What moves by hand: sticks merged, steps and sliders, and the recall that is under way, as one demand.
+"""Which input moves which axis: sticks merged, steps and sliders, and the recall under way, as one demand.
 
-Whatever moves an axis belongs to a hand, and stops with it: a stick while it is deflected, a recall or a jog until it
-is there. An axis that was driven and is no longer is told to rest until it does, so that nothing beneath takes it over
-in flight: gently when a stick was let go, as fast as the axis may when the hand was lost.
+Whatever moves an axis belongs to an input, and stops with it: a stick while it is deflected, a recall or a jog until it
+arrives. An axis that was moved is brought to rest before anything beneath may take it over: gently when the stick was
+released, as fast as the axis may when the input was lost.
 
-A drone's stick is not moved by a hand's stick, it is one: it is where the hand's is, centred too, for as long as a hand
-that is trusted has it. When none has, nothing is said of it, which is how a drone is told that nobody is there.
+A drone's stick is a position: that of the operator's stick, centered too, as long as an unlocked input has it. When
+none has, the demand does not name it, and so the drone knows that there is no input.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from teleop.manual.jog import Jog
 from teleop.manual.recall import Recall
 from teleop.manual.velocity_shaping import VelocityShaping
 
-LATE = 0.05  # s after which a recall is said to have been late
+LATE = 0.05  # s after which a recall is reported as late
 
 
 class Arbitration:
-    """`locks` in the order of their priority; `say` is for what the operator has to know.
+    """`locks` are the inputs in the order of their priority; `say` takes lines for the operator.
 
-    `drivers` are the hands whose sticks deflect an axis, `deflections` (-1..1) by how much, `recall` what is under way.
+    `drivers` are the inputs that deflect an axis, `deflections` (-1..1) by how much, `recall` what is under way.
     """
 
     def __init__(
@@ -45,7 +45,9 @@ class Arbitration:
         self.recall: Recall | None = None
         self.drivers: dict[Axis, Interlock] = {}
         self.deflections: dict[Axis, float] = {}
-        self._driven: dict[Axis, Interlock | None] = {}  # not yet at rest since this hand moved it; None: it is to rest
+        self._driven: dict[
+            Axis, Interlock | None
+        ] = {}  # not yet at rest since this input moved it; None: it is to rest
 
     def begin(self, recall: Recall) -> None:
         """Take the axes somewhere; what else was under way is over."""
@@ -53,7 +55,7 @@ class Arbitration:
         self.recall = recall
 
     def setpoints(self, now: float, seconds: float, motion: Motion, share: float) -> dict[Axis, Setpoint]:
-        """What trusted hands want of the axes that they move, and rest for those that they moved.
+        """Setpoints of unlocked inputs for the axes that they move, and rest for those that they moved.
 
         `seconds` since the last time; `share` is what full deflection is of an axis's velocity.
         """
@@ -79,7 +81,7 @@ class Arbitration:
         return demand
 
     def _held(self) -> dict[Axis, Setpoint]:
-        """A drone's sticks, where hands that are trusted hold them."""
+        """A drone's sticks, where unlocked inputs have them."""
         mapped = {axis for lock in self._locks if lock.unlocked for axis in lock.held.deflections}
         return {axis: PositionTarget(self.deflections.get(axis, 0.0)) for axis in self._sticks if axis in mapped}
 
@@ -89,7 +91,7 @@ class Arbitration:
         return next((axis for axis in self.drivers if not axis.is_stick), None)
 
     def _merge(self) -> None:
-        """Which hand drives which axis: the first one trusted that deflects it. A stick ends what was under way."""
+        """Which input drives which axis: the first unlocked one that deflects it. A stick ends what was under way."""
         self.drivers, self.deflections = {}, {}
         for lock in self._locks:
             if not lock.unlocked:
@@ -144,7 +146,7 @@ class Arbitration:
         self.recall = None
 
     def drop_all(self) -> None:
-        """Nothing moves by hand any more, and what does is to rest as soon as it may."""
+        """Drop all that inputs asked for; what moves comes to rest as soon as it may."""
         self.recall = None
         self._jog.clear()
         self.drivers, self.deflections = {}, {}

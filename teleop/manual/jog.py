@@ -78,7 +78,7 @@ class Jog:
         self._targets.clear()
 
     def setpoints(self, now: float, motion: Motion, share: float) -> dict[Axis, Setpoint]:
-        """What is still to be done by askers that are still trusted; the rest is forgotten.
+        """Setpoints of the targets whose inputs are still unlocked; the others are dropped.
 
         `share` is the most of its velocity that a step may give an axis.
         """

@@ -1,9 +1,9 @@
-"""An operator's hands on a sequence that plays: they add an offset to it, axis by axis, live.
+"""Trims a sequence that plays: an operator's inputs add an offset to it, axis by axis, live.
 
-For the hands an offset is an axis like any other: its limits are what the sequence leaves of the rig's
-(`planner.trim`), its 0 is the sequence itself, and all that holds for a hand in `teleop live` (centred first, stale is
-rest, jogs, sliders, speed ranges) holds here, by the same code. So the sum is legal whatever either of them does. An
-offset that no hand moves is held; letting it go is a recall of 0.
+For the inputs an offset is an axis like any other: its limits are what the sequence leaves of the rig's
+(`planner.offset_limits`), its 0 is the sequence itself, and all that holds for an input of `teleop live` (centered
+first, stale is rest, jogs, sliders, speed ranges) holds here, by the same code. So the sum is always legal. An offset
+that no input moves is held; to release it is a recall of 0.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class LiveOffset:
         self._log.say(self._now, text)
 
     def read(self, now: float) -> list[tuple[str, Press]]:
-        """What the hands have pressed, with the name of each; what they hold is kept for `step`."""
+        """What was pressed, with the name of each input; what the inputs hold is kept for `step`."""
         presses = [(lock.name, press) for lock in self._locks for press in lock.read(now, True).presses]
         seconds, self._now = now - self._now, now
         self._seconds = max(seconds, PERIOD)
@@ -75,7 +75,7 @@ class LiveOffset:
     def halt(self) -> None:
         """The axes are stopped, offsets and all: every offset is where its own fastest stop would end, at rest.
 
-        What the hands had asked for is over, and each has to be seen centered again.
+        What the inputs had asked for is over, and each must be centered again.
         """
         self._arbitration.drop_all()
         for lock in self._locks:
@@ -84,7 +84,7 @@ class LiveOffset:
         self.offsets = self._live.motion
 
     def release(self, name: str) -> None:
-        """Take every offset back to 0, as this hand asks; a stick ends that."""
+        """Take every offset back to 0, as this input asks; a stick ends that."""
         lock = next(lock for lock in self._locks if lock.name == name)
         if lock.waits_for:
             self.say(f"trim unchanged: {name} is locked: {lock.waits_for}")

@@ -25,9 +25,9 @@ from teleop.manual.interlock import Interlock
 from teleop.manual.recall import Recall, reachable
 from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
 
-CENTERED = (Axis.PAN, Axis.TILT, Axis.ROLL)  # what a recentre takes to 0
+CENTERED = (Axis.PAN, Axis.TILT, Axis.ROLL)  # what a recenter takes to 0
 FOLLOW = "follow "  # begins the name of the gimbal's command
-CENTERED_STICK = PositionTarget(0.0)  # of a drone: nothing moves, but somebody is there
+CENTERED_STICK = PositionTarget(0.0)  # of a drone: nothing moves, and there is an input
 
 
 class Operator:
@@ -148,7 +148,7 @@ class Operator:
         return demand if self._beneath_unlocked else {}
 
     def _turn_dial(self) -> None:
-        """The gimbal's own dial, said each tick while it turns and once when it rests."""
+        """The gimbal's own dial: each tick while it turns, and once when it rests."""
         turning = [lock.held.dial for lock in self._locks if lock.unlocked and lock.held.dial]
         speed = turning[0] if turning and not self._stopped and not self._done else 0.0
         if speed or self._dial:
@@ -204,7 +204,7 @@ class Operator:
         self._send(lock, "recenter", {axis: 0.0 for axis in CENTERED if axis in self._limits})
 
     def _send(self, lock: Interlock, title: str, positions: Mapping[Axis, float]) -> None:
-        """Begin to take the axes somewhere, if the hand that asks may."""
+        """Begin to take the axes somewhere, if the input that asks may."""
         held = [each.held.deflections for each in self._locks if each.unlocked]
         deflected = any(value for held in held for axis, value in held.items() if not axis.is_stick)
         refusal = "STOP is not cleared" if self._stopped else lock.waits_for

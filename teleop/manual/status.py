@@ -14,7 +14,7 @@ KEPT = 20  # messages
 
 
 class Message(NamedTuple):
-    """A line for the operator, and when it was said on the loop's clock."""
+    """A line for the operator, and its time on the loop's clock."""
 
     time: float
     text: str
@@ -35,8 +35,8 @@ class OperatorStatus:
 
     `range` is the index of the speed range in force among `ranges`, `deflections` (-1..1) is what came of all sticks,
     `recall` what the axes are being taken to, "" for nothing, and `recall_end` when they are to be there. `recording`
-    is what the camera was last told, `follow` the gimbal's follow mode that it last confirmed, "" for none. `presets`
-    are the names of those stored, "" for one that has none.
+    is whether the camera has confirmed that it records, `follow` the gimbal's follow mode that it last confirmed, ""
+    for none. `presets` are the names of those stored, "" for one that has none.
     """
 
     inputs: Sequence[InputStatus]
@@ -54,7 +54,7 @@ class OperatorStatus:
 
 
 class MessageLog:
-    """The messages, and what was last said of each input, so that nothing is said twice."""
+    """The messages, and the last one about each input, so that none comes twice."""
 
     def __init__(self) -> None:
         self.messages: tuple[Message, ...] = ()

@@ -36,12 +36,12 @@ GO_HINTS = (Hint("p", "continue"), Hint("space", "STOP"), Hint("q", "end"))
 
 
 class Hold(Enum):
-    """Who moves the axes."""
+    """What moves the axes."""
 
     FREE = auto()  # the source
-    STOPPED = auto()  # nobody: a STOP that is not cleared
-    CLEARED = auto()  # nobody, until an operator goes on
-    PAUSED = auto()  # nobody, until an operator goes on: there was no STOP
+    STOPPED = auto()  # nothing: a STOP that is not cleared
+    CLEARED = auto()  # nothing, until an operator continues
+    PAUSED = auto()  # nothing, until an operator continues: there was no STOP
 
 
 class Resumable(Source, Protocol):

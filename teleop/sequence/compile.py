@@ -1,7 +1,7 @@
-"""A sequence file: keyframes in YAML to a checked performance, or every reason why not.
+"""A sequence file: from keyframes in YAML to a checked `CompiledSequence`, or every reason why not.
 
 Two checks, both before a port opens. The file alone: shapes, times in order, nothing unknown. The file on a rig: the
-axes are there, the keys lie inside the soft limits, and the planner finds a way; what it cannot plan is said at the
+axes are there, the keys lie inside the soft limits, and the planner finds a way; what it cannot plan is an error at the
 keyframe where it goes wrong. The rules read the plain data, so that all errors of a file come at once.
 """
 
@@ -60,7 +60,7 @@ class CompiledSequence:
         return max([self.move.duration, *(cue.at for cue in self.cues)])
 
 
-def load_performance(
+def load_sequence(
     name: str, limits: Mapping[Axis, Limits], rig: str, devices: Collection[str] | None = None
 ) -> CompiledSequence:
     """The sequence called `name`, shipped or at a path, compiled for a rig with these limits.

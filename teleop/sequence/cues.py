@@ -1,7 +1,7 @@
-"""What happens once at a time of a sequence, beside the motion: the camera, the gimbal's own commands, a wait.
+"""Cues: what happens once at a time of a sequence, beside the motion: camera, the gimbal's own commands, a wait.
 
 A command is looked up, and its ranges are checked, when the file is read. What the gimbal does by itself would be taken
-back by the stream that moves it, so that is refused with what does it instead: a recentre is planned like any other
+back by the stream that moves it, so that is refused with what does it instead: a recenter is planned like any other
 way to a key. What changes how the gimbal behaves is given only where every axis rests, as in `teleop live`.
 """
 
@@ -34,7 +34,7 @@ FOLLOW: Mapping[str, DeviceCommand] = {
     "sport": DeviceCommand("gimbal", "follow sport"),
 }
 CENTERED = (Axis.PAN, Axis.TILT, Axis.ROLL)
-"""What a recentre takes to 0, and what moves when the gimbal does something by itself."""
+"""What a recenter takes to 0, and what moves when the gimbal does something by itself."""
 
 _BY_ITSELF = (gimbal.Calibrate, gimbal.ActiveTrack, gimbal.Orient)
 _CAMERA = {
@@ -82,7 +82,7 @@ class CueSection(Section):
 
     @property
     def needs_rest(self) -> bool:
-        """Whether it may be only where every axis rests; what the camera is told may be anywhere."""
+        """Whether it may be only where every axis rests; a command for the camera may be anywhere."""
         return bool(self.follow or self.wait) or (
             self.send is not None and not find(self.send.split()).name.startswith("camera.")
         )
@@ -114,7 +114,7 @@ def cues_from(cues: Sequence[Cue], start_at: float) -> tuple[list[TickEvent], li
     """What to do in place, and in a pass that begins at `start_at` (s), in mid move.
 
     What came before is not made up for, but for what would be going on by then: the camera records, or focuses, as the
-    run-up begins, and the gimbal has been told how to follow.
+    run-up begins, and the gimbal has its follow mode.
     """
     before = [cue.action for cue in cues if cue.at < start_at - INSTANT]
     follows = [

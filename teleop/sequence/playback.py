@@ -35,7 +35,7 @@ class Playback:
     `keys` are the move's times to step to, in s, rising. `start_at` is where in the move to begin (s): with a run-up,
     so that it is there with the speed that it has there. Changes are searched for by `executor`, a thread unless given.
     Raises PlanError where `rate` is more than the move allows. The speed that it was written for it always allows: a
-    recording at the limits themselves leaves no headroom, and whoever made the move has checked every step of it.
+    recording at the limits themselves leaves no headroom, and the maker of the move has checked every step of it.
     """
 
     def __init__(

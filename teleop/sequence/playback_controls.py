@@ -1,8 +1,8 @@
-"""A sequence with a hand on it: pause, resume, faster, slower, from key to key, go, stop and trim, while it plays.
+"""The operator's controls of a sequence that plays: pause, resume, faster, slower, from key to key, go, end and trim.
 
-The keys only ask; what becomes of it, and when, is the playback's, and where an axis is trimmed to, `LiveOffset`'s. A
-STOP is the affair of the `StopGuard` above it, which then has the conductor suspend all of this and resume it.
-The conductor also looks on as a sink, because only what is raised there ends a run without losing a tick.
+A key asks; `Playback` decides what becomes of it and when, and `LiveOffset` where an axis is trimmed to. The
+`StopGuard` above it handles a STOP: it suspends all of this and resumes it. The controls are a sink too, because only
+what is raised there ends a run without losing a tick.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ TRIM_HELP = "arrows hjkl [ ] ( ) trim  v its speed  z to 0  w write"
 
 
 class PlaybackControls:
-    """`sequence` under `keys`, None for no terminal, and the hands of `trimming`, of which the keys are one.
+    """`sequence` under `keys`, None for no terminal, and the inputs of `trimming`, of which the keys are one.
 
-    `keep` is called for the trim to be written as it is now, and answers what is to be said of that.
+    `keep` writes the trim as it is now, and returns a line for the operator.
     """
 
     def __init__(

@@ -1,7 +1,7 @@
 """What there is to plan: keys and cues of a sequence file, and of all that it includes, on one clock.
 
 A keyframe stands for itself, while a panorama and an included file are blocks: between their first and last key of an
-axis nothing else may want that axis. An included file's first and last keys stay the stops that they are when it is
+axis nothing else may move that axis. An included file's first and last keys stay the stops that they are when it is
 played alone, and so does the evenness of its speed.
 """
 
@@ -27,13 +27,13 @@ MOST_KEYS = 10_000  # of an axis, every pass of a repeat counted: the planner ta
 
 
 class Origin(NamedTuple):
-    """Where something stands, in one of several files."""
+    """Where something is written, in one of several files."""
 
     document: Document
     location: Location
 
     def line(self, text: str) -> str:
-        """A line for something that is said of it elsewhere."""
+        """An error line that names this place."""
         return self.document.line(self.location, text)
 
 
@@ -116,7 +116,7 @@ def _inserted(key: Key, at: float, rate: float, name: str, tension: float | None
 
 
 def joined(blocks: Mapping[Axis, list[Block]]) -> tuple[Keys, list[str]]:
-    """Each axis's keys in order of time, and a line for each block that wants an axis which another one has."""
+    """Each axis's keys in order of time, and a line for each block that needs an axis which another one has."""
     keys, problems = {}, []
     for axis in (axis for axis in Axis if axis in blocks):
         in_order = sorted(blocks[axis], key=lambda block: block.keys[0].at)
@@ -139,7 +139,7 @@ def _overlaps(axis: Axis, blocks: Sequence[Block]) -> Iterator[str]:
 
 
 def expand(timeline: Timeline, limits: Mapping[Axis, Limits]) -> Iterator[str]:
-    """Add the passes of a repeat, and the keys of recentre cues; a line for all that cannot be."""
+    """Add the passes of a repeat, and the keys of recenter cues; a line for all that cannot be."""
     document, model = timeline.document, timeline.model
     times = model.repeat.times if model.repeat else 1
     for axis, of_axis in timeline.keys.items():

@@ -101,7 +101,7 @@ class Timelapse:
 
     @property
     def clip(self) -> float | None:
-        """How long the clip is, in s; None where nobody has said at how many frames per second it is shown."""
+        """How long the clip is, in s; None where its frames per second are not known."""
         return self.frames / self.fps if self.fps else None
 
     def rehearsal(self) -> CompiledSequence:

@@ -35,7 +35,7 @@ CREATE TABLE IF NOT EXISTS frames (frame INTEGER PRIMARY KEY, state TEXT NOT NUL
 class FrameState(StrEnum):
     """What is known of a frame; one that is not in the journal has not been touched."""
 
-    BEGUN = "begun"  # its shutter is due: shot or not, nobody can say
+    BEGUN = "begun"  # its shutter is due: shot or not, that is not known
     DONE = "done"
     UNSHOT = "unshot"  # begun, and known not to have been shot
     MISSED = "missed"  # not shot, and the camera is past it

@@ -74,9 +74,9 @@ class Run:
         performance = CompiledSequence("Test", plan(KEYS, LIMITS), list(cues), [], KEYS)
         self.sequence = SequenceSource(performance, LIMITS, 1.0, AtOnce(), staging or Cycle(0.3))
         relays = [Relay(self.pad), Relay(self.keys)]
-        self.conductor = PlaybackControls(self.sequence, Together(relays))
+        self.controls = PlaybackControls(self.sequence, Together(relays))
         self.said: list[str] = []
-        self.guard = StopGuard(self.conductor, relays, self.said.append)
+        self.guard = StopGuard(self.controls, relays, self.said.append)
         self.planner = Live(LIMITS, DT)
         self.motion: Motion = {PAN: State(start), TILT: State(0.0)}
         self.planner.reset(self.motion)
@@ -93,7 +93,7 @@ class Run:
         before, self.motion = self.motion, self.planner.step(self.demand)
         check_legal(before, self.motion)
         try:
-            for watcher in (self.conductor, self.guard):
+            for watcher in (self.controls, self.guard):
                 watcher.write(Tick(self.now, self.motion, self.demand, acts, {}))
         except Interrupted as ended:
             self.ended = ended
@@ -162,7 +162,7 @@ def test_stop_takes_the_fastest_legal_stop_and_latches() -> None:
     run.press(PAUSE, GO)  # and nothing goes on before it is cleared
     run.run(3)
     assert run.motion == there
-    assert run.guard.over(run.conductor.status(run.now)).stop == "stopped"
+    assert run.guard.over(run.controls.status(run.now)).stop == "stopped"
 
 
 @pytest.mark.parametrize("go", [PAUSE, GO])
@@ -248,7 +248,7 @@ def test_a_trigger_that_went_by_during_a_stop_leaves_the_start_to_the_operator()
     trigger.fires = True
     run.run(2)
     assert run.sequence.phase is SequencePhase.ARMED
-    assert run.conductor.note.startswith("18:30:00 was 5.0 s before the rig reached the start: enter start ")
+    assert run.controls.note.startswith("18:30:00 was 5.0 s before the rig reached the start: enter start ")
     run.press(GO)
     run.run(1)
     assert run.sequence.phase is SequencePhase.PLAYING
@@ -442,6 +442,6 @@ def test_whatever_is_pressed_nothing_moves_while_stopped_and_each_cue_comes_once
         run.run(3)
     else:
         run.press(QUIT)
-        assert run.ended or run.conductor._stopped
+        assert run.ended or run.controls._stopped
         return
     assert run.acts == expected

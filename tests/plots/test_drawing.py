@@ -9,20 +9,20 @@ from teleop.config.profile import load_profile
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.planner import Key, plan
 from teleop.plots.drawing import figure
-from teleop.plots.style import COLORS
-from teleop.sequence.compile import CompiledSequence, load_performance
+from teleop.plots.style import COLOURS
+from teleop.sequence.compile import CompiledSequence, load_sequence
 
 pytest.importorskip("matplotlib", reason="the plot extra is not installed")
 
 
 def test_each_quantity_has_every_axis_and_the_cues_and_each_unit_a_scale() -> None:
     profile = load_profile("sim")
-    drawing = figure(load_performance("reveal", profile.limits, profile.name), profile)
+    drawing = figure(load_sequence("reveal", profile.limits, profile.name), profile)
     degrees, share = drawing.axes[:4], drawing.axes[4:]
     assert [panel.get_ylabel() for panel in degrees] == ["position °", "velocity °/s", "acceleration °/s²", "jerk °/s³"]
     assert [panel.get_ylabel() for panel in share] == ["position", "velocity 1/s", "acceleration 1/s²", "jerk 1/s³"]
     for panel in degrees:
-        assert {COLORS[Axis.PAN], COLORS[Axis.TILT]} <= {line.get_color() for line in panel.lines}
+        assert {COLOURS[Axis.PAN], COLOURS[Axis.TILT]} <= {line.get_color() for line in panel.lines}
     names = [text.get_text() for panel in drawing.axes for text in panel.texts]
     assert sorted(names) == sorted([*"1122334455", *"134", "record", "stop"])
     for panel in drawing.axes:

@@ -14,7 +14,7 @@ from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
 from teleop.recording.reader import read_take
 from teleop.recording.replay import take_performance
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 
 LIMITS = load_profile("sim").limits
 MOVE = """
@@ -45,7 +45,7 @@ def test_what_was_commanded_is_in_the_file_for_any_reader_of_mcap(take: Path) ->
             for _, channel, message in make_reader(stream).iter_messages()
             if channel.topic == "/motion"
         ]
-    move = load_performance(str(take.with_name("shoot.yaml")), LIMITS, "sim").move
+    move = load_sequence(str(take.with_name("shoot.yaml")), LIMITS, "sim").move
     begin = messages[-1][0] / 1e9
     ends = messages[-1][1]
     assert ends["pan"]["position"] == pytest.approx(40)

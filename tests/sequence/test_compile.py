@@ -13,7 +13,7 @@ from teleop.config.resources import folder
 from teleop.core.axes import Axis
 from teleop.core.events import Action
 from teleop.planner.keyframes.ramp import Ramp
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.cues import Cue
 
 
@@ -101,7 +101,7 @@ PLAYED = [file for file in sorted(folder("sequences").glob("*.yaml")) if "timela
 @pytest.mark.parametrize("name", [file.stem for file in PLAYED])
 def test_every_shipped_sequence_plays_on_a_simulated_rig(name: str) -> None:
     rig = load_profile(RIGS.get(name, "sim"))
-    performance = load_performance(name, rig.limits, rig.name, [sink.type for sink in rig.sinks])
+    performance = load_sequence(name, rig.limits, rig.name, [sink.type for sink in rig.sinks])
     assert performance.warnings == []
 
 

@@ -19,7 +19,7 @@ from teleop.dji.gimbal.camera import CameraCommand
 from teleop.dji.gimbal.command_table import COMMANDS, find, is_taken_back
 from teleop.dji.gimbal.enums import FollowMode
 from teleop.dji.message import Message
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.cycle import Cycle
 from teleop.sequence.source import SequenceSource
 
@@ -55,7 +55,7 @@ def heard(
     """All that is no stream, with its time in s after the start."""
     (folder / "cued.yaml").write_text(text)
     profile, clock = load_profile("sim"), VirtualClock(100.0)
-    performance = load_performance(str(folder / "cued.yaml"), profile.limits, "the rig")
+    performance = load_sequence(str(folder / "cued.yaml"), profile.limits, "the rig")
     with open_rig(profile, clock) as rig:
         tap = wire.tapped(rig)
         source = SequenceSource(performance, profile.limits, speed, cycle=Cycle(0.5, passes=passes))

@@ -11,7 +11,7 @@ from sequences import LIMITS, load, problems_of
 from teleop.config.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.cues import Cue
 
 PART = "fps: 25\nkeyframes:\n  - {at: 1, pan: 0}\n  - {at: 100f, pan: 30}\ncues: [{at: 3, camera: record}]\n"
@@ -25,7 +25,7 @@ def test_a_part_is_laid_in_where_and_as_fast_as_is_said_with_its_cues(tmp_path: 
     assert [key.at for key in keys] == pytest.approx([3, 6, 10 + 1 / 1.5, 10 + 4 / 1.5])
     assert [key.position for key in keys] == [0, 30, 0, 30]
     assert performance.cues == [Cue(5, Action.RECORD), Cue(12, Action.RECORD)]
-    whole = load_performance(str(tmp_path / "part.yaml"), LIMITS, "the rig").move
+    whole = load_sequence(str(tmp_path / "part.yaml"), LIMITS, "the rig").move
     for moment in (1.0, 2.3, 3.9, 4.0):
         assert performance.move.at(2 + moment)[Axis.PAN] == pytest.approx(whole.at(moment)[Axis.PAN], abs=1e-6)
         p, v, _ = whole.at(moment)[Axis.PAN]
@@ -38,7 +38,7 @@ def test_it_keeps_its_own_tension_ease_repeat_and_recentre(tmp_path: Path) -> No
         "  - {at: 5, pan: 25}\n  - {at: 10, pan: 90}\ncues: [{at: 20, recenter: 2s}]\n"
     )
     (tmp_path / "part.yaml").write_text(part)
-    whole = load_performance(str(tmp_path / "part.yaml"), LIMITS, "the rig").move
+    whole = load_sequence(str(tmp_path / "part.yaml"), LIMITS, "the rig").move
     laid = load(tmp_path, "include: [{move: part.yaml, at: 1}]\nkeyframes: [{at: 30, pan: 5}]\n").move
     assert whole.duration == 22
     for moment in range(23):

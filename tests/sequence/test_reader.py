@@ -1,4 +1,4 @@
-"""A sequence file with all that it includes: every error at once, each file parsed once; texts are in `test_include`."""
+"""A sequence file with all that it includes: every error at once, each file parsed once (texts: `test_include`)."""
 
 from __future__ import annotations
 

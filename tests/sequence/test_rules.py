@@ -12,8 +12,8 @@ GOOD = {"keyframes": [{"at": 0, "pan": 0, "hold": 1}, {"at": 5, "pan": 10}]}
 
 
 def with_key(index: int, **changes: object) -> dict:
-    keys = [dict(key) for key in GOOD["keyframes"]]
-    keys[index] |= changes
+    keys: list[dict[str, object]] = [dict(key) for key in GOOD["keyframes"]]
+    keys[index].update(changes)
     return {"keyframes": keys}
 
 

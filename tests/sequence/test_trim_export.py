@@ -8,7 +8,7 @@ from teleop.config.document import DocumentError
 from teleop.config.files import OutputError
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.errors import UsageError
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.trim_export import TrimmedFile
 
 PAN, TILT = Axis.PAN, Axis.TILT
@@ -38,7 +38,7 @@ def test_only_the_numbers_of_the_keys_are_other_ones(tmp_path: Path):
     assert file.text(offsets) == expected
     file.write(offsets)
     assert (tmp_path / "shoot.yaml").read_text() == TEXT
-    again = load_performance(str(tmp_path / "out.yaml"), LIMITS, "rig")
+    again = load_sequence(str(tmp_path / "out.yaml"), LIMITS, "rig")
     assert [key.position for key in again.keys[PAN]] == [-27.6543, 12.3457, 22.3457]
 
 

@@ -1,7 +1,7 @@
 """A start by OSC: a UDP packet with the right address, from a show controller, a phone or a script.
 
 A thread of its own takes the packets, and what is no OSC is dropped there. It listens on this computer only, unless
-another address of its own is given: whoever can reach the port can start the rig.
+another address of its own is given: any program that reaches the port can start the rig.
 
 A packet counts only for the arming in force when it was taken from the socket. Arming empties the socket first, so that
 neither a packet that waits there nor one that the thread is still reading can start a move.
@@ -102,6 +102,6 @@ class OscTrigger:
 def _taken(listener: socket.socket | None) -> bytes | None:
     """The next packet, None where none waits."""
     if listener is not None:
-        with suppress(OSError):  # none waits, or an answer to nobody's packet, as some systems report it
+        with suppress(OSError):  # none waits, or an answer to no packet of ours, as some systems report it
             return listener.recv(LONGEST)
     return None

@@ -22,7 +22,7 @@ from teleop.planner.live import Live
 from teleop.recording.reader import Take, read_take
 from teleop.recording.replay import recorded_move
 from teleop.recording.to_keyframes.convert import keyframes
-from teleop.sequence.compile import CompiledSequence, load_performance
+from teleop.sequence.compile import CompiledSequence, load_sequence
 
 SIM = load_profile("sim").limits
 PAN, TILT, FOCUS = Axis.PAN, Axis.TILT, Axis.FOCUS
@@ -55,7 +55,7 @@ def stick_take(path: Path, speeds: list[tuple[float, float]], seconds: float) ->
 
 def played(text: str, take: Take, folder: Path) -> CompiledSequence:
     (folder / "fitted.yaml").write_text(text, encoding="utf-8")
-    return load_performance(str(folder / "fitted.yaml"), take.about.limits, "sim")
+    return load_sequence(str(folder / "fitted.yaml"), take.about.limits, "sim")
 
 
 def furthest(text: str, take: Take, folder: Path) -> dict[Axis, float]:
