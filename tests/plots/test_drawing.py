@@ -9,7 +9,7 @@ from teleop.config.profile import load_profile
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.planner import Key, plan
 from teleop.plots.drawing import figure
-from teleop.plots.style import COLOURS
+from teleop.plots.style import COLORS
 from teleop.sequence.compile import CompiledSequence, load_sequence
 
 pytest.importorskip("matplotlib", reason="the plot extra is not installed")
@@ -22,7 +22,7 @@ def test_each_quantity_has_every_axis_and_the_cues_and_each_unit_a_scale() -> No
     assert [panel.get_ylabel() for panel in degrees] == ["position °", "velocity °/s", "acceleration °/s²", "jerk °/s³"]
     assert [panel.get_ylabel() for panel in share] == ["position", "velocity 1/s", "acceleration 1/s²", "jerk 1/s³"]
     for panel in degrees:
-        assert {COLOURS[Axis.PAN], COLOURS[Axis.TILT]} <= {line.get_color() for line in panel.lines}
+        assert {COLORS[Axis.PAN], COLORS[Axis.TILT]} <= {line.get_color() for line in panel.lines}
     names = [text.get_text() for panel in drawing.axes for text in panel.texts]
     assert sorted(names) == sorted([*"1122334455", *"134", "record", "stop"])
     for panel in drawing.axes:

@@ -23,21 +23,21 @@ class SequenceText:
     digits: Mapping[Axis, int]
 
 
-def sequence_text(sheet: SequenceText) -> str:
+def sequence_text(sequence: SequenceText) -> str:
     """The YAML of a sequence, as `load_sequence` reads it."""
-    return "\n".join(_lines(sheet)) + "\n"
+    return "\n".join(_lines(sequence)) + "\n"
 
 
-def _lines(sheet: SequenceText) -> Iterator[str]:
-    yield f"title: {json.dumps(sheet.title, ensure_ascii=False)}"
-    if sheet.tension:
-        yield f"tension: {sheet.tension:g}"
+def _lines(sequence: SequenceText) -> Iterator[str]:
+    yield f"title: {_quoted(sequence.title)}"
+    if sequence.tension:
+        yield f"tension: {sequence.tension:g}"
     yield "keyframes:"
-    for frame in sheet.frames:
-        yield f"  - {{{', '.join(_frame(frame, sheet.digits))}}}"
-    if sheet.cues:
+    for frame in sequence.frames:
+        yield f"  - {{{', '.join(_frame(frame, sequence.digits))}}}"
+    if sequence.cues:
         yield "cues:"
-    for time, action in sheet.cues:
+    for time, action in sequence.cues:
         yield f"  - {{at: {time:.2f}, camera: {action.value}}}"
 
 
@@ -50,6 +50,12 @@ def _frame(frame: MergedKey, digits: Mapping[Axis, int]) -> Iterator[str]:
         yield f"hold: {_seconds(frame.hold)}s"
     elif frame.stop:
         yield "pass: stop"
+
+
+def _quoted(text: str) -> str:
+    """In double quotes; what YAML does not permit as it is (U+0085 and others) is escaped."""
+    quoted = json.dumps(text, ensure_ascii=False)
+    return "".join(letter if letter.isprintable() else f"\\U{ord(letter):08x}" for letter in quoted)
 
 
 def _seconds(places: int) -> str:
