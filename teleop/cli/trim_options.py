@@ -94,14 +94,11 @@ class TrimReport:
         self._written = self._untold = _in_background(self._file.write, dict(self._trimming.offsets), self._written)
         return f"writing the trim to {self._file.target}"
 
-    def write(self, tick: Tick) -> None:  # noqa: ARG002 - as a watcher: whether the file is there by now
+    def observe(self, tick: Tick) -> None:  # noqa: ARG002 - as a watcher: whether the file is there by now
         if self._file is None or self._untold is None or not self._untold.done():
             return
         done, self._untold = self._untold, None
         self._trimming.say(self._failure(done) or f"the trim is written to {self._file.target}")
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _failure(self, written: Future[None]) -> str:
         try:

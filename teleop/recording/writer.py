@@ -58,7 +58,7 @@ class Recorder:
         self._thread = Thread(target=self._work, name="recorder", daemon=True)
         self._thread.start()
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         queue = self._queue
         status = None if self._status is None else self._status()
         if self._patient:
@@ -67,9 +67,6 @@ class Recorder:
             self._dropped += 1
         else:
             queue.append((tick, status))
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def finish(
         self, result: Result, reasons: Sequence[str], links: Mapping[str, Mapping[str, int]] | None = None
