@@ -34,7 +34,7 @@ class Delay(NamedTuple):
 
 
 class Traces:
-    """A sink that keeps what one axis was commanded and measured to do: pairs of s and units."""
+    """An observer that keeps what one axis was commanded and measured to do: pairs of s and units."""
 
     def __init__(self, axis: Axis) -> None:
         self.commanded: list[tuple[float, float]] = []

@@ -1,4 +1,4 @@
-"""A watcher that notices, within about a degree, an axis that moves the other way than it is sent.
+"""Notices, within about a degree, an axis that moves the other way than it is sent.
 
 The cause is a sign in the profile that does not fit the gimbal, so the cure is a line in it. With a wrong sign of the
 speeds the correction makes matters worse all by itself, which is why this may not be left to the stall guard.

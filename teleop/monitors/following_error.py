@@ -1,4 +1,4 @@
-"""A watcher that stops the run when an axis does not do what it is told: blocked, held by hand, or out of sight.
+"""Stops the run when an axis does not follow: blocked, held by hand, or without readings.
 
 A gimbal trails what is commanded by a little, so a reading is compared with everywhere the axis was commanded to be
 during the time that it may lag, not with one moment. What lies beyond that by more than the tolerance, reading after

@@ -53,7 +53,7 @@ class Trace:
 
 
 class Repeatability:
-    """A sink that only watches. `place` says where in which pass the move is at a time of the loop's, None for in none.
+    """An observer. `place` has the pass and where in the move, for a time of the loop; None outside a pass.
 
     `passes` has the differences of the second and later passes, by number.
     """

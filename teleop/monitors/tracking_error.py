@@ -34,7 +34,7 @@ class Score:
 
 
 class TrackingErrorMonitor:
-    """A sink that only watches. Readings from before `begin`, on the loop's clock, do not count."""
+    """An observer. Readings from before `begin`, on the loop's clock, do not count."""
 
     def __init__(self, begin: Callable[[], float]) -> None:
         self.scores: dict[Axis, Score] = {}
