@@ -2,7 +2,6 @@
 
 The keys only ask; what becomes of it, and when, is the playback's, and where an axis is trimmed to, `LiveOffset`'s. A
 STOP is the affair of the `StopGuard` above it, which then has the conductor suspend all of this and resume it.
-The conductor also looks on as a sink, because only what is raised there ends a run without losing a tick.
 """
 
 from __future__ import annotations
@@ -13,10 +12,11 @@ from dataclasses import replace
 
 from teleop.core.axes import Axis, Motion, State
 from teleop.core.errors import Interrupted
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import TickEvent
+from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input, Press
 from teleop.core.run_status import Hint, RunStatus
-from teleop.core.setpoints import Demand, StateTarget, Stop
+from teleop.core.setpoints import Demand, StateTarget
 from teleop.manual.live_offset import LiveOffset
 from teleop.sequence.source import SequencePhase, SequenceSource
 
@@ -119,28 +119,23 @@ class PlaybackControls:
         self._note = ""
         self._sequence.resume(now, bare)
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+        """Raises Interrupted once an operator has ended it."""
         self._hear(now)
-        demand, acts = self._sequence.read(now)
+        if self._stopped:
+            raise Interrupted(self._stopped)
+        demand, acts = self._sequence.read(now, feedback)
         if self._noted is not self._sequence.phase:
             self._note, self._noted = "", self._sequence.phase
         if self._trimming:
             demand = self._trimmed(self._trimming, demand)
-        return (dict.fromkeys(demand, Stop()), ()) if self._stopped else (demand, acts)
+        return demand, acts
 
     def next_change(self, now: float) -> float:
         change = self._sequence.next_change(now)
         if math.isinf(change):
             return change
         return now if self._trimming else min(change, now + LOOK)
-
-    def write(self, tick: Tick) -> None:  # noqa: ARG002 - only whether the run is to end
-        """Raises Interrupted once it has been stopped."""
-        if self._stopped:
-            raise Interrupted(self._stopped)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _hear(self, now: float) -> None:
         if self._trimming is None:

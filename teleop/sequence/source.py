@@ -16,6 +16,7 @@ from enum import Enum, auto
 from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.errors import DeviceError
 from teleop.core.events import Action, DeviceCommand, TickEvent
+from teleop.core.interfaces import Feedback
 from teleop.core.run_status import NextCue, NextKey, RunStatus
 from teleop.core.setpoints import Demand, StateTarget
 from teleop.core.timing import KEEP_ALIVE
@@ -84,7 +85,7 @@ class SequenceSource:
         if self.staging.trigger is None:
             self.begin = self._after_preroll(self._until)
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         due: list[TickEvent] = self._turn(now)
         if self.waiting and self._gone:
             self.waiting = self._gone = False

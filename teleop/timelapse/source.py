@@ -16,7 +16,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 from teleop.core.axes import Motion
 from teleop.core.errors import Interrupted
-from teleop.core.events import Exposure, ShutterResult, ShutterStep, Tick, TickEvent
+from teleop.core.events import Exposure, ShutterResult, ShutterStep, TickEvent
+from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input
 from teleop.core.setpoints import Demand, StateTarget
 from teleop.core.timing import PERIOD
@@ -37,7 +38,7 @@ _INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 
 
 class TimelapseSource:
-    """Frames from `first` on; also a sink that looks on, for how still the axes are measured to be.
+    """Frames from `first` on.
 
     `progress` goes on counting where an earlier run of the same shoot left off. `keys` may pause it. `slot` is when
     the next frame is due, on the loop's clock; a run that follows another of the same shoot is given that of the other,
@@ -104,9 +105,11 @@ class TimelapseSource:
         self._carriage.begin(self.slot, self._due)
         self._since = now
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         self._acts = []
         self._look_at_keys(now)
+        if self.phase is TimelapsePhase.SETTLE:
+            self._stillness.see(feedback.readings)
         before = None
         while (self.phase, self.frame) != before:  # one tick may see several phases through, and one slot after another
             before = self.phase, self.frame
@@ -166,13 +169,6 @@ class TimelapseSource:
             return math.inf
         change = max(now, min(self._next_event(now), self._carriage.next_motion(now)))
         return change if self._keys is None else min(change, now + LOOK)
-
-    def write(self, tick: Tick) -> None:
-        if self.phase is TimelapsePhase.SETTLE:
-            self._stillness.see(tick.reported)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def heard(self, outcome: ShutterResult) -> None:
         """What the camera said; written down at once."""

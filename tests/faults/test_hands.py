@@ -96,7 +96,7 @@ class Handler:
         self._begin = 0.0
         self._number = 0
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         self._begin = self._begin or tick.time
         self._number += 1
         elapsed = tick.time - self._begin
@@ -111,8 +111,6 @@ class Handler:
         if since > self._row.within + 1:
             self._stage.loop.interrupt("enough")
 
-    def release(self, now: float) -> float | None: ...
-
 
 @pytest.mark.parametrize("mode", ["position", "speed", "stick"])
 @pytest.mark.parametrize("row", ROWS, ids=[row.name for row in ROWS])
@@ -126,7 +124,7 @@ def test_a_pad_that_fails_mid_pan_stops_the_pan(
         presets = Presets(tmp_path / "presets.yaml")
         operator = Operator(stage.rig.profile.limits, inputs, presets, SticksSection(), 2.0)
         handler = Handler(stage, pad, row, operator)
-        stage.run(operator, [operator, handler])
+        stage.run(operator, [handler])
         presets.close()
         said = [message.text for message in operator.status.messages]
         assert handler.moving_when_broken > 1.0

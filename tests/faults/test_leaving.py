@@ -49,7 +49,7 @@ def hangs(scene: Scene) -> None:
         while True:
             scene.clock.sleep_until(scene.clock.now() + 0.1)
 
-    scene.watcher.write = write  # type: ignore[method-assign]
+    scene.watcher.observe = write  # type: ignore[method-assign]
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -165,8 +165,8 @@ def write(self, tick):
 SpeedSink._ticks, SpeedSink._write, SpeedSink.write = 0, SpeedSink.write, write
 """,
     "another sink's release hangs": """
-from teleop.monitors.tracking_error import TrackingErrorMonitor
-TrackingErrorMonitor.release = lambda self, now: threading.Event().wait()
+from teleop.devices.gimbal.commands import CommandSink
+CommandSink.release = lambda self, now: threading.Event().wait()
 """,
 }
 PROGRAM = """

@@ -151,7 +151,7 @@ def planner_never_rests(scene: Scene, now: float) -> None:
 
 
 def in_watcher(scene: Scene, _now: float) -> None:
-    scene.watcher.write = raises_always(MemoryError("no room"))  # type: ignore[method-assign]
+    scene.watcher.observe = raises_always(MemoryError("no room"))  # type: ignore[method-assign]
 
 
 def in_sink(scene: Scene, _now: float) -> None:

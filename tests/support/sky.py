@@ -214,5 +214,5 @@ def sky(folder: Path, sink: str = VIRTUAL_RC, gimbal: bool = False) -> Iterator[
         assert flown is not None
         made.sink = flown
         flown.say = made.hear
-        made.loop = rig.loop(list(profile.limits), [made.operator], [made.operator])
+        made.loop = rig.loop(list(profile.limits), [made.operator])
         yield made

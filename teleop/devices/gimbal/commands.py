@@ -29,13 +29,10 @@ class Unheard:
     def __init__(self, gimbal: bool, drone: bool, say: Callable[[str], object]) -> None:
         self._gimbal, self._drone, self._say = gimbal, drone, say
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         for act in tick.actions:
             if isinstance(act, DeviceCommand) and not (self._drone if act.words.startswith(_DRONE) else self._gimbal):
                 self._say(f"{act.words}: this rig has no {'drone' if act.words.startswith(_DRONE) else 'gimbal'}")
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
 
 class CommandSink:

@@ -93,7 +93,7 @@ def test_what_cannot_be_told_is_said_and_not_sent(words: str, said: str) -> None
 )
 def test_what_is_told_to_a_device_that_is_not_there_is_said(gimbal: bool, drone: bool, said: list[str]) -> None:
     heard: list[str] = []
-    Unheard(gimbal, drone, heard.append).write(
+    Unheard(gimbal, drone, heard.append).observe(
         Tick(1.0, {}, {}, (DeviceCommand("drone engage"), DeviceCommand("gimbal follow lock")), {})
     )
     assert heard == said
