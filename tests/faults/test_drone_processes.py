@@ -12,7 +12,7 @@ from subprocess import Popen
 
 import pytest
 from command import running
-from sky import check_enables
+from drone_fault_bench import check_enables
 from waiting import wait_until
 
 from teleop.core.clock import SystemClock
