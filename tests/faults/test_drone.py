@@ -174,9 +174,9 @@ def test_whatever_breaks_the_drone_is_back_with_its_pilot(row: Row, tmp_path: Pa
             NEUTRAL
         ] * LAST_NEUTRALS
         assert not bench.of(Sticks) or bench.of(Sticks)[-1][0] < given_back, "nothing after it"
-    pose = bench.drone.cockpit.pose
+    pose = bench.drone.autopilot.pose
     assert abs(complex(pose.velocity_north, pose.velocity_east)) < 0.1, "it hovers"
-    assert not bench.drone.cockpit.flight.crashed
+    assert not bench.drone.autopilot.flight.crashed
 
 
 def test_a_stall_centres_the_sticks_before_the_gimbal_is_found_again(tmp_path: Path) -> None:
@@ -228,7 +228,7 @@ def test_a_hand_that_is_back_within_a_second_has_to_be_centred_first(tmp_path: P
 def test_an_enable_that_is_not_answered_is_not_repeated(tmp_path: Path) -> None:
     with drone_fault_bench(tmp_path) as bench:
         bench.airborne()
-        bench.drone.cockpit.enable_virtual = lambda back_to_rc: None  # type: ignore[method-assign]  # it does not
+        bench.drone.autopilot.enable_virtual = lambda back_to_rc: None  # type: ignore[method-assign]  # it does not
         fly(bench)
         bench.quit_at(BREAKS)
         bench.run()
@@ -316,7 +316,7 @@ def test_it_is_engaged_at_once_after_the_start_since_the_wait_counts_from_an_ena
 def test_it_is_not_enabled_while_it_is_on_for_another_nor_soon_after(tmp_path: Path) -> None:
     with drone_fault_bench(tmp_path) as bench:
         bench.airborne()
-        bench.at(1.0, lambda: bench.drone.cockpit.enable_virtual(back_to_rc=True))  # it lasts for a second
+        bench.at(1.0, lambda: bench.drone.autopilot.enable_virtual(back_to_rc=True))  # it lasts for a second
         bench.engage_at(1.5)
         bench.engage_at(2.3)
         bench.engage_at(3.5)
@@ -339,8 +339,8 @@ def test_motors_start_by_gesture_in_standby_and_are_never_cut_in_the_air(tmp_pat
     corners = [time for time, message in bench.of(Sticks) if (message.roll, message.throttle) == (364, 364)]
     assert corners[0] >= READY + 0.5
     assert corners[-1] <= READY + 2.6
-    assert bench.drone.cockpit.flight.airborne
-    assert not bench.drone.cockpit.flight.crashed
+    assert bench.drone.autopilot.flight.airborne
+    assert not bench.drone.autopilot.flight.crashed
     assert "disarm refused: the drone says in air" in bench.said[-3]
 
 
@@ -390,4 +390,4 @@ def test_it_is_flown_encrypted_by_the_apps_key(tmp_path: Path, monkeypatch: pyte
     assert bench.of(Sticks) == [], "nobody without the key can read them"
     assert bench.pilot(BREAKS - 0.1) is Pilot.VIRTUAL
     assert bench.pilot(BREAKS + 1) is Pilot.RC
-    assert bench.drone.cockpit.pose.north > 10
+    assert bench.drone.autopilot.pose.north > 10

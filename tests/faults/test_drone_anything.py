@@ -85,8 +85,8 @@ def test_nothing_flies_by_accident(sink: str, steps: list[tuple[str, float]]) ->
             assert any("take it over with its RC" in reason for reason in bench.ended.reasons), "it is named"
         engages = sum({"engage": 1, "impatient": 2}.get(name, 0) for name, _ in steps)
         assert len(bench.enables) <= engages, "only by an operator's act"
-        assert bench.drone.cockpit.pilot in (Pilot.RC, Pilot.ONBOARD), "its pilot has it, or it hovers"
-        assert bench.cable.unplugged or bench.cable.deaf or bench.drone.cockpit.pilot is Pilot.RC
+        assert bench.drone.autopilot.pilot in (Pilot.RC, Pilot.ONBOARD), "its pilot has it, or it hovers"
+        assert bench.cable.unplugged or bench.cable.deaf or bench.drone.autopilot.pilot is Pilot.RC
         if bench.said and bench.said[-1].endswith("is given back: the drone confirms"):
-            assert bench.drone.cockpit.pilot is Pilot.RC, "nothing is called confirmed that is not"
-        assert not bench.drone.cockpit.flight.crashed
+            assert bench.drone.autopilot.pilot is Pilot.RC, "nothing is called confirmed that is not"
+        assert not bench.drone.autopilot.flight.crashed

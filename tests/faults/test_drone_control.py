@@ -48,7 +48,7 @@ def test_a_release_that_a_deaf_line_has_lost_is_sent_until_the_drone_confirms_it
         bench.engage_at(READY)
         deafen(bench, READY + 2, READY + 6)
         disengage_at(bench, READY + 3)
-        bench.at(READY + 5.9, lambda: pilots.append(bench.drone.cockpit.pilot))
+        bench.at(READY + 5.9, lambda: pilots.append(bench.drone.autopilot.pilot))
         bench.at(READY + 5.9, lambda: said.extend(bench.said))
         pilots: list[Pilot] = []
         said: list[str] = []
@@ -58,7 +58,7 @@ def test_a_release_that_a_deaf_line_has_lost_is_sent_until_the_drone_confirms_it
     assert CONFIRMED not in said, "and nobody says otherwise"
     assert SILENT in said
     assert bench.said[-1] == CONFIRMED
-    assert bench.drone.cockpit.pilot is Pilot.RC
+    assert bench.drone.autopilot.pilot is Pilot.RC
     assert bench.ended.result is Result.DONE
     releases = orders(bench, ControlOrder.RELEASE)
     assert all(later - earlier >= AGAIN - 1e-6 for earlier, later in pairwise(releases)), "each after a pause"
@@ -74,8 +74,8 @@ def test_one_second_of_deafness_over_a_disengagement_ends_with_the_pilot(seconds
         disengage_at(bench, READY + 1.1)
         bench.quit_at(READY + 10)
         bench.run()
-    assert bench.drone.cockpit.pilot is Pilot.RC
-    assert not bench.drone.cockpit.obtained
+    assert bench.drone.autopilot.pilot is Pilot.RC
+    assert not bench.drone.autopilot.obtained
     assert bench.said[-1] == CONFIRMED
 
 
@@ -91,7 +91,7 @@ def test_a_drone_that_is_deaf_to_the_end_is_named_as_one_that_has_not_confirmed(
     assert CONFIRMED not in bench.said
     last = orders(bench, ControlOrder.RELEASE)[-1]
     assert RELEASE_FOR - 1.5 < last - READY - 3 < RELEASE_FOR + 0.5, "it is repeated for a bounded time"
-    assert bench.drone.cockpit.pilot is Pilot.ONBOARD
+    assert bench.drone.autopilot.pilot is Pilot.ONBOARD
 
 
 def test_a_release_that_is_never_answered_is_confirmed_by_the_broadcast(tmp_path: Path) -> None:
@@ -103,7 +103,7 @@ def test_a_release_that_is_never_answered_is_confirmed_by_the_broadcast(tmp_path
         bench.quit_at(READY + 8)
         bench.run()
     assert bench.said[-1] == CONFIRMED
-    assert bench.drone.cockpit.pilot is Pilot.RC
+    assert bench.drone.autopilot.pilot is Pilot.RC
     assert bench.ended.result is Result.DONE
 
 
@@ -132,7 +132,7 @@ def test_an_answer_alone_confirms_where_the_broadcast_does_not_say_who_has_contr
         bench.run()
     assert bench.said[0] == "drone: engaged: the drone confirms control"
     assert bench.said[-1] == CONFIRMED
-    assert bench.drone.cockpit.pilot is Pilot.RC
+    assert bench.drone.autopilot.pilot is Pilot.RC
 
 
 def test_control_whose_answers_are_lost_is_confirmed_by_the_broadcast(tmp_path: Path) -> None:
@@ -159,7 +159,7 @@ def test_late_answers_are_waited_for(late: float, settings: DroneSettings, tmp_p
         bench.run()
     assert "drone: engaged: the drone confirms control" in bench.said, bench.said
     assert bench.said[-1] == CONFIRMED
-    assert bench.drone.cockpit.pilot is Pilot.RC
+    assert bench.drone.autopilot.pilot is Pilot.RC
     assert bench.ended.result is Result.DONE
 
 
@@ -184,11 +184,11 @@ def test_a_drone_that_has_control_again_by_an_old_request_is_given_back_again(tm
         bench.airborne()
         bench.engage_at(READY)
         disengage_at(bench, READY + 2)
-        bench.at(READY + 6, lambda: bench.drone.cockpit.obtain())
+        bench.at(READY + 6, lambda: bench.drone.autopilot.obtain())
         bench.quit_at(READY + 10)
         bench.run()
     assert "drone: the drone says again that control is on: giving it back" in bench.said
-    assert bench.drone.cockpit.pilot is Pilot.RC
+    assert bench.drone.autopilot.pilot is Pilot.RC
     assert bench.said[-1] == CONFIRMED
 
 
@@ -218,5 +218,5 @@ def test_control_is_flown_and_given_back_over_an_encrypted_link(
         bench.run()
     assert "drone: land: started" in bench.said
     assert bench.said[-1] == CONFIRMED
-    assert bench.drone.cockpit.pose.north > 3
+    assert bench.drone.autopilot.pose.north > 3
     assert bench.sink.state(bench.clock.now()).stage == Stage.IDLE.value

@@ -80,9 +80,9 @@ def test_whatever_breaks_it_hovers_with_its_pilot(
     assert bench.cable.unplugged or orders(bench, ControlOrder.RELEASE)
     if not bench.cable.unplugged:
         assert bench.pilot(BREAKS + 3) is Pilot.RC
-    pose = bench.drone.cockpit.pose
+    pose = bench.drone.autopilot.pose
     assert math.hypot(pose.velocity_north, pose.velocity_east) < 0.1
-    assert not bench.drone.cockpit.flight.crashed
+    assert not bench.drone.autopilot.flight.crashed
 
 
 @pytest.mark.parametrize(
@@ -96,7 +96,7 @@ def test_whatever_breaks_it_hovers_with_its_pilot(
 )
 def test_the_conditions_of_a_mode_are_checked_and_said(sink: str, health: int, said: str, tmp_path: Path) -> None:
     with drone_fault_bench(tmp_path, sink) as bench:
-        bench.drone._beacon.health = health
+        bench.drone._telemetry.health = health
         bench.airborne()
         bench.engage_at(READY)
         bench.quit_at(READY + 2)
@@ -120,7 +120,7 @@ def test_a_height_near_the_ground_is_warned_of(tmp_path: Path) -> None:
 def test_a_heading_counts_from_where_it_looked_and_neutral_is_where_it_looks(tmp_path: Path) -> None:
     with drone_fault_bench(tmp_path, FLIGHT.replace("mode", "yaw: angle, mode")) as bench:
         bench.airborne()
-        bench.drone.cockpit.flight.yaw = math.radians(170)
+        bench.drone.autopilot.flight.yaw = math.radians(170)
         bench.engage_at(READY)
         bench.hold_at(READY + 1, stick_yaw=0.5)
         bench.at(BREAKS, lambda: bench.keys.press(Command.STOP))
@@ -131,7 +131,7 @@ def test_a_heading_counts_from_where_it_looked_and_neutral_is_where_it_looks(tmp
     assert headings[0] == pytest.approx(170, abs=1)
     assert headings[-1] == pytest.approx(-160, abs=1)
     assert bench.of(Move)[-1][1].yaw == pytest.approx(-160, abs=3), "it does not turn back"
-    assert math.degrees(bench.drone.cockpit.pose.yaw) == pytest.approx(-160, abs=3)
+    assert math.degrees(bench.drone.autopilot.pose.yaw) == pytest.approx(-160, abs=3)
 
 
 def test_what_it_does_by_itself_is_not_contradicted_until_a_stick_is_moved(tmp_path: Path) -> None:
@@ -140,7 +140,7 @@ def test_what_it_does_by_itself_is_not_contradicted_until_a_stick_is_moved(tmp_p
         bench.engage_at(READY)
         bench.tell_at(READY + 1, "land")
         statuses: list[Status] = []
-        bench.at(READY + 3, lambda: statuses.append(bench.drone.cockpit.status))
+        bench.at(READY + 3, lambda: statuses.append(bench.drone.autopilot.status))
         bench.hold_at(READY + 3.5, stick_throttle=0.5)
         bench.quit_at(READY + 5)
         bench.run()
@@ -149,7 +149,7 @@ def test_what_it_does_by_itself_is_not_contradicted_until_a_stick_is_moved(tmp_p
     silent = [time for time, _ in bench.of(Move) if READY + 1.1 < time < READY + 3.4]
     assert silent == []
     assert any(time > READY + 3.5 for time, _ in bench.of(Move))
-    assert bench.drone.cockpit.status is Status.IN_AIR
+    assert bench.drone.autopilot.status is Status.IN_AIR
 
 
 def test_control_that_is_refused_is_said_and_not_asked_for_again(tmp_path: Path) -> None:
@@ -181,8 +181,8 @@ def test_control_that_was_released_is_not_obtained_by_an_older_request(tmp_path:
         bench.quit_at(READY + 4)
         bench.run()
     assert len(orders(bench, ControlOrder.OBTAIN)) == len(orders(bench, ControlOrder.RELEASE)) == 1
-    assert bench.drone.cockpit.pilot is Pilot.RC
-    assert not bench.drone.cockpit.obtained
+    assert bench.drone.autopilot.pilot is Pilot.RC
+    assert not bench.drone.autopilot.obtained
 
 
 @pytest.mark.parametrize(
@@ -205,4 +205,4 @@ def test_it_does_not_take_off_by_an_order_that_is_no_longer_in_force(
         bench.quit_at(READY + 4)
         bench.run()
     assert [message.task for _, message in bench.of(drone.Task)] == tasks
-    assert bench.drone.cockpit.status is Status.STANDBY
+    assert bench.drone.autopilot.status is Status.STANDBY

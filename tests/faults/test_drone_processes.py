@@ -37,8 +37,8 @@ class FarDrone:
         self.line = PtyLink()
         self.clock = SystemClock()
         self.drone = SimulatedDrone(now=self.clock.now())
-        self.drone.cockpit.flight.start_motors()
-        self.drone.cockpit.flight.rise_to(20)
+        self.drone.autopilot.flight.start_motors()
+        self.drone.autopilot.flight.rise_to(20)
         self.heard: list[tuple[float, Message]] = []
         self.pilots: list[tuple[float, Pilot]] = []
         self.unplugged = False
@@ -59,7 +59,7 @@ class FarDrone:
 
     @property
     def pilot(self) -> Pilot:
-        return self.drone.cockpit.pilot
+        return self.drone.autopilot.pilot
 
     def close(self) -> None:
         self._over.set()
@@ -155,7 +155,7 @@ def test_a_new_run_flies_only_when_it_is_asked_to(
     enables = [at for at, message in far.of(VirtualRc) if getattr(message, "on", False)]
     assert len(enables) == 2
     assert enables[1] - enables[0] >= 2.0
-    assert not far.drone.cockpit.locked
+    assert not far.drone.autopilot.locked
 
 
 def test_an_adapter_that_is_unplugged_and_back_flies_nothing(

@@ -48,7 +48,7 @@ def test_nothing_is_streamed_until_a_take_off_has_ended(tmp_path: Path) -> None:
     end = said_at(bench, bench.said[3])
     assert moves(bench, ORDERED + 0.02, end - 0.001) == []
     assert len(moves(bench, end, end + 1)) == pytest.approx(50, abs=2), "then it is held"
-    pose = bench.drone.cockpit.pose
+    pose = bench.drone.autopilot.pose
     assert pose.height == pytest.approx(1.2, abs=0.15), "it has reached its height, not hovered half-way"
     assert end - ORDERED > 3
 
@@ -71,8 +71,8 @@ def test_it_lands_by_itself_and_is_not_flown_until_it_stands(
     after = moves(bench, end, end + 1)
     assert after, "and when it has ended"
     assert {(m.x, m.y, m.z) for m in after} == {(0, 0, 0)}, "it has to be centered first"
-    assert bench.drone.cockpit.status is Status.STANDBY
-    assert not bench.drone.cockpit.flight.motors
+    assert bench.drone.autopilot.status is Status.STANDBY
+    assert not bench.drone.autopilot.flight.motors
     assert bench.ended.result is Result.DONE
 
 
@@ -131,7 +131,7 @@ def test_a_task_whose_answer_is_lost_is_seen_by_its_status(tmp_path: Path) -> No
     assert not any(text.endswith(": started") for text in bench.said), "no answer is no success"
     end = said_at(bench, "drone: take-off: finished: the drone is in the air")
     assert moves(bench, ORDERED + 0.02, end - 0.001) == []
-    assert bench.drone.cockpit.pose.height > 1
+    assert bench.drone.autopilot.pose.height > 1
 
 
 def test_a_task_that_never_reached_the_drone_is_given_up_and_the_sticks_go_on(tmp_path: Path) -> None:
@@ -145,7 +145,7 @@ def test_a_task_that_never_reached_the_drone_is_given_up_and_the_sticks_go_on(tm
     assert "drone: take-off: not started: the drone says standby" in bench.said
     assert moves(bench, ORDERED + 0.02, ORDERED + 3.9) == []
     assert moves(bench, ORDERED + 5, ORDERED + 6)
-    assert bench.drone.cockpit.status is Status.STANDBY
+    assert bench.drone.autopilot.status is Status.STANDBY
 
 
 @pytest.mark.parametrize(
@@ -173,9 +173,9 @@ def test_stop_sends_no_movement_into_a_task_and_says_what_goes_on(
     assert f"drone: {word} goes on by itself: take it over with the RC" in bench.said, bench.said
     assert [time for time, _ in bench.of(Move) if time > ORDERED + 0.02] == []
     assert [m for _, m in bench.of(drone.Control) if m.order == ControlOrder.RELEASE]
-    assert bench.drone.cockpit.pilot is Pilot.RC
-    assert bench.drone.cockpit.status is (Status.IN_AIR if word == "take-off" else Status.STANDBY)
-    assert not bench.drone.cockpit.flight.crashed
+    assert bench.drone.autopilot.pilot is Pilot.RC
+    assert bench.drone.autopilot.status is (Status.IN_AIR if word == "take-off" else Status.STANDBY)
+    assert not bench.drone.autopilot.flight.crashed
 
 
 def test_a_stick_that_is_moved_for_it_takes_the_drone_out_of_a_task(tmp_path: Path) -> None:
@@ -190,7 +190,7 @@ def test_a_stick_that_is_moved_for_it_takes_the_drone_out_of_a_task(tmp_path: Pa
     assert "drone: land: a stick was moved: the sticks fly it again" in bench.said
     assert moves(bench, ORDERED + 0.02, ORDERED + 3) == []
     assert max(m.x for m in moves(bench, ORDERED + 3, ORDERED + 5)) == pytest.approx(2.5)
-    assert bench.drone.cockpit.status is Status.IN_AIR
+    assert bench.drone.autopilot.status is Status.IN_AIR
 
 
 def test_a_landing_may_be_ordered_while_it_takes_off_and_the_newest_counts(tmp_path: Path) -> None:
@@ -208,7 +208,7 @@ def test_a_landing_may_be_ordered_while_it_takes_off_and_the_newest_counts(tmp_p
 
 def test_heights_count_from_where_a_take_off_has_left_it(tmp_path: Path) -> None:
     with drone_fault_bench(tmp_path, FLIGHT.replace("mode", "vertical: height, yaw: angle, mode")) as bench:
-        bench.drone.cockpit.flight.yaw = math.radians(80)
+        bench.drone.autopilot.flight.yaw = math.radians(80)
         bench.engage_at(READY)
         bench.tell_at(ORDERED, "take-off")
         bench.quit_at(ORDERED + 12)
@@ -217,7 +217,7 @@ def test_heights_count_from_where_a_take_off_has_left_it(tmp_path: Path) -> None
     last = bench.of(Move)[-1][1]
     assert last.z == pytest.approx(1.15, abs=0.1), "not the ground that it was taken on"
     assert last.yaw == pytest.approx(80, abs=1)
-    assert bench.drone.cockpit.pose.height > 1
+    assert bench.drone.autopilot.pose.height > 1
 
 
 def test_tilts_are_roll_and_pitch_on_the_wire_and_forward_flies_forward(tmp_path: Path) -> None:
@@ -231,7 +231,7 @@ def test_tilts_are_roll_and_pitch_on_the_wire_and_forward_flies_forward(tmp_path
         bench.run()
     flying = moves(bench, READY + 2, READY + 4)
     assert {(m.x, m.y, m.z, m.yaw) for m in flying} == {(0, -10, 0, 0)}
-    pose = bench.drone.cockpit.pose
+    pose = bench.drone.autopilot.pose
     assert pose.north > 5, "the nose is to the north"
     assert abs(pose.east) < 0.01
 

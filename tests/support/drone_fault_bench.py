@@ -119,7 +119,7 @@ class DroneFaultBench:
 
     def airborne(self, height: float = 30.0) -> None:
         """The drone hovers already, flown up by its pilot."""
-        self.drone.cockpit.flight.hover(height)
+        self.drone.autopilot.flight.hover(height)
 
     def of(self, kind: type[Kind]) -> list[tuple[float, Kind]]:
         """What was sent of a kind, by seconds after the start."""
@@ -149,8 +149,8 @@ class DroneFaultBench:
         if not self.pad.trouble:
             self.held.append((now, dict(self.pad.deflections)))
         self.drone.receive(b"", now)  # it lives, whether anybody looks or not
-        if not self.pilots or self.pilots[-1][1] is not self.drone.cockpit.pilot:
-            self.pilots.append((now, self.drone.cockpit.pilot))
+        if not self.pilots or self.pilots[-1][1] is not self.drone.autopilot.pilot:
+            self.pilots.append((now, self.drone.autopilot.pilot))
 
     def check(self) -> None:
         """What holds whatever happens, by what was sent alone."""
@@ -166,7 +166,7 @@ class DroneFaultBench:
         for time, move in self.of(Move):
             still = (move.x, move.y, move.z, move.yaw) == (0, 0, 0, 0)
             assert still or self._fresh(time), f"stale movement at {time:.3f} s: {move}"
-        assert not self.drone.cockpit.locked
+        assert not self.drone.autopilot.locked
 
     def _fresh(self, seconds: float) -> bool:
         """Whether a hand was there, so many seconds after the start, or just before."""

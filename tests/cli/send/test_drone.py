@@ -64,7 +64,7 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
         assert "take-off also the motors off" in capsys.readouterr().err
         assert send("disarm", url, "--i-understand") == 0
         assert send("take off", url, "--i-understand") == 0
-        wait_until(lambda: far.cockpit.flight.airborne, "flight")
+        wait_until(lambda: far.autopilot.flight.airborne, "flight")
         assert send("disarm", url, "--i-understand") == 1
         assert send("land", url, "--i-understand", "--json") == 0
         assert json.loads(capsys.readouterr().out.splitlines()[-1])["fields"] == {"code": "started"}

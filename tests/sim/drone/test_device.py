@@ -46,7 +46,7 @@ def test_before_activation_it_takes_rates_and_broadcasts_or_not_and_refuses_the_
     bench.run(1)
     assert bool(bench.heard) == broadcasts
     assert any(each.control for _, each in bench.heard) == broadcasts
-    assert not bench.drone.cockpit.virtual_on
+    assert not bench.drone.autopilot.virtual_on
     assert bench.ask(drone.Activate(1)).code == ActivationCode.OK
     assert bench.ask(drone.Version()).code == Code.OK
 
@@ -70,27 +70,27 @@ def test_settings_of_the_virtual_rc_of_any_other_length_are_refused() -> None:
     for value in (b"", b"\x03\x00", bytes.fromhex("03") + bytes(63)):
         bench.send(encode(b"\x05\x00" + value, 0, 1))
     bench.run(0.1)
-    assert not bench.drone.cockpit.virtual_on
+    assert not bench.drone.autopilot.virtual_on
     assert bench.drone.counts["refused"] == 3
     bench.send(encode(b"\x05\x00\x03", 0, 1))
     bench.run(0.1)
-    assert bench.drone.cockpit.virtual_on
+    assert bench.drone.autopilot.virtual_on
 
 
 def test_the_virtual_rc_arms_and_flies_it() -> None:
     bench = DroneBench.activated()
     bench.tell(VirtualRc(on=True))
     bench.hold(CORNERS, 1.2)
-    assert bench.drone.cockpit.flight.motors
+    assert bench.drone.autopilot.flight.motors
     bench.hold(UP, 3)
     bench.hold(Sticks(pitch=1024 + 330, mode=ModeChannel.P), 3)
     last = bench.last("velocity")
     assert (last.x, last.y) == (pytest.approx(5, abs=0.1), pytest.approx(0, abs=0.1))
     assert bench.last("status") == FlightStatus.IN_AIR
     assert bench.last("position").height > 8
-    assert bench.drone.cockpit.pilot is Pilot.VIRTUAL
+    assert bench.drone.autopilot.pilot is Pilot.VIRTUAL
     bench.run(1.5)
-    assert bench.drone.cockpit.pilot is Pilot.RC
+    assert bench.drone.autopilot.pilot is Pilot.RC
 
 
 def test_channels_out_of_their_range_are_refused() -> None:
@@ -182,7 +182,7 @@ def test_velocities_are_along_the_nose_or_north_and_up_is_positive() -> None:
 def test_a_heading_and_a_height_are_sought() -> None:
     bench = flying()
     bench.hold(moves(yaw_control=Yaw.ANGLE, yaw=-45.0, vertical=Vertical.POSITION, z=7.0), 12, rate=50)
-    pose = bench.drone.cockpit.pose
+    pose = bench.drone.autopilot.pose
     assert math.degrees(pose.yaw) == pytest.approx(-45, abs=0.1)
     assert pose.height == pytest.approx(7, abs=0.05)
 
@@ -228,4 +228,4 @@ def test_damage_is_passed_over() -> None:
     frame[14] ^= 1
     bench.send(bytes(frame) + encode(b"\x05\x00\x03", 0, 2)[:-3])
     bench.run(1)
-    assert not bench.drone.cockpit.virtual_on
+    assert not bench.drone.autopilot.virtual_on
