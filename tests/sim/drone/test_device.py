@@ -27,7 +27,7 @@ from teleop.dji.drone.enums import (
 )
 from teleop.dji.drone.movement import Frame, Horizontal, Move, Vertical, Yaw
 from teleop.dji.drone.virtual_rc import Sticks, VirtualRc
-from teleop.dji.frame import encode
+from teleop.dji.frame import Frame
 from teleop.sim.drone.controls import Pilot, Switch
 from teleop.sim.drone.settings import DroneSettings
 
@@ -68,11 +68,11 @@ def test_settings_of_the_virtual_rc_of_any_other_length_are_refused() -> None:
     """SDK 3.3.1 to 4.0.1 sent stick data under id 00: docs/protocol-facts.md."""
     bench = DroneBench.activated()
     for value in (b"", b"\x03\x00", bytes.fromhex("03") + bytes(63)):
-        bench.send(encode(b"\x05\x00" + value, 0, 1))
+        bench.send(Frame(b"\x05\x00" + value, 0, 1).encode())
     bench.run(0.1)
     assert not bench.drone.autopilot.virtual_on
     assert bench.drone.counts["refused"] == 3
-    bench.send(encode(b"\x05\x00\x03", 0, 1))
+    bench.send(Frame(b"\x05\x00\x03", 0, 1).encode())
     bench.run(0.1)
     assert bench.drone.autopilot.virtual_on
 
@@ -97,7 +97,7 @@ def test_channels_out_of_their_range_are_refused() -> None:
     bench = DroneBench.activated()
     bench.tell(VirtualRc(on=True))
     sent = Sticks(roll=1900)
-    bench.send(encode(sent.data(), 0, 5))
+    bench.send(Frame(sent.data(), 0, 5).encode())
     assert bench.drone.counts["refused"] == 1
 
 
@@ -193,7 +193,7 @@ def test_movement_without_control_or_in_no_listed_mode_is_refused() -> None:
     bench.obtain()
     refused = bench.drone.counts["refused"]
     assert refused == 1
-    bench.send(encode(b"\x01\x03\x6a" + bytes(16), 0, 9))
+    bench.send(Frame(b"\x01\x03\x6a" + bytes(16), 0, 9).encode())
     assert bench.drone.counts["refused"] == 2
 
 
@@ -224,8 +224,8 @@ def test_a_reboot_forgets_the_activation() -> None:
 
 def test_damage_is_passed_over() -> None:
     bench = DroneBench.activated()
-    frame = bytearray(encode(b"\x05\x00\x03", 0, 1))
+    frame = bytearray(Frame(b"\x05\x00\x03", 0, 1).encode())
     frame[14] ^= 1
-    bench.send(bytes(frame) + encode(b"\x05\x00\x03", 0, 2)[:-3])
+    bench.send(bytes(frame) + Frame(b"\x05\x00\x03", 0, 2).encode()[:-3])
     bench.run(1)
     assert not bench.drone.autopilot.virtual_on
