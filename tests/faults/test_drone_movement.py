@@ -13,7 +13,7 @@ from teleop.core.operator_input import Command
 from teleop.core.run_state import Result
 from teleop.dji.drone import messages as drone
 from teleop.dji.drone.enums import ControlCode, ControlOrder, TaskKind
-from teleop.dji.drone.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.drone.movement import Horizontal, Move, ReferenceFrame, Vertical, Yaw
 from teleop.sim.drone.controls import Pilot, Status, Switch
 
 BREAKS = 6.0
@@ -45,7 +45,7 @@ def test_it_is_flown_by_velocities_and_given_back(tmp_path: Path) -> None:
     flying = [message for time, message in moves if READY + 2 < time < BREAKS]
     assert {(m.x, m.y, m.z, m.yaw) for m in flying} == {(2.5, 0, 0, -30)}
     assert {(m.horizontal, m.vertical, m.yaw_control, m.frame, m.stable) for m in flying} == {
-        (Horizontal.VELOCITY, Vertical.VELOCITY, Yaw.RATE, Frame.BODY, True)
+        (Horizontal.VELOCITY, Vertical.VELOCITY, Yaw.RATE, ReferenceFrame.BODY, True)
     }
     assert len(flying) == pytest.approx(50 * (BREAKS - READY - 2), abs=2)
     assert len(orders(bench, ControlOrder.OBTAIN)) == len(orders(bench, ControlOrder.RELEASE)) == 2, "each twice"

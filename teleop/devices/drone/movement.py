@@ -39,7 +39,7 @@ class MovementControl:
         self,
         connection: Connection,
         combination: movement.Combination,
-        frame: movement.Frame,
+        frame: movement.ReferenceFrame,
         full: Mapping[str, float],
         site: Site,
     ) -> None:

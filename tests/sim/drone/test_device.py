@@ -25,7 +25,7 @@ from teleop.dji.drone.enums import (
     TaskCode,
     TaskKind,
 )
-from teleop.dji.drone.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.drone.movement import Horizontal, Move, ReferenceFrame, Vertical, Yaw
 from teleop.dji.drone.virtual_rc import Sticks, VirtualRc
 from teleop.dji.frame import Frame
 from teleop.sim.drone.controls import Pilot, Switch
@@ -152,7 +152,7 @@ def test_motors_obey_whoever_has_control_and_never_stop_in_the_air() -> None:
 def moves(**changes: Any) -> Move:
     plain: dict[str, Any] = {
         "stable": True,
-        "frame": Frame.BODY,
+        "frame": ReferenceFrame.BODY,
         "yaw_control": Yaw.RATE,
         "vertical": Vertical.VELOCITY,
         "horizontal": Horizontal.VELOCITY,
@@ -175,7 +175,7 @@ def test_velocities_are_along_the_nose_or_north_and_up_is_positive() -> None:
     velocity = bench.last("velocity")
     assert (velocity.x, velocity.y) == (pytest.approx(0, abs=0.01), pytest.approx(2, abs=0.01))
     assert velocity.z == pytest.approx(1, abs=0.01), "the vertical velocity of the broadcast is up"
-    bench.hold(moves(x=2.0, frame=Frame.GROUND), 4, rate=50)
+    bench.hold(moves(x=2.0, frame=ReferenceFrame.GROUND), 4, rate=50)
     assert bench.last("velocity").x == pytest.approx(2, abs=0.01)
 
 
