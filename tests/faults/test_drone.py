@@ -49,8 +49,8 @@ def test_it_is_engaged_flown_and_given_back(tmp_path: Path) -> None:
     assert bench.pilot(BREAKS + 1) is Pilot.RC
     assert bench.said == [
         "drone: engaged: the drone confirms virtual RC",
-        "drone: the operator lets go: sticks neutral, virtual RC is given back",
-        "drone: virtual RC is given back: the drone confirms",
+        "drone: disengaged by the operator: sticks neutral, releasing virtual RC",
+        "drone: virtual RC is released: the drone confirms it",
     ]
 
 
@@ -134,19 +134,19 @@ class Row:
 
 
 ROWS = [
-    Row(hand_is_gone, "no hand on the sticks for 1 s"),
-    Row(everything_stops, "everything is to stop: sticks neutral"),
+    Row(hand_is_gone, "no stick input for 1 s"),
+    Row(everything_stops, "STOP: sticks neutral"),
     Row(pilot_leaves_f, "the drone has ended virtual RC"),
-    Row(control_is_lost, "the drone says that control was lost"),
+    Row(control_is_lost, "the drone reports that control was lost"),
     Row(battery_runs_low, "the battery is at 20 %", within=1.1),
-    Row(status_is_no_longer_told, "the drone no longer says its flight status", within=1.1),
-    Row(the_bit_is_no_longer_told, "no longer says whether virtual RC is on", within=1.1, result=Result.FAILED),
+    Row(status_is_no_longer_told, "the drone no longer reports its flight status", within=1.1),
+    Row(the_bit_is_no_longer_told, "no longer reports whether virtual RC is on", within=1.1, result=Result.FAILED),
     Row(nothing_comes_from_it, "take it over with its RC", within=1.1, result=Result.FAILED),
     Row(nothing_reaches_it, "the drone has ended virtual RC", within=1.1),
     Row(every_byte_is_damaged, "the drone has ended virtual RC", within=1.1),
     Row(every_frame_is_cut, "the drone has ended virtual RC", within=1.1),
-    Row(unplugged, "goes back to its RC by itself, a second after", result=Result.FAILED, disables=0),
-    Row(signal, "everything is to stop", result=Result.INTERRUPTED),
+    Row(unplugged, "goes back to its RC by itself, 1 s after", result=Result.FAILED, disables=0),
+    Row(signal, "STOP", result=Result.INTERRUPTED),
     Row(stalls_300_ms, "the computer stalled for 0.30 s", within=0.37, result=Result.FAILED),
     Row(stalls_1500_ms, "the computer stalled for 1.5", within=1.57, result=Result.FAILED),
     Row(defect, "ZeroDivisionError: a defect", result=Result.FAILED),
@@ -219,7 +219,7 @@ def test_a_hand_that_is_back_within_a_second_has_to_be_centred_first(tmp_path: P
         bench.hold_at(BREAKS + 0.7, stick_pitch=0.5)
         bench.quit_at(BREAKS + 3)
         bench.run()
-    assert "drone: a hand is on the sticks again" in bench.said
+    assert "drone: stick input is back" in bench.said
     deflected = [time for time, message in bench.of(Sticks) if message != NEUTRAL and time > BREAKS + 0.07]
     assert deflected[0] > BREAKS + 0.69
     assert len(bench.enables) == 1
@@ -243,7 +243,7 @@ def test_a_drone_that_hides_the_bit_is_flown_and_that_is_said(tmp_path: Path) ->
         bench.quit_at(BREAKS)
         bench.run()
     assert any("sends no control field" in text for text in bench.said)
-    assert any("engaged, but the drone does not say whether virtual RC is on" in text for text in bench.said)
+    assert any("engaged, but the drone does not report whether virtual RC is on" in text for text in bench.said)
     assert max(message.pitch for _, message in bench.of(Sticks)) == FORWARD
     assert len(bench.enables) == len(bench.disables) == 1
     assert bench.ended.result is Result.FAILED, "whether it was given back is not known"
@@ -269,11 +269,11 @@ def test_lost_acknowledgements_are_asked_for_again_and_then_end_the_run(tmp_path
     ("spoil", "said"),
     [
         (lambda bench: bench.hold_at(0.0, stick_roll=0.5), "no input holds its sticks"),
-        (lambda bench: bench.hold_at(2.0, stick_roll=0.5), "let its sticks go to their centre"),
+        (lambda bench: bench.hold_at(2.0, stick_roll=0.5), "center its sticks"),
         (pilot_leaves_f, "mode switch is in P"),
         (battery_runs_low, "the battery is at 20 %: 25 % is too low to begin with"),
-        (lambda bench: bench.drone.hide("rc"), "does not say where its RC's mode switch is"),
-        (lambda bench: bench.drone.hide("battery"), "does not say how full its battery is"),
+        (lambda bench: bench.drone.hide("rc"), "does not report where its RC's mode switch is"),
+        (lambda bench: bench.drone.hide("battery"), "does not report its battery"),
         (lambda bench: bench.keys.press(Command.STOP), "STOP is not cleared"),
     ],
 )
@@ -341,7 +341,7 @@ def test_motors_start_by_gesture_in_standby_and_are_never_cut_in_the_air(tmp_pat
     assert corners[-1] <= READY + 2.6
     assert bench.drone.autopilot.flight.airborne
     assert not bench.drone.autopilot.flight.crashed
-    assert "disarm refused: the drone says in air" in bench.said[-3]
+    assert "disarm refused: the drone reports in air" in bench.said[-3]
 
 
 def test_switches_are_set_while_it_is_engaged_and_neutral_is_p_mode(tmp_path: Path) -> None:
@@ -359,7 +359,7 @@ def test_switches_are_set_while_it_is_engaged_and_neutral_is_p_mode(tmp_path: Pa
     assert switches[0] == switches[-1] == (1552, 1324, 1024)
     assert (1024, 1684, 1024) in switches
     assert bench.said[0] == "drone: mode-a refused: it is not engaged"
-    assert any("the profile does not say what its channel is to be" in text for text in bench.said)
+    assert any("the profile has no channel value for it" in text for text in bench.said)
 
 
 def test_the_loop_ends_idle_when_nobody_ever_engaged(tmp_path: Path) -> None:

@@ -87,6 +87,6 @@ def test_nothing_flies_by_accident(sink: str, steps: list[tuple[str, float]]) ->
         assert len(bench.enables) <= engages, "only by an operator's act"
         assert bench.drone.autopilot.pilot in (Pilot.RC, Pilot.ONBOARD), "its pilot has it, or it hovers"
         assert bench.cable.unplugged or bench.cable.deaf or bench.drone.autopilot.pilot is Pilot.RC
-        if bench.said and bench.said[-1].endswith("is given back: the drone confirms"):
+        if bench.said and bench.said[-1].endswith("is released: the drone confirms it"):
             assert bench.drone.autopilot.pilot is Pilot.RC, "nothing is called confirmed that is not"
         assert not bench.drone.autopilot.flight.crashed

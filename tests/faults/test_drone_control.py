@@ -23,9 +23,9 @@ from teleop.dji.drone.movement import Move
 from teleop.sim.drone.controls import Pilot
 from teleop.sim.drone.settings import DroneSettings
 
-CONFIRMED = "drone: control is given back: the drone confirms"
-SILENT = "drone: control was given back, but the drone says that it still has it: take it over with its RC"
-UNHEARD = "drone: control was given back, but the drone says nothing: take it over with its RC"
+CONFIRMED = "drone: control is released: the drone confirms it"
+SILENT = "drone: control: released, but the drone reports that it is still on: take it over with its RC"
+UNHEARD = "drone: control: released, but the drone reports nothing: take it over with its RC"
 
 
 def orders(bench: DroneFaultBench, order: ControlOrder) -> list[float]:
@@ -187,7 +187,7 @@ def test_a_drone_that_has_control_again_by_an_old_request_is_given_back_again(tm
         bench.at(READY + 6, lambda: bench.drone.autopilot.obtain())
         bench.quit_at(READY + 10)
         bench.run()
-    assert "drone: the drone says again that control is on: giving it back" in bench.said
+    assert "drone: the drone reports control on again: releasing it" in bench.said
     assert bench.drone.autopilot.pilot is Pilot.RC
     assert bench.said[-1] == CONFIRMED
 

@@ -102,7 +102,7 @@ def test_any_answer_but_2_is_a_refusal_and_the_sticks_go_on(value: bytes, said: 
 @pytest.mark.parametrize(
     ("before", "said"),
     [
-        (lambda bench: bench.airborne(), "the drone says in air: its motors run"),
+        (lambda bench: bench.airborne(), "the drone reports in air: its motors run"),
         (lambda bench: bench.tell_at(READY + 0.5, "arm"), "the motors run: drone disarm first"),
     ],
 )
@@ -142,7 +142,7 @@ def test_a_task_that_never_reached_the_drone_is_given_up_and_the_sticks_go_on(tm
         bench.tell_at(ORDERED, "take-off")
         bench.quit_at(ORDERED + 8)
         bench.run()
-    assert "drone: take-off: not started: the drone says standby" in bench.said
+    assert "drone: take-off: not started: the drone reports standby" in bench.said
     assert moves(bench, ORDERED + 0.02, ORDERED + 3.9) == []
     assert moves(bench, ORDERED + 5, ORDERED + 6)
     assert bench.drone.autopilot.status is Status.STANDBY
@@ -151,9 +151,9 @@ def test_a_task_that_never_reached_the_drone_is_given_up_and_the_sticks_go_on(tm
 @pytest.mark.parametrize(
     ("act", "said"),
     [
-        (lambda bench: bench.keys.press(Command.STOP), "everything is to stop"),
-        (lambda bench: bench.keys.press(Command.DISENGAGE), "the operator lets go"),
-        (lambda bench: setattr(bench.pad, "trouble", "gone"), "no hand on the sticks for 1 s"),
+        (lambda bench: bench.keys.press(Command.STOP), "STOP"),
+        (lambda bench: bench.keys.press(Command.DISENGAGE), "disengaged by the operator"),
+        (lambda bench: setattr(bench.pad, "trouble", "gone"), "no stick input for 1 s"),
         (lambda bench: bench.keys.press(Command.QUIT), ""),
     ],
 )
