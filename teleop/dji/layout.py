@@ -101,9 +101,10 @@ class Layout:
     def __init__(self, message_class: type) -> None:
         places = list(_places(message_class))
         self.fields = tuple(place for place in places if isinstance(place, Field))
-        last = self.fields[-1] if self.fields else None
-        self._tail = last if last and isinstance(last.wire, OptionalByte | Ids | Tlv) else None
-        self._cells = tuple(_cells([place for place in places if place is not self._tail]))
+        self._tail: tuple[str, OptionalByte | Ids | Tlv] | None = None
+        if self.fields and isinstance(self.fields[-1].wire, OptionalByte | Ids | Tlv):
+            self._tail = self.fields[-1].name, self.fields[-1].wire
+        self._cells = tuple(_cells(places))
         self._struct = struct.Struct("<" + "".join(cell.code for cell in self._cells))
         self.size = self._struct.size  # bytes, without a tail of no fixed size
 
@@ -115,7 +116,8 @@ class Layout:
         fixed = self._struct.pack(*[cell.pack(message) for cell in self._cells])
         if self._tail is None:
             return fixed + message.extra
-        return fixed + self._tail.wire.to_wire(getattr(message, self._tail.name)) + message.extra
+        name, wire = self._tail
+        return fixed + wire.to_wire(getattr(message, name)) + message.extra
 
     def unpack(self, value: bytes) -> dict[str, Any] | None:
         """Each field by name, and what is left over as `extra`; None when `value` is too short or another's."""
@@ -128,7 +130,8 @@ class Layout:
             cell.unpack(integer, values)
         rest = value[self.size :]
         if self._tail is not None:
-            values[self._tail.name], rest = self._tail.wire.from_wire(rest)
+            name, wire = self._tail
+            values[name], rest = wire.from_wire(rest)
         values["extra"] = rest
         return values
 
@@ -143,13 +146,16 @@ def _places(message_class: type) -> Iterator[Field | Constant]:
 
 
 def _cells(places: Sequence[Field | Constant]) -> Iterator[Cell]:
-    """One cell each, except that adjacent fields of bits share one."""
+    """One cell each, except that adjacent fields of bits share one, and that a tail has none."""
     for shared, group in groupby(places, key=lambda place: isinstance(place.wire, Bits)):
         if shared:
             yield _shared_byte({place.name: place.wire for place in group if isinstance(place, Field)})
             continue
         for place in group:
-            yield place if isinstance(place, Constant) else NumberCell(place.name, place.wire)
+            if isinstance(place, Constant):
+                yield place
+            elif isinstance(place.wire, Number):
+                yield NumberCell(place.name, place.wire)
 
 
 def _shared_byte(fields: dict[str, Any]) -> SharedByte:
