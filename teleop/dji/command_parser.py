@@ -58,7 +58,7 @@ class Vocabulary(NamedTuple):
         """
         fields = fields_of(words)
         if len(fields) < sum("=" in word for word in words):
-            raise FieldError("a field is given twice")
+            raise FieldError("duplicate field")
         name = spoken(" ".join(word for word in words if "=" not in word))
         names = [name, *(f"{device} {name}" for device in self.devices)]
         for full in names:

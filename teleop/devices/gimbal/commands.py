@@ -82,7 +82,7 @@ class CommandSink:
             self._say(f"{words}: {error}")
             return
         if is_taken_back(message):
-            self._say(f"{words} refused: it would fight what is streamed")
+            self._say(f"{words} refused: it would disturb the commands of the run")
             return
         if not message.has_reply:
             self._connection.stream(message)

@@ -69,10 +69,10 @@ def test_a_refusal_and_silence_are_said_and_are_no_fault() -> None:
     ("words", "said"),
     [
         ("gimbal folow lock", "there is no command 'gimbal folow lock', did you mean 'gimbal follow lock'?"),
-        ("gimbal recenter", "refused: it would fight what is streamed"),
-        ("selfie", "refused: it would fight what is streamed"),
-        ("gimbal speed yaw=10 roll=0 pitch=0", "refused: it would fight what is streamed"),
-        ("focus set position=5", "refused: it would fight what is streamed"),
+        ("gimbal recenter", "refused: it would disturb the commands of the run"),
+        ("selfie", "refused: it would disturb the commands of the run"),
+        ("gimbal speed yaw=10 roll=0 pitch=0", "refused: it would disturb the commands of the run"),
+        ("focus set position=5", "refused: it would disturb the commands of the run"),
         ("gimbal dial speed=9999", "speed"),
     ],
 )

@@ -114,7 +114,7 @@ class Watcher:
     def observe(self, tick: Tick) -> None: ...
 
 
-class Scene:
+class GimbalFaultBench:
     """`wire` is every message to the gimbal with its time, `rates` its rates (deg/s) with theirs."""
 
     def __init__(self, mode: str, rig: Rig, clock: StallingClock | RealClock, far: Link) -> None:
@@ -226,18 +226,18 @@ class Scene:
 
 
 @contextmanager
-def scene(
+def gimbal_fault_bench(
     mode: str, folder: Path, monkeypatch: pytest.MonkeyPatch, clock: StallingClock | RealClock | None = None
-) -> Iterator[Scene]:
+) -> Iterator[GimbalFaultBench]:
     register(monkeypatch)
     monkeypatch.setattr(can.interfaces, "VALID_INTERFACES", can.interfaces.VALID_INTERFACES | {"faulty"})
-    channel = f"scene{next(_channels)}"
+    channel = f"bench{next(_channels)}"
     text = PROFILE.replace("CHANNEL", channel).replace("MODE", mode).replace("DELAY", str(DELAYS[mode]))
     (folder / "rig.yaml").write_text(text)
     clock = clock or StallingClock()
     far = open_link(f"virtual:{channel}", host=False, now=clock.now)
     try:
         with open_rig(load_profile(str(folder / "rig.yaml")), clock) as rig:
-            yield Scene(mode, rig, clock, far)
+            yield GimbalFaultBench(mode, rig, clock, far)
     finally:
         far.close()
