@@ -14,7 +14,7 @@ from typing import Protocol
 from teleop.core.axes import Axis, Motion, Reading
 from teleop.core.errors import DeviceError, TeleopError
 from teleop.core.events import Tick, TickEvent
-from teleop.core.interfaces import Sink, Source
+from teleop.core.interfaces import Feedback, Observer, Source
 from teleop.core.setpoints import Demand, PositionTarget, Stop, VelocityTarget
 
 ARRIVED: Mapping[Axis, float] = {Axis.FOCUS: 0.02}
@@ -31,7 +31,7 @@ class Job(Protocol):
 
     def start(self, now: float, motion: Motion) -> None: ...
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]: ...
+    def read(self, now: float, feedback: Feedback, /) -> tuple[Demand, Sequence[TickEvent]]: ...
 
     def done(self, tick: Tick) -> bool:
         """Whether it is complete, seen from this tick; raises TeleopError when it cannot be completed."""
@@ -49,7 +49,7 @@ class MoveJob:
     def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - the planner knows where the axes are
         self._end = None if self._seconds is None else now + self._seconds
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         left = None if self._end is None else max(0.0, self._end - now)
         return {axis: PositionTarget(target, left or None) for axis, target in self._targets.items()}, ()
 
@@ -81,7 +81,7 @@ class JogJob:
     def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - the planner knows where the axes are
         self._end = now + self._seconds
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         over = now >= self._end - 1e-6
         return {axis: Stop() if over else VelocityTarget(speed) for axis, speed in self._velocities.items()}, ()
 
@@ -100,8 +100,8 @@ class SourceJob:
     def start(self, now: float, motion: Motion) -> None:
         self._source.start(now, motion)
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
-        demand, events = self._source.read(now)
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+        demand, events = self._source.read(now, feedback)
         self._over = self._source.next_change(now) == float("inf")
         return demand, events
 
@@ -118,7 +118,7 @@ class EventJob:
 
     def start(self, now: float, motion: Motion) -> None: ...
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:  # noqa: ARG002 - it is due at once
+    def read(self, _now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         events, self._events = self._events, []
         return {}, events
 
@@ -138,9 +138,8 @@ class ProgramSource:
 
     def __init__(self) -> None:
         self._lock = threading.RLock()  # reentrant: a signal handler may call `stop` in the thread that holds it
-        self._motion: Motion = {}
         self._job: Job | None = None
-        self._observers: tuple[Sink, ...] = ()  # of the job in hand
+        self._observers: tuple[Observer, ...] = ()  # of the job in hand
         self._fresh = False  # the job has not begun yet
         self._ending: TeleopError | None = None  # what the job in hand ends with, once every axis rests
         self._finished = threading.Event()
@@ -152,7 +151,7 @@ class ProgramSource:
 
     # --- for the program's threads
 
-    def submit(self, job: Job, observers: Sequence[Sink] = ()) -> None:
+    def submit(self, job: Job, observers: Sequence[Observer] = ()) -> None:
         """Hand `job` over; `observers` see each tick until it ends.
 
         Raises StoppedError after a STOP, BusyError while another job is in hand, DeviceError once the run has ended.
@@ -208,31 +207,30 @@ class ProgramSource:
 
     # --- for the control thread
 
-    def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - jobs begin later
-        self._motion = motion
+    def start(self, now: float, motion: Motion) -> None: ...  # jobs begin later
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         with self._lock:
             job, fresh, ending = self._job, self._fresh, self._ending
             self._fresh = False
         if self.stopped or ending is not None:
-            return {axis: Stop() for axis in self._motion}, ()
+            return {axis: Stop() for axis in feedback.motion}, ()
         if job is None:
             return {}, ()
         if fresh:
-            job.start(now, self._motion)
-        return job.read(now)
+            job.start(now, feedback.motion)
+        return job.read(now, feedback)
 
     def next_change(self, now: float) -> float:
         return now
 
-    def write(self, tick: Tick) -> None:
-        self._motion, self.tick = tick.motion, tick
+    def observe(self, tick: Tick) -> None:
+        self.tick = tick
         self.running.set()
         with self._lock:
             job, fresh, ending, observers = self._job, self._fresh, self._ending, self._observers
         for observer in observers:
-            observer.write(tick)
+            observer.observe(tick)
         if job is None or fresh:
             return
         if ending is not None:
@@ -244,9 +242,6 @@ class ProgramSource:
                 self._finish(None)
         except TeleopError as error:
             self._finish(error)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _finish(self, error: TeleopError | None) -> None:
         with self._lock:

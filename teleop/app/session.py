@@ -22,7 +22,7 @@ from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import DeviceError, Interrupted, TeleopError, UsageError
 from teleop.core.events import Action
-from teleop.core.interfaces import Sink
+from teleop.core.interfaces import Observer, Sink
 from teleop.core.run_state import Result, RunState
 from teleop.devices.gimbal.commands import CommandSink
 from teleop.devices.rig import Rig, open_rig
@@ -55,7 +55,7 @@ class Session:
         self._loop: ControlLoop | None = None
         try:
             self.rig: Rig = self._stack.enter_context(open_rig(profile.in_use(self.axes, [Action.RECORD]), self.clock))
-            self._loop = self.rig.loop(self.axes, [self.program], [*self._commands(), self.program])
+            self._loop = self.rig.loop(self.axes, [self.program], [self.program], self._commands())
             self._supervisor = self._loop.supervisor
             _sessions.add(self)
             self._begin()
@@ -72,7 +72,7 @@ class Session:
         """Why the run ended, "" while it goes on."""
         return "; ".join(self._supervisor.reasons)
 
-    def run(self, job: Job, observers: Sequence[Sink] = ()) -> None:
+    def run(self, job: Job, observers: Sequence[Observer] = ()) -> None:
         """Hand `job` over and wait until it is complete; raises what went wrong.
 
         An exception in the waiting thread, such as KeyboardInterrupt, first brings the axes to rest.

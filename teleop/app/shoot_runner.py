@@ -18,7 +18,7 @@ from teleop.config.profile import Profile
 from teleop.config.sinks_section import CameraSection
 from teleop.core.control_loop import ControlLoop, StallError
 from teleop.core.errors import LinkError
-from teleop.core.interfaces import Clock, Sink
+from teleop.core.interfaces import Clock, Observer
 from teleop.core.operator_input import Input
 from teleop.core.run_state import Result
 from teleop.core.run_status import RunStatus
@@ -57,7 +57,7 @@ def camera_link(profile: Profile) -> str:
 
 
 class Shooting:
-    """One shoot: its journal is open, `say` tells the operator a line, `watchers` look on through every run.
+    """One shoot: its journal is open, `say` tells the operator a line, `observers` see every run.
 
     `keys` and `inputs` can stop it; a STOP that is not cleared outlasts a run.
     """
@@ -69,14 +69,14 @@ class Shooting:
         clock: Clock,
         journal: Journal,
         say: Callable[[str], object],
-        watchers: Sequence[Sink] = (),
+        observers: Sequence[Observer] = (),
         keys: Input | None = None,
         in_doubt: InDoubt = "shoot",
         executor: Executor | None = None,
         inputs: Sequence[Input] = (),
     ) -> None:
         self._timelapse, self._profile, self._clock, self._journal = timelapse, profile, clock, journal
-        self._say, self._watchers, self._in_doubt = say, watchers, in_doubt
+        self._say, self._observers, self._in_doubt = say, observers, in_doubt
         self._executor = executor
         self._inputs = [*([] if keys is None else [keys]), *inputs]
         self.guard: StopGuard | None = None
@@ -147,8 +147,7 @@ class Shooting:
             with open_rig(self._profile, self._clock) as rig:
                 shutter = ShutterSink(rig.connections[self._camera], source.on_shutter_result)
                 notes = LinkNotes(rig.connections.values(), self._say)
-                watchers = [shutter, source, guard, notes, *self._watchers]
-                self._loop = rig.loop(list(timelapse.limits), [guard], watchers)
+                self._loop = rig.loop(list(timelapse.limits), [guard], [notes, *self._observers], [shutter])
                 if self._interrupted:
                     self._loop.interrupt(self._interrupted)
                 supervisor = self._loop.run()

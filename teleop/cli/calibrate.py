@@ -80,7 +80,7 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
         guard.say = display.say
         rig = stack.enter_context(open_rig(profile, clock))
         notes = LinkNotes(rig.connections.values(), warnings.append)
-        loop = rig.loop([moved], [guard], [traces, guard, notes, *map(stack.enter_context, keys), display])
+        loop = rig.loop([moved], [guard], [traces, notes, *map(stack.enter_context, keys), display])
         with signals_to(loop.interrupt, loop.release_at_once, display.say), display:
             ended = loop.run()
     for warning in warnings:

@@ -24,7 +24,7 @@ from teleop.core.axes import Axis
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import UsageError
 from teleop.core.run_state import Result
-from teleop.core.timing import PERIOD
+from teleop.core.timing import LoopTiming
 from teleop.devices.gimbal.position import Angles
 from teleop.devices.rig import open_rig
 from teleop.planner.live import Live
@@ -52,7 +52,9 @@ def signs(*, axis: Angle | None = None, fast: Fast = False, options: Options = D
         reporter = Angles(connection, Wiring(section.axes), section.legacy_angles)
         guard, keys = guarded(stack, probe, profile, clock, fast)
         guard.say = complain
-        loop = ControlLoop(clock, Live(limits, PERIOD), limits, [guard], [probe, guard, *keys], [reporter])
+        timing = LoopTiming()
+        planner = Live(limits, timing.period)
+        loop = ControlLoop(clock, planner, limits, [guard], [probe], [reporter], keys, timing)
         if not options.json:
             complain(f"measuring the signs of {', '.join(axes)}: {REACH:g} deg to one side and back")
             if keys:

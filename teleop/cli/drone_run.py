@@ -72,7 +72,7 @@ class Aboard:
             return
         self._drone.say, self._drone.by_script = say, by_script
         for simulated in rig.simulated_drones.values() if by_script else ():
-            simulated.cockpit.flight.hover(HOVER)
+            simulated.autopilot.flight.hover(HOVER)
             say(f"the simulated drone hovers at {HOVER:g} m")
 
     def state(self) -> DroneState | None:

@@ -28,7 +28,7 @@ from teleop.config.profile import Profile
 from teleop.core.axes import Axis
 from teleop.core.errors import UsageError
 from teleop.core.events import Action
-from teleop.core.interfaces import Clock, Sink
+from teleop.core.interfaces import Clock
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.rig import Rig, open_rig
 from teleop.inputs.keyboard import Keyboard, terminal
@@ -88,9 +88,7 @@ def live(
             recorder = stack.enter_context(recording(take, profile.name, title, limits, status, patient=fast))
             rig = stack.enter_context(open_rig(profile, clock))
             aboard.board(rig, axes, display.say, by_script=True)
-            return perform(
-                *(rig, axes, [guard], tally, display, options.json, recorder, [guard]), stopped=lambda: guard.reason
-            )
+            return perform(*(rig, axes, [guard], tally, display, options.json, recorder), stopped=lambda: guard.reason)
     with ExitStack() as stack:
         inputs, note = open_devices(stack, profile, clock, keyboard is not None, NOBODY)
         rig, axes, left_out = _opened(stack, profile, clock, None if recorded is None else axes)
@@ -115,14 +113,15 @@ def live(
             options.json,
             aboard.state,
         )
-        watchers: list[Sink] = [
-            *(operator, *commands(rig, axes, operator.say, operator.confirmed)),
+        observers, sinks = commands(rig, axes, operator.say, operator.confirmed)
+        observers += [
             CameraAnswers(rig.camera, operator.say, operator.camera_answered, lenient=replay is None),
             *([] if keyboard is None else [keyboard]),
         ]
         tally = TrackingErrorMonitor(lambda: operator.begin)
         return perform(
-            *(rig, axes, [operator], tally, view, options.json, recorder, watchers), stopped=lambda: operator.reason
+            *(rig, axes, [operator], tally, view, options.json, recorder, observers, sinks),
+            stopped=lambda: operator.reason,
         )
 
 

@@ -14,7 +14,7 @@ from teleop.cli.screens.run_view import RunView, error_table
 from teleop.cli.signals import signals_to
 from teleop.core.axes import Axis
 from teleop.core.events import DeviceCommand
-from teleop.core.interfaces import Sink, Source
+from teleop.core.interfaces import Observer, Sink, Source
 from teleop.core.run_state import Result, RunStateMachine
 from teleop.devices.gimbal.commands import CommandSink, Unheard
 from teleop.devices.link_notes import LinkNotes
@@ -49,7 +49,8 @@ def perform(
     display: RunView | LiveView,
     as_json: bool,
     take: Recorder | None = None,
-    watchers: Sequence[Sink] = (),
+    observers: Sequence[Observer] = (),
+    sinks: Sequence[Sink] = (),
     extras: Sequence[Extra] = (),
     stopped: Callable[[], str] = lambda: "",
 ) -> int:
@@ -57,7 +58,8 @@ def perform(
 
     `stopped` is asked at the end for a STOP that was not left, which then is among the reasons.
     """
-    loop = rig.loop(axes, sources, [tally, *watchers, *([] if take is None else [take]), display])
+    watching = [tally, *observers, *([] if take is None else [take]), display]
+    loop = rig.loop(axes, sources, watching, sinks)
     with undisturbed(loop.interrupt, loop.release_at_once, display.say), display:
         ended = loop.run()
     ended.reasons += [reason] if (reason := stopped()) else []
@@ -102,15 +104,15 @@ def commands(
     axes: Sequence[Axis],
     say: Callable[[str], object],
     done: Callable[[DeviceCommand], object] = lambda _command: None,
-) -> list[Sink]:
-    """What gives a gimbal its own commands, where the rig has one, and what watches the links; `say` is for both.
+) -> tuple[list[Observer], list[Sink]]:
+    """The sink of a gimbal's own commands, where the rig has one, and the observers of the links; `say` is for both.
 
     `done` is called with each command that the gimbal has confirmed.
     """
     links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
     heard = [CommandSink(rig.connections[link], say, done) for link in links[:1]]
     unheard = Unheard(gimbal=bool(heard), drone=rig.drone(axes) is not None, say=say)
-    return [*heard, unheard, LinkNotes(rig.connections.values(), say)]
+    return [unheard, LinkNotes(rig.connections.values(), say)], [*heard]
 
 
 @contextmanager

@@ -20,7 +20,7 @@ from teleop.cli.stop_inputs import open_stop_inputs
 from teleop.cli.trim_options import TrimReport
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis
-from teleop.core.interfaces import Clock, Sink
+from teleop.core.interfaces import Clock, Observer, Sink
 from teleop.core.run_state import Result
 from teleop.devices.rig import Rig, open_rig
 from teleop.inputs.keyboard import Keyboard
@@ -69,7 +69,7 @@ class SequenceRun:
             if source.cycle.trigger is not None:
                 source.cycle.trigger.open(stack)
             rig = stack.enter_context(open_rig(profile, self.clock))
-            watchers = self._watchers(stack, rig, axes, [each for each in (conductor, guard) if each], extras)
+            observers, sinks = self._observers(stack, rig, axes, extras)
             status_of = partial(run_status, source) if conductor is None else conductor.status
             keys = NO_KEYS if self.keys is None else RUN_HINTS
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
@@ -79,7 +79,8 @@ class SequenceRun:
             stopped = (lambda: guard.reason) if guard else (lambda: "")
             if guard:
                 guard.say = display.say
-            code = perform(rig, axes, sources, tally, display, self.as_json, recorder, watchers, extras, stopped)
+            watched = (recorder, observers, sinks)
+            code = perform(rig, axes, sources, tally, display, self.as_json, *watched, extras, stopped)
             lost = any(isinstance(extra, TrimReport) and extra.failure for extra in extras)
             return code or (EXIT_CODES[Result.FAILED] if lost else code)
 
@@ -106,18 +107,17 @@ class SequenceRun:
         conductor = PlaybackControls(self.source, keys, trimming, report.keep)
         return conductor, StopGuard(conductor, relays)
 
-    def _watchers(
-        self, stack: ExitStack, rig: Rig, axes: Sequence[Axis], conducting: Sequence[Sink], extras: list[Extra]
-    ) -> list[Sink]:
+    def _observers(
+        self, stack: ExitStack, rig: Rig, axes: Sequence[Axis], extras: list[Extra]
+    ) -> tuple[Sequence[Observer], Sequence[Sink]]:
         said: list[str] = []
         stack.callback(lambda: print(*said, sep="\n", end="\n" if said else "", file=sys.stderr))
-        watchers: list[Sink] = [*commands(rig, axes, said.append)]
+        observers, sinks = commands(rig, axes, said.append)
         if self.keys is not None:
-            watchers.append(stack.enter_context(self.keys))
-        watchers += conducting
-        watchers += [extra for extra in extras if isinstance(extra, TrimReport)]
+            observers.append(stack.enter_context(self.keys))
+        observers += [extra for extra in extras if isinstance(extra, TrimReport)]
         if self.source.cycle.compared:
             repeatability = Repeatability(self.source.place)
-            watchers.append(repeatability)
+            observers.append(repeatability)
             extras.insert(0, PassesReport(repeatability))
-        return watchers
+        return observers, sinks

@@ -19,7 +19,7 @@ from teleop.cli.stop_inputs import open_stop_inputs
 from teleop.cli.timelapse_summary import clock, summary
 from teleop.config.profile import Profile
 from teleop.core.clock import VirtualClock
-from teleop.core.interfaces import Clock, Sink
+from teleop.core.interfaces import Clock, Observer
 from teleop.core.run_state import Result
 from teleop.inputs.keyboard import Keyboard, terminal
 from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
@@ -52,14 +52,14 @@ def shoot(
             recording(take, profile.name, timelapse.title, timelapse.limits, patient=virtual)
         )
         keys = None if descriptor is None else stack.enter_context(Keyboard(descriptor, PlayKeys(RUN_KEYS)))
-        watchers: list[Sink] = [each for each in (recorder, keys) if each is not None]
+        observers: list[Observer] = [each for each in (recorder, keys) if each is not None]
         shooting = Shooting(
             timelapse,
             profile,
             time,
             journal,
             lambda line: view.say(line),
-            watchers,
+            observers,
             keys,
             asked.in_doubt,
             inputs=[] if virtual else open_stop_inputs(stack, profile, time),
@@ -75,7 +75,7 @@ def shoot(
             shooting.shown,
         )
         tally = TrackingErrorMonitor(lambda: shooting.begin)
-        watchers += [tally, view]
+        observers += [tally, view]
         if not options.json:
             complain(f"{summary(timelapse)}; journal {path}")
         with undisturbed(shooting.interrupt, shooting.release_at_once, view.say), view:

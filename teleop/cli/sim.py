@@ -117,11 +117,13 @@ def _strangers(links: Mapping[str, ClosableLink], now: float) -> list[Callable[[
 def status(name: str, device: SimulatedDevice) -> str:
     """Where a simulated device is and what it is doing, in a line."""
     if isinstance(device, SimulatedDrone):
-        cockpit, pose = device.cockpit, device.cockpit.pose
-        state = "CRASHED" if cockpit.flight.crashed else "LOCKED" if cockpit.locked else cockpit.status.name.lower()
+        autopilot, pose = device.autopilot, device.autopilot.pose
+        state = (
+            "CRASHED" if autopilot.flight.crashed else "LOCKED" if autopilot.locked else autopilot.status.name.lower()
+        )
         where = f"{pose.north:+.1f} {pose.east:+.1f} m, {pose.height:.1f} m high"
         refused = f", {device.refusals.total} refused" if device.refusals.total else ""
-        return f"{name}: {state}, {where}, flown by {cockpit.pilot.value}, battery {cockpit.battery:.0f} %{refused}"
+        return f"{name}: {state}, {where}, flown by {autopilot.pilot.value}, battery {autopilot.battery:.0f} %{refused}"
     yaw, roll, pitch = device.angles
     taken = ", speed control taken over" if device.controlled else ""
     recording = ", recording" if device.recording else ""

@@ -60,7 +60,7 @@ class TrimOptions:
 class TrimReport:
     """What the trim came to, and its file: written when the operator asks for it, else at the end.
 
-    As a watcher of the run it tells the operator when the file is written. `failure` is why it was not, in a line, and
+    As an observer it tells the operator when the file is written. `failure` is why it was not, in a line, and
     "" as long as that has not happened.
     """
 
@@ -94,14 +94,11 @@ class TrimReport:
         self._written = self._untold = _in_background(self._file.write, dict(self._trimming.offsets), self._written)
         return f"writing the trim to {self._file.target}"
 
-    def write(self, tick: Tick) -> None:  # noqa: ARG002 - as a watcher: whether the file is there by now
+    def observe(self, tick: Tick) -> None:  # noqa: ARG002 - only whether the file is there by now
         if self._file is None or self._untold is None or not self._untold.done():
             return
         done, self._untold = self._untold, None
         self._trimming.say(self._failure(done) or f"the trim is written to {self._file.target}")
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _failure(self, written: Future[None]) -> str:
         try:

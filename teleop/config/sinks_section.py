@@ -15,20 +15,20 @@ from teleop.config.base_model import NoTruth, Section
 from teleop.config.document import Location, Wrong, mapping, number, sequence
 from teleop.config.wiring import Wiring
 from teleop.core.axes import STICKS, Axis
-from teleop.dji.drone.movement import COMBINATIONS, Combination, Frame, Horizontal, Vertical, Yaw
+from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, ReferenceFrame, Vertical, Yaw
 from teleop.dji.drone.virtual_rc import CENTRE, DEFLECTION
 from teleop.links.url import LinkUrlError, parse
 
 AXES = frozenset(axis.value for axis in Axis)
 MIN_SPEED_RATE = 5  # Hz: a gimbal forgets a speed after 0.5 s
 DRONES = ("virtual-rc", "flight")
-FLIGHT_MODES: Mapping[str, tuple[Horizontal, Frame]] = {
-    "velocity-body": (Horizontal.VELOCITY, Frame.BODY),
-    "velocity-ground": (Horizontal.VELOCITY, Frame.GROUND),
-    "tilt": (Horizontal.TILT, Frame.BODY),
-    "tilt-ground": (Horizontal.TILT, Frame.GROUND),
-    "offset-body": (Horizontal.POSITION, Frame.BODY),
-    "offset-ground": (Horizontal.POSITION, Frame.GROUND),
+FLIGHT_MODES: Mapping[str, tuple[Horizontal, ReferenceFrame]] = {
+    "velocity-body": (Horizontal.VELOCITY, ReferenceFrame.BODY),
+    "velocity-ground": (Horizontal.VELOCITY, ReferenceFrame.GROUND),
+    "tilt": (Horizontal.TILT, ReferenceFrame.BODY),
+    "tilt-ground": (Horizontal.TILT, ReferenceFrame.GROUND),
+    "offset-body": (Horizontal.POSITION, ReferenceFrame.BODY),
+    "offset-ground": (Horizontal.POSITION, ReferenceFrame.GROUND),
 }
 """What the horizontal sticks are; offsets are for sequences."""
 
@@ -211,7 +211,7 @@ class FlightSection(Section):
     """Battery level in % below which the drone is not taken and control is released."""
 
     @property
-    def frame(self) -> Frame:
+    def frame(self) -> ReferenceFrame:
         return FLIGHT_MODES[self.mode][1]
 
     @property

@@ -17,21 +17,20 @@ at all: the devices are released as they are.
 
 from __future__ import annotations
 
-import logging
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Protocol
 
 from teleop.core.axes import Axis, Limits, Motion, Reading, State
-from teleop.core.errors import DeviceError, Interrupted, LeaveAtOnce, TeleopError
+from teleop.core.errors import DeviceError, LeaveAtOnce, TeleopError
 from teleop.core.events import Tick, TickEvent
-from teleop.core.guard_stop import stop_phases, stop_state
-from teleop.core.interfaces import Clock, Reporter, Sink, Source
+from teleop.core.guard_stop import braked, longest_stop
+from teleop.core.guarded_calls import GuardedCalls
+from teleop.core.interfaces import Clock, Feedback, Observer, Planner, Reporter, Sink, Source
 from teleop.core.run_state import RunEvent, RunState, RunStateMachine
 from teleop.core.setpoints import Demand, Setpoint, Stop
 from teleop.core.shutdown import Shutdown
 from teleop.core.stall_recovery import PATIENCE, StallRecovery
-from teleop.core.timing import FIRST_REPORT, KEEP_ALIVE, PERIOD, RATE
+from teleop.core.timing import DEFAULTS, LoopTiming
 
 LEAD = 0.002  # s before its moment a tick is prepared, so that commands leave evenly however long they took to make
 ON_GRID = 1e-3  # of a tick: so near is on it; floats are off by a hundredth of that after thirty years of uptime
@@ -39,32 +38,18 @@ STALL = 0.25  # s: a tick later than this was not lateness but a stall; the gimb
 STOP_SHARE, STOP_EXTRA = 2.0, 1.0  # a planner has so many times the fastest stop, and so many s, to come to rest
 AT_ONCE = 0.4  # s for releasing every device without a ramp: three zero speeds, release, and the reply
 STOP_SLACK = 1.0  # s beyond all of these after which the run no longer waits for rest
-FAULTS = 8  # that are kept: one repeats every tick
-
-log = logging.getLogger(__name__)
 
 
 class StallError(TeleopError):
     """The computer did something else for so long that nothing is where it should be."""
 
 
-class Planner(Protocol):
-    """Turns a demand into the next legal motion; `teleop.planner.live.Live`, or a fake of it."""
-
-    @property
-    def at_rest(self) -> bool: ...
-
-    def reset(self, motion: Motion) -> None: ...
-
-    def step(self, demand: Demand, dt_steps: int = 1) -> Mapping[Axis, State]: ...
-
-
 class ControlLoop:
     """One run of sources through a planner into sinks.
 
-    `sources` stand in priority order: the first with an opinion on an axis drives it. `limits` has the axes in use;
-    the run waits until each has been reported, `first_report` s at most, and the planner starts from there.
-    `keep_alive` is the longest that it sleeps while everything rests.
+    `sources` are in priority order: the first that demands something of an axis drives it. `limits` has the axes in
+    use; the run waits until each has been reported, and the planner starts from there. The planner's step has to be
+    `timing.period`. `observers` see each tick after every sink has had it.
     """
 
     def __init__(
@@ -75,25 +60,26 @@ class ControlLoop:
         sources: Sequence[Source],
         sinks: Sequence[Sink],
         reporters: Sequence[Reporter],
-        keep_alive: float = KEEP_ALIVE,
-        first_report: float = FIRST_REPORT,
+        observers: Sequence[Observer] = (),
+        timing: LoopTiming = DEFAULTS,
     ) -> None:
         self.supervisor = RunStateMachine()
-        self.faults: list[BaseException] = []  # the first few, oldest first
+        self._calls = GuardedCalls(self.supervisor, self.interrupt)
+        self.faults = self._calls.faults
         self._clock, self._planner, self._limits = clock, planner, limits
         self._sources, self._sinks, self._reporters = sources, sinks, reporters
-        self._keep_alive, self._first_report = keep_alive, first_report
+        self._observers, self._timing = observers, timing
         self._origin = clock.now()
         self._ticks = 0
         self._resting = True
         self._wake = self._origin  # when a source will change its mind
         self._motion: Motion = {}
-        self._reported: dict[Axis, Reading] = {}
+        self._reported: Mapping[Axis, Reading] = {}
         self._interrupt = ""
         self._planner_failed = False  # while stopping
         self._stop_end = self._stop_limit = math.inf
         self._lost: StallRecovery | None = None  # since a stall, until they are found
-        self._giving_back = Shutdown(sinks, PERIOD)
+        self._giving_back = Shutdown(sinks, timing.period)
         self._turns: Mapping[RunState, Callable[[float, int], None]] = {
             RunState.WAITING: self._wait,
             RunState.RUNNING: self._drive,
@@ -125,48 +111,51 @@ class ControlLoop:
 
         Safe to call from another thread: a step that is under way in the control thread is left to it.
         """
-        now = self._quietly(self._clock.now, default=self._time(self._ticks))
+        now = self._calls.quietly(self._clock.now, default=self._time(self._ticks))
         end = now + AT_ONCE
-        while now < end and not self._giving_back.once(now, self._quietly):
-            self._quietly(self._clock.sleep_until, now + PERIOD)
-            now = max(now + PERIOD, self._quietly(self._clock.now, default=now))
+        while now < end and not self._giving_back.once(now, self._calls.quietly):
+            self._calls.quietly(self._clock.sleep_until, now + self._timing.period)
+            now = max(now + self._timing.period, self._calls.quietly(self._clock.now, default=now))
             for reporter in self._reporters:  # what the links hold back leaves, and answers come in
-                self._quietly(reporter.report, now)
+                self._calls.quietly(reporter.report, now)
 
     def turn(self) -> None:
         """One tick, the wait for it included; `run` does this until the run is over."""
-        tick = self._guarded(self._next_tick)
+        tick = self._calls.guarded(self._next_tick)
         if tick is None:  # even the clock may fail; the run comes to its end all the same
             self._ticks += 1
             tick = self._time(self._ticks), 1
+        self._take_interrupt()
+        self._calls.guarded(self._turns[self.supervisor.state], *tick)
+        if self.supervisor.state is RunState.STOPPING:
+            self._limit_stopping(tick[0])
+
+    def _take_interrupt(self) -> None:
         if self._interrupt:
             reason, self._interrupt = self._interrupt, ""
             self.supervisor.happened(RunEvent.INTERRUPT, reason)
-        self._guarded(self._turns[self.supervisor.state], *tick)
-        if self.supervisor.state is RunState.STOPPING:
-            self._limit_stopping(tick[0])
 
     def _next_tick(self) -> tuple[float, int]:
         """Sleep until the next tick that is needed: its time on the grid, and the periods the planner has to cover."""
         due = self._ticks + 1
         running = self.supervisor.state is RunState.RUNNING
         if self._resting and running:
-            wake = min(self._wake, self._time(self._ticks) + self._keep_alive)
-            due = max(due, math.ceil((wake - self._origin) * RATE - ON_GRID))
+            wake = min(self._wake, self._time(self._ticks) + self._timing.keep_alive)
+            due = max(due, math.ceil((wake - self._origin) * self._timing.rate - ON_GRID))
         early = self._time(due) - LEAD
         self._clock.sleep_until(early)
         late = self._clock.now() - early
-        elapsed = due - self._ticks + max(0, math.floor(late * RATE + ON_GRID))
+        elapsed = due - self._ticks + max(0, math.floor(late * self._timing.rate + ON_GRID))
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (RunState.RUNNING, RunState.STOPPING):
-            self._fault(StallError(f"the computer stalled for {late:.2f} s"))
+            self._calls.fault(StallError(f"the computer stalled for {late:.2f} s"))
             measured = {axis: state for axis, state in self._motion.items() if not axis.is_stick}
             self._lost = StallRecovery(measured, self._time(self._ticks))
             return self._time(self._ticks), 1
         return self._time(self._ticks), 1 if self._resting else elapsed
 
     def _time(self, ticks: int) -> float:
-        return self._origin + ticks / RATE
+        return self._origin + ticks / self._timing.rate
 
     def _wait(self, now: float, _steps: int) -> None:
         self._report(now)
@@ -180,22 +169,34 @@ class ControlLoop:
                 source.start(now, self._motion)
             self._wake = now
             self.supervisor.happened(RunEvent.REPORTED)
-        elif now - self._origin > self._first_report:
-            raise DeviceError(f"no position of {' or '.join(missing)} was reported within {self._first_report:g} s")
+        elif now - self._origin > self._timing.first_report:
+            seconds = self._timing.first_report
+            raise DeviceError(f"no position of {' or '.join(missing)} was reported within {seconds:g} s")
 
     def _drive(self, now: float, steps: int) -> None:
-        demand: dict[Axis, Setpoint] = {}
-        actions: list[TickEvent] = []
-        for source in reversed(self._sources):
-            wishes, due = source.read(now)
-            demand.update(wishes)
-            actions.extend(due)
+        asked = self._calls.guarded(self._ask, now)
+        if asked is None:  # a source has failed: the ramp to rest begins in this tick
+            self._take_interrupt()
+            self._stop(now, steps)
+            return
+        demand, actions = asked
         self._motion = _finite(self._planner.step(demand, steps))
         self._resting = self._planner.at_rest
         self._wake = min(source.next_change(now) for source in self._sources)
         self._emit(now, demand, actions)
         if self._resting and math.isinf(self._wake) and self.supervisor.state is RunState.RUNNING:
             self.supervisor.happened(RunEvent.FINISHED)
+
+    def _ask(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+        """What the sources demand for this tick; of two that demand something of an axis, the first."""
+        demand: dict[Axis, Setpoint] = {}
+        events: list[TickEvent] = []
+        feedback = Feedback(self._motion, self._reported)
+        for source in reversed(self._sources):
+            setpoints, due = source.read(now, feedback)
+            demand.update(setpoints)
+            events.extend(due)
+        return demand, events
 
     def _stop(self, now: float, steps: int) -> None:
         """Ramp to rest; once even the planner has failed, by the closed form alone, from what was last sent."""
@@ -204,13 +205,13 @@ class ControlLoop:
         if self.supervisor.state is not RunState.STOPPING:
             return
         if math.isinf(self._stop_end):
-            self._stop_end = now + STOP_EXTRA + STOP_SHARE * self._longest_stop()
+            self._stop_end = now + STOP_EXTRA + STOP_SHARE * longest_stop(self._motion, self._limits)
         self._planner_failed |= now > self._stop_end
         demand: Demand = {axis: Stop() for axis in self._limits}
-        motion = None if self._planner_failed else self._guarded(self._halted, demand, steps)
+        motion = None if self._planner_failed else self._calls.guarded(self._halted, demand, steps)
         if motion is None:
             self._planner_failed = True
-            motion = {axis: self._braked(axis, steps * PERIOD) for axis in self._motion}
+            motion = braked(self._motion, self._limits, steps * self._timing.period)
         self._motion = motion
         self._emit(now, demand, ())
         if all(state.velocity == 0 and state.acceleration == 0 for state in motion.values()):
@@ -227,11 +228,11 @@ class ControlLoop:
         lost, self._lost = self._lost, None
         for axis, here in lost.found(now).items():
             self._motion = {**self._motion, axis: here}
-            self._planner_failed |= self._guarded(self._planner.reset, {axis: here}, default=self) is self
+            self._planner_failed |= self._calls.guarded(self._planner.reset, {axis: here}, default=self) is self
         if lost.read_once:
-            self._fault(DeviceError(f"{_measured(lost.read_once)} only once since the stall: held there"))
+            self._calls.fault(DeviceError(f"{_measured(lost.read_once)} only once since the stall: held there"))
         if lost.unread:
-            self._fault(
+            self._calls.fault(
                 DeviceError(f"no position of {' or '.join(lost.unread)} since the stall: released without a ramp")
             )
             self.supervisor.happened(RunEvent.AT_REST)
@@ -240,85 +241,37 @@ class ControlLoop:
     def _limit_stopping(self, now: float) -> None:
         """Stopping has a longest time, whatever keeps failing or stalling; after it the devices are released."""
         if math.isinf(self._stop_limit):
-            ramp = self._guarded(self._longest_stop, default=0.0)
+            ramp = self._calls.guarded(longest_stop, self._motion, self._limits, default=0.0)
             self._stop_limit = now + PATIENCE + STOP_EXTRA + (STOP_SHARE + 1) * ramp + STOP_SLACK
         elif not now <= self._stop_limit:
-            self._fault(DeviceError("the axes did not come to rest in time: released as they are"))
+            self._calls.fault(DeviceError("the axes did not come to rest in time: released as they are"))
             self.supervisor.happened(RunEvent.AT_REST)
-
-    def _longest_stop(self) -> float:
-        ramps = [self._stop_time(axis) for axis in self._motion]
-        return max((ramp for ramp in ramps if math.isfinite(ramp)), default=0.0)
-
-    def _stop_time(self, axis: Axis) -> float:
-        _, velocity, acceleration = self._motion[axis]
-        limits = self._limits[axis]
-        return sum(seconds for seconds, _ in stop_phases(velocity, acceleration, limits.acceleration, limits.jerk))
-
-    def _braked(self, axis: Axis, seconds: float) -> State:
-        limits = self._limits[axis]
-        return stop_state(self._motion[axis], limits.acceleration, limits.jerk, seconds)
 
     def _release(self, now: float, _steps: int) -> None:
         """Reports go on meanwhile: what the links still hold back leaves, and the sinks hear what is answered."""
         self._report(now)
-        if self._giving_back.step(now, self._guarded):
+        if self._giving_back.step(now, self._calls.guarded):
             self.supervisor.happened(RunEvent.RELEASED)
 
     def _report(self, now: float) -> None:
         """Where the axes are, asked while the tick of `now` is prepared."""
         for reporter in self._reporters:
-            self._reported.update(self._guarded(reporter.report, now - LEAD, default={}))
+            self._reported = {**self._reported, **self._calls.guarded(reporter.report, now - LEAD, default={})}
 
     def _emit(self, now: float, demand: Demand, actions: Sequence[TickEvent]) -> None:
         self._report(now)
-        tick = Tick(now, self._motion, demand, actions, dict(self._reported))
-        if self._guarded(self._missed, now):
+        tick = Tick(now, self._motion, demand, actions, self._reported)
+        if self._calls.guarded(self._missed, now):
             return  # nobody is to hear it so much later; the next tick finds that the computer stalled
         for sink in self._sinks:
-            self._guarded(sink.write, tick)
+            self._calls.guarded(sink.write, tick)
+        for observer in self._observers:
+            self._calls.guarded(observer.observe, tick)
 
     def _missed(self, now: float) -> bool:
         """Wait for the moment of a tick that is prepared; whether it is long past."""
         self._clock.sleep_until(now)
         return self._clock.now() - now > STALL
-
-    def _guarded(self, call: Callable[..., Any], *arguments: Any, default: Any = None) -> Any:
-        """Whatever goes wrong in `call` becomes a fault, so that the other sinks are still served and the run stops.
-
-        SystemExit and its kin too: a piece that wants to leave may not take the run with it.
-        """
-        try:
-            return call(*arguments)
-        except KeyboardInterrupt:
-            self.interrupt("Ctrl-C")
-        except LeaveAtOnce:
-            raise
-        except BaseException as fault:  # noqa: BLE001 - the one place where any exception is turned into a smooth stop
-            self._fault(fault)
-        return default
-
-    def _quietly(self, call: Callable[..., Any], *arguments: Any, default: Any = None) -> Any:
-        """For leaving at once: what fails now is no reason for anything any more."""
-        try:
-            return call(*arguments)
-        except LeaveAtOnce:
-            raise
-        except BaseException as fault:
-            log.debug("fault while leaving at once", exc_info=fault)
-        return default
-
-    def _fault(self, fault: BaseException) -> None:
-        try:
-            reason = str(fault) if isinstance(fault, TeleopError) else f"{type(fault).__name__}: {fault}"
-        except LeaveAtOnce:
-            raise
-        except BaseException:  # noqa: BLE001 - an error that cannot say what it is still ends the run
-            reason = type(fault).__name__
-        log.debug("fault: %s", reason, exc_info=fault)
-        if len(self.faults) < FAULTS:
-            self.faults.append(fault)
-        self.supervisor.happened(RunEvent.INTERRUPT if isinstance(fault, Interrupted) else RunEvent.FAULT, reason)
 
 
 def _finite(motion: Mapping[Axis, State]) -> Motion:

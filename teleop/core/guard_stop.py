@@ -10,8 +10,9 @@ gone, v + a|a|/2J, is negative.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
-from teleop.core.axes import State
+from teleop.core.axes import Axis, Limits, Motion, State
 
 Phases = tuple[tuple[float, float], ...]  # (seconds, jerk in unit/s3), one after the other
 
@@ -95,3 +96,20 @@ def brake_state(state: State, side: int, max_acceleration: float, max_jerk: floa
         velocity += t * (acceleration + t * jerk / 2)
         acceleration += t * jerk
     return State(side * position, side * velocity, side * acceleration)
+
+
+def braked(motion: Motion, limits: Mapping[Axis, Limits], seconds: float) -> Motion:
+    """Where every axis is `seconds` later, on the way to rest as fast as its own limits allow."""
+    return {
+        axis: stop_state(state, limits[axis].acceleration, limits[axis].jerk, seconds) for axis, state in motion.items()
+    }
+
+
+def longest_stop(motion: Motion, limits: Mapping[Axis, Limits]) -> float:
+    """The time (s) in which the last axis can be at rest; an axis in a state without numbers does not count."""
+    ramps = [_stop_time(state, limits[axis]) for axis, state in motion.items()]
+    return max((ramp for ramp in ramps if math.isfinite(ramp)), default=0.0)
+
+
+def _stop_time(state: State, limits: Limits) -> float:
+    return sum(seconds for seconds, _ in stop_phases(*state[1:], limits.acceleration, limits.jerk))

@@ -1,8 +1,27 @@
-"""The times of the control loop, which sources, devices and reports have to fit."""
+"""The times of the control loop. One `LoopTiming` is given to a run; everything that steps with it takes them there."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 RATE = 100  # Hz, of ticks
 PERIOD = 1 / RATE  # s, of a tick
 KEEP_ALIVE = 0.4  # s: the longest a resting loop sleeps; a gimbal forgets a speed after 0.5 s
 FIRST_REPORT = 2.0  # s to wait for the first report of every axis in use
+
+
+@dataclass(frozen=True, slots=True)
+class LoopTiming:
+    """In s: the tick's `period`, the longest sleep while all axes rest, and the longest wait for the first readings."""
+
+    period: float = PERIOD
+    keep_alive: float = KEEP_ALIVE
+    first_report: float = FIRST_REPORT
+
+    @property
+    def rate(self) -> float:
+        """Ticks in a second: whole for any period the loop is run at, so that its times stay on a grid."""
+        return round(1 / self.period, 9)
+
+
+DEFAULTS = LoopTiming()

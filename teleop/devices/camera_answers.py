@@ -35,7 +35,7 @@ class CameraAnswers:
             if lenient:
                 camera.on_failed = self._failed
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         if self._camera is not None:
             self._camera.poll(tick.time)
             return
@@ -43,9 +43,6 @@ class CameraAnswers:
             if isinstance(act, Action) and act in ABSENT:
                 self._notify(f"{ABSENT[act]}: this rig has no camera")
                 self._answered(act, False)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _done(self, action: Action) -> None:
         self._notify(DONE.get(action, "camera: done"))

@@ -9,18 +9,15 @@ from teleop.devices.connection import Connection
 
 
 class LinkNotes:
-    """A watcher of the run; `say` gets each warning as it comes up."""
+    """An observer; `say` gets each warning as it comes up."""
 
     def __init__(self, connections: Collection[Connection], say: Callable[[str], object]) -> None:
         self._connections, self._say = connections, say
         self._known: set[str] = set()
 
-    def write(self, tick: Tick) -> None:  # noqa: ARG002 - only that time has passed
+    def observe(self, tick: Tick) -> None:  # noqa: ARG002 - only that time has passed
         for connection in self._connections:
             for warning in connection.warnings:
                 if warning not in self._known:
                     self._known.add(warning)
                     self._say(warning)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None

@@ -26,8 +26,8 @@ from teleop.config.sinks_section import (
 from teleop.core.axes import Axis, Limits
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import LinkError, TeleopError
-from teleop.core.interfaces import Clock, Reporter, Sink, Source
-from teleop.core.timing import FIRST_REPORT, KEEP_ALIVE, PERIOD
+from teleop.core.interfaces import Clock, Observer, Reporter, Sink, Source
+from teleop.core.timing import LoopTiming
 from teleop.devices.camera import CameraSink
 from teleop.devices.connection import Connection
 from teleop.devices.drone.control_mode import ControlMode
@@ -115,14 +115,19 @@ class Rig:
     def _used(self, axes: Sequence[Axis]) -> Sequence[Device]:
         return [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
 
-    def loop(self, axes: Sequence[Axis], sources: Sequence[Source], watchers: Sequence[Sink] = ()) -> ControlLoop:
+    def loop(
+        self,
+        axes: Sequence[Axis],
+        sources: Sequence[Source],
+        observers: Sequence[Observer] = (),
+        sinks: Sequence[Sink] = (),
+    ) -> ControlLoop:
         """A run of `sources` over the axes in use; devices that move none of them are left alone.
 
-        `watchers` are sinks that only look on, and see each tick after the devices.
+        `sinks` come after those of the devices, `observers` after every sink and the guards.
         """
         limits = {axis: self.profile.limits[axis] for axis in axes}
         used = self._used(axes)
-        sinks = [device.sink for device in used]
         reporters = [device.reporter for device in used if device.reporter is not None]
         measured = [(axis, device) for device in used for axis in device.moves if axis in limits]
         guard = FollowingErrorGuard(
@@ -131,13 +136,20 @@ class Rig:
             {axis: device.delay for axis, device in measured},
             [device.direction.found for device in used if device.direction],
         )
-        planner = Live(limits, PERIOD)
-        keep_alive, first_report = KEEP_ALIVE, FIRST_REPORT
-        if flown := self.drone(axes):
-            keep_alive, first_report = flown.period, DRONE_FIRST_REPORT
+        timing = LoopTiming()
+        if drone := self.drone(axes):
+            timing = LoopTiming(keep_alive=drone.period, first_report=DRONE_FIRST_REPORT)
         directions = [device.direction for device in used if device.direction]
-        all_sinks = [*sinks, *directions, guard, *watchers]
-        return ControlLoop(self.clock, planner, limits, sources, all_sinks, reporters, keep_alive, first_report)
+        return ControlLoop(
+            self.clock,
+            Live(limits, timing.period),
+            limits,
+            sources,
+            [*(device.sink for device in used), *sinks],
+            reporters,
+            [*directions, guard, *observers],
+            timing,
+        )
 
 
 @contextmanager

@@ -58,7 +58,7 @@ class Vocabulary(NamedTuple):
         """
         fields = fields_of(words)
         if len(fields) < sum("=" in word for word in words):
-            raise FieldError("a field is given twice")
+            raise FieldError("duplicate field")
         name = self.full_name(words)
         if name in self.plain and not fields:
             return self.plain[name]

@@ -133,6 +133,12 @@ class Bits(Number):
 class Flag(Bits):
     """One bit, as a bool."""
 
+    def to_wire(self, value: Any) -> int:
+        return 1 if value else 0
+
+    def from_wire(self, raw: int) -> Any:
+        return raw != 0
+
     def to_json(self, value: Any) -> Any:
         return bool(value)
 

@@ -104,7 +104,7 @@ class Text(Number):
     def to_wire(self, value: Any) -> Any:
         data = value.encode("latin-1")
         if len(data) > self.size or data.endswith(b"\0"):
-            raise ValueError("too long, or cannot be told from its filling")
+            raise ValueError("too long, or ends with NUL")
         return data
 
     def from_wire(self, raw: Any) -> Any:

@@ -13,9 +13,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterator
-from functools import cache
 from typing import Final, NamedTuple
-from zlib import crc32
 
 import crcmod
 
@@ -33,18 +31,14 @@ _HEADER = struct.Struct("<BHBB3sH")
 _CRC16 = struct.Struct("<H")
 _CRC32 = struct.Struct("<I")
 _crc16 = crcmod.mkCrcFun(0x18005, initCrc=0x3AA3, rev=True, xorOut=0)
-
-
-# CRC-32: zlib inverts the register before and after, which inverting on both sides undoes; faster than crcmod.
-_CRC32_START: Final = 0x3AA3 ^ 0xFFFFFFFF
-_CRC32_UNDO: Final = 0xFFFFFFFF
+_crc32 = crcmod.mkCrcFun(0x104C11DB7, initCrc=0x3AA3, rev=True, xorOut=0)
 
 
 class FrameError(TeleopError):
     """A frame that cannot be written: a field does not fit its bits."""
 
 
-class Frame(NamedTuple):  # a third of the cost of making a frozen dataclass
+class Frame(NamedTuple):
     """One frame; everything on the wire except start, length and checks, so that encoding a decoded frame is exact.
 
     `data` is what lies between header and CRC-32 (for a plain R SDK frame: set, id, value), at most 1007 bytes, and
@@ -79,30 +73,29 @@ class Frame(NamedTuple):  # a third of the cost of making a frozen dataclass
 
     def encode(self) -> bytes:
         """The bytes on the wire. Raises FrameError when a field does not fit."""
-        return encode(*self)
+        size = HEADER_SIZE + len(self.data) + TAIL_SIZE if self.data else HEADER_SIZE
+        if size > LARGEST:
+            raise FrameError(f"a frame of {size} bytes is too long: at most {LARGEST}")
+        header = self._header(size)
+        header += _CRC16.pack(_crc16(header))
+        if not self.data:
+            return header
+        body = header + self.data
+        return body + _CRC32.pack(_crc32(body))
 
-
-def encode(
-    data: bytes, cmd_type: int, sequence: int, encryption: int = 0, reserved: bytes = bytes(3), version: int = 0
-) -> bytes:
-    """The bytes of a Frame with these fields, for whoever sends and needs no Frame. Raises FrameError."""
-    size = HEADER_SIZE + len(data) + TAIL_SIZE if data else HEADER_SIZE
-    if size > LARGEST:
-        raise FrameError(f"a frame of {size} bytes is too long: at most {LARGEST}")
-    try:
-        header = _HEADER.pack(START, version << 10 | size, cmd_type, encryption, reserved, sequence)
-    except struct.error:
-        header = b""
-    if not header or len(reserved) != 3:
+    def _header(self, size: int) -> bytes:
+        """The header of a frame of `size` bytes, without its CRC-16."""
+        if len(self.reserved) == 3:
+            try:
+                return _HEADER.pack(
+                    START, self.version << 10 | size, self.cmd_type, self.encryption, self.reserved, self.sequence
+                )
+            except struct.error:
+                pass
         raise FrameError(
-            f"frame fields do not fit: cmd_type {cmd_type} and encryption {encryption} must be 0..255, "
-            f"sequence {sequence} 0..65535, version {version} 0..63, reserved {len(reserved)} of 3 bytes"
+            f"frame fields do not fit: cmd_type {self.cmd_type} and encryption {self.encryption} must be 0..255, "
+            f"sequence {self.sequence} 0..65535, version {self.version} 0..63, reserved {len(self.reserved)} of 3 bytes"
         )
-    header += _CRC16.pack(_crc16(header))
-    if not data:
-        return header
-    body = header + data
-    return body + _CRC32.pack(crc32(body, _CRC32_START) ^ _CRC32_UNDO)
 
 
 class Damage(NamedTuple):
@@ -203,7 +196,7 @@ def _frame_at(data: bytes, start: int) -> Frame | str | None:
     header = data[start : start + HEADER_SIZE]
     if len(header) < HEADER_SIZE:
         return None
-    if _crc16(header):  # over a header with its own CRC-16 the register ends at zero
+    if _crc16(header):  # over bytes with their own CRC the register ends at zero
         return "header CRC-16 is wrong"
     _, version_and_size, cmd_type, encryption, reserved, sequence = _HEADER.unpack_from(header)
     size = version_and_size & LARGEST
@@ -212,16 +205,11 @@ def _frame_at(data: bytes, start: int) -> Frame | str | None:
     whole = data[start : start + size]
     if len(whole) < size:
         return None
-    if size > HEADER_SIZE and crc32(whole, _CRC32_START) != _CRC32_UNDO:
+    if size > HEADER_SIZE and _crc32(whole):
         return "frame CRC-32 is wrong"
     return Frame(whole[HEADER_SIZE:-TAIL_SIZE], cmd_type, sequence, encryption, reserved, version_and_size >> 10)
 
 
 def pieces(frame: bytes) -> tuple[bytes, ...]:
     """A frame as it is cut for CAN: consecutive pieces of 8 bytes, the last one short."""
-    return _cutter(len(frame)).unpack(frame)
-
-
-@cache
-def _cutter(size: int) -> struct.Struct:
-    return struct.Struct(f"{PIECE}s" * (size // PIECE) + (f"{size % PIECE}s" if size % PIECE else ""))
+    return tuple(frame[start : start + PIECE] for start in range(0, len(frame), PIECE))

@@ -1,24 +1,20 @@
-"""From a class's annotations to its bytes: two functions, written as source and compiled once when the class is made.
+"""How a message class lies on the wire, worked out once from its annotations when the class is made.
 
-A message is a run of cells (one struct format), each being a field, a constant, or a byte that several fields of bits
-share, and at most one tail of no fixed size. Generated source, as dataclasses itself does it, because interpreting a
-table of cells cost three times as much per message, and a loop encodes commands and decodes pushes many times a tick.
-What is generated is one expression each way; for a position command, but for its reserved bits:
-
-    pack(round(m.yaw * 10), round(m.roll * 10), round(m.pitch * 10),
-         (1 if m.absolute else 0) | (2 if m.yaw_ignored else 0) | ..., round(m.time_for_action * 10)) + m.extra
-    {"yaw": c0 / 10, "roll": c1 / 10, "pitch": c2 / 10, "absolute": c3 & 1 != 0, ..., "extra": extra}
+A message is a run of cells, which make one struct format, and at most one tail of no fixed size. A cell is a field, a
+constant, or a byte that several fields of bits share. Cells are interpreted one by one: 3 us to encode a position
+command and 11 us to decode a push, measured on a shared core, so a hundred of each take 0.2 % of it.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import struct
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, ClassVar, NamedTuple, get_args, get_origin, get_type_hints
 
-from teleop.dji.fields import Bits, Flag, Number, Reserved
+from teleop.dji.fields import Bits, Number, Reserved
 from teleop.dji.gimbal.tlv import Ids, OptionalByte, Tlv
 
 
@@ -31,55 +27,117 @@ class Field(NamedTuple):
 
 
 class Constant(NamedTuple):
-    """A class variable with a wire annotation."""
+    """A class variable with a wire annotation: a value of that class has this integer in its place."""
 
     wire: Number
     value: int
 
+    @property
+    def code(self) -> str:
+        return self.wire.code
 
-class Cell(NamedTuple):
-    """One integer of the struct format: source that makes it of message `m`, and of it (`{c}`) each of its fields."""
+    def pack(self, _message: Any) -> int:
+        return self.value
 
-    code: str
-    pack: str
-    unpack: Mapping[str, str]
-    constant: int | None = None
+    def unpack(self, _integer: int, _values: dict[str, Any]) -> None:
+        """A constant is no field."""
+
+
+@dataclass(frozen=True, slots=True)
+class NumberCell:
+    """A field that has its cell to itself. Text has one too: its "integer" is bytes."""
+
+    name: str
+    wire: Number
+
+    @property
+    def code(self) -> str:
+        return self.wire.code
+
+    def pack(self, message: Any) -> Any:
+        return self.wire.to_wire(getattr(message, self.name))
+
+    def unpack(self, integer: Any, values: dict[str, Any]) -> None:
+        values[self.name] = self.wire.from_wire(integer)
+
+
+class BitField(NamedTuple):
+    """A field in the bits `mask << first` of a byte."""
+
+    name: str
+    wire: Bits
+    mask: int
+    first: int
+
+
+@dataclass(frozen=True, slots=True)
+class SharedByte:
+    """A byte of several fields of bits."""
+
+    fields: tuple[BitField, ...]
+    code: ClassVar[str] = "B"
+
+    def pack(self, message: Any) -> int:
+        """Raises ValueError for a value that would spill into other fields' bits."""
+        byte = 0
+        for name, wire, mask, first in self.fields:
+            value = wire.to_wire(getattr(message, name))
+            if value & ~mask:
+                raise ValueError(name)
+            byte |= value << first
+        return byte
+
+    def unpack(self, byte: int, values: dict[str, Any]) -> None:
+        for name, wire, mask, first in self.fields:
+            values[name] = wire.from_wire(byte >> first & mask)
+
+
+Cell = Constant | NumberCell | SharedByte
 
 
 class Layout:
-    """How one class of messages lies on the wire.
-
-    `pack` makes a message's bytes; it raises struct.error, ValueError, OverflowError, TypeError or AttributeError for
-    what does not fit.
-    """
-
-    pack: Callable[[Any], bytes]
+    """How one class of messages lies on the wire."""
 
     def __init__(self, message_class: type) -> None:
         places = list(_places(message_class))
         self.fields = tuple(place for place in places if isinstance(place, Field))
-        cells = list(_cells(places))
-        self._struct = struct.Struct("<" + "".join(cell.code for cell in cells))
+        self._tail: tuple[str, OptionalByte | Ids | Tlv] | None = None
+        if self.fields and isinstance(self.fields[-1].wire, OptionalByte | Ids | Tlv):
+            self._tail = self.fields[-1].name, self.fields[-1].wire
+        self._cells = tuple(_cells(places))
+        self._struct = struct.Struct("<" + "".join(cell.code for cell in self._cells))
         self.size = self._struct.size  # bytes, without a tail of no fixed size
-        self._constants = [
-            (position, cell.constant) for position, cell in enumerate(cells) if cell.constant is not None
-        ]
-        self.pack, self._unpack = _compile(cells, self.fields, self._struct)
+
+    def pack(self, message: Any) -> bytes:
+        """A message's bytes.
+
+        Raises struct.error, ValueError, OverflowError, TypeError or AttributeError for what does not fit.
+        """
+        fixed = self._struct.pack(*[cell.pack(message) for cell in self._cells])
+        if self._tail is None:
+            return fixed + message.extra
+        name, wire = self._tail
+        return fixed + wire.to_wire(getattr(message, name)) + message.extra
 
     def unpack(self, value: bytes) -> dict[str, Any] | None:
         """Each field by name, and what is left over as `extra`; None when `value` is too short or another's."""
-        layout = self._struct
-        if len(value) < layout.size:
+        if len(value) < self.size:
             return None
-        integers = layout.unpack_from(value)
-        for position, constant in self._constants:
-            if integers[position] != constant:
+        values: dict[str, Any] = {}
+        for cell, integer in zip(self._cells, self._struct.unpack_from(value), strict=True):
+            if isinstance(cell, Constant) and integer != cell.value:
                 return None
-        return self._unpack(value[layout.size :], *integers)
+            cell.unpack(integer, values)
+        rest = value[self.size :]
+        if self._tail is not None:
+            name, wire = self._tail
+            values[name], rest = wire.from_wire(rest)
+        values["extra"] = rest
+        return values
 
 
 def _places(message_class: type) -> Iterator[Field | Constant]:
-    """What the annotations put on the wire, in the order they are written."""
+    """The annotated fields and constants, in the order they are written."""
     defaults = {field.name: field.default for field in dataclasses.fields(message_class)}
     for name, hint in get_type_hints(message_class, include_extras=True).items():
         inner = get_args(hint)[0] if get_origin(hint) is ClassVar else hint
@@ -88,67 +146,26 @@ def _places(message_class: type) -> Iterator[Field | Constant]:
 
 
 def _cells(places: Sequence[Field | Constant]) -> Iterator[Cell]:
-    """One cell each, except that neighbouring fields of bits share one, and that a tail has none."""
+    """One cell each, except that adjacent fields of bits share one, and that a tail has none."""
     for shared, group in groupby(places, key=lambda place: isinstance(place.wire, Bits)):
         if shared:
             yield _shared_byte({place.name: place.wire for place in group if isinstance(place, Field)})
             continue
         for place in group:
             if isinstance(place, Constant):
-                yield Cell(place.wire.code, str(place.value), {}, place.value)
+                yield place
             elif isinstance(place.wire, Number):
-                yield _number(place.name, place.wire)
+                yield NumberCell(place.name, place.wire)
 
 
-def _number(name: str, wire: Number) -> Cell:
-    if type(wire) is not Number or wire.words:
-        return Cell(wire.code, f"to_{name}(m.{name})", {name: f"from_{name}({{c}})"})
-    if wire.scale != 1:
-        return Cell(wire.code, f"round(m.{name} * {wire.scale})", {name: f"{{c}} / {wire.scale}"})
-    return Cell(wire.code, f"m.{name}", {name: "{c}"})
-
-
-def _shared_byte(fields: Mapping[str, Any]) -> Cell:
-    """A Reserved among the fields stands for the bits that nobody else names."""
+def _shared_byte(fields: dict[str, Any]) -> SharedByte:
+    """A Reserved among the fields has the bits that no other field names, in their places."""
     named = sum(wire.mask << wire.first for wire in fields.values())
-    pack, unpack = [], {}
-    for name, wire in fields.items():
-        if isinstance(wire, Flag):
-            pack.append(f"({1 << wire.first} if m.{name} else 0)")
-            unpack[name] = f"{{c}} & {1 << wire.first} != 0"
-        else:
-            mask = ~named & 0xFF if isinstance(wire, Reserved) else wire.mask
-            pack.append(f"within(m.{name}, {mask}) << {wire.first}")
-            bits = f"{{c}} >> {wire.first} & {mask}"
-            unpack[name] = f"from_{name}({bits})" if wire.words else bits
-    return Cell("B", " | ".join(pack), unpack)
-
-
-def _within(value: int, mask: int) -> int:
-    if value & ~mask:
-        raise ValueError
-    return value
-
-
-def _compile(
-    cells: Sequence[Cell], fields: Sequence[Field], layout: struct.Struct
-) -> tuple[Callable[[Any], bytes], Callable[..., dict[str, Any]]]:
-    """The two functions: from a message to its bytes; from what is behind the cells, and the cells, to the fields."""
-    names: dict[str, Any] = {"pack": layout.pack, "within": _within}
-    for name, wire, _ in fields:
-        names |= {f"to_{name}": wire.to_wire, f"from_{name}": wire.from_wire}
-    pack = f"pack({', '.join(cell.pack for cell in cells)})"
-    unpack = {
-        name: source.format(c=f"c{position}")
-        for position, cell in enumerate(cells)
-        for name, source in cell.unpack.items()
-    }
-    extra = "extra"
-    if fields and isinstance(fields[-1].wire, OptionalByte | Ids | Tlv):
-        tail = fields[-1].name
-        pack += f" + to_{tail}(m.{tail})"
-        unpack[tail], extra = f"(parsed := from_{tail}(extra))[0]", "parsed[1]"
-    unpack["extra"] = extra
-    parameters = ", ".join(["extra", *(f"c{position}" for position in range(len(cells)))])
-    entries = ", ".join(f"{name!r}: {source}" for name, source in unpack.items())
-    return eval(f"lambda m: {pack} + m.extra", names), eval(f"lambda {parameters}: {{{entries}}}", names)
+    return SharedByte(
+        tuple(
+            BitField(name, wire, ~named & 0xFF, 0)
+            if isinstance(wire, Reserved)
+            else BitField(name, wire, wire.mask, wire.first)
+            for name, wire in fields.items()
+        )
+    )

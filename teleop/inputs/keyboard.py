@@ -128,13 +128,10 @@ class Keyboard:
                 click[asked.axis] = max(click.get(asked.axis, 0.0), abs(asked.units))
         return Held(steps=steps, presses=presses, trouble=self._closed, click=click)
 
-    def write(self, tick: Tick) -> None:  # noqa: ARG002 - only whether anybody is left to see it
+    def observe(self, tick: Tick) -> None:  # noqa: ARG002 - only whether anybody is left to see it
         """Raises LinkError when the terminal has closed."""
         if self._closed:
             raise LinkError(self._closed)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - the terminal is given back when it is left
-        return None
 
     def _run(self) -> None:
         while True:

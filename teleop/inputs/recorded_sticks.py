@@ -18,6 +18,7 @@ from teleop.config.document import DocumentError
 from teleop.config.messages import nearest
 from teleop.core.axes import Axis, Motion
 from teleop.core.events import TickEvent
+from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, PositionTarget, Setpoint, VelocityTarget
 
 MAX_PROBLEMS = 20  # a file with its columns swapped is wrong in every row
@@ -133,7 +134,7 @@ class SticksSource:
     def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - sticks do not mind where the axes are
         self.begin = now
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         """The deflections of the last row whose time has come, as velocities."""
         row = bisect.bisect_right(self._sticks.times, now - self.begin + 1e-9) - 1
         if row < 0 or row == len(self._sticks.times) - 1:

@@ -3,7 +3,9 @@
 Every Arduino with DTR and most ESP32 boards do: for a second or two they are deaf, and what was sent is lost. So the
 opening (C closes, S8 sets 1 Mbit/s, O opens) is repeated until an adapter acknowledges S and O in one round, for 3 s at
 most. Many adapters never acknowledge anything: frames that arrive after O prove as much, since a bus at another bit
-rate has none. The answer to C does not matter: an adapter that is closed already refuses it.
+rate has none. They prove nothing in a round in which the adapter refused S or O: some count damaged frames as frames,
+and an adapter that was open before sends what it had received. The answer to C does not matter: an adapter that is
+closed already refuses it.
 """
 
 from __future__ import annotations
@@ -59,9 +61,10 @@ class _Exchange:
         """What `ask` says of a command, and whether CAN frames arrive after it."""
         self._adapter.command(command)
         answer, end, framed = None, self.waited + ANSWER, False
-        while self.waited < end and not (framed or answer is not None):
+        while self.waited < end and answer is None:
             for line, refused in self._adapter.replies():
-                framed |= not refused and self._adapter.hear(line)
+                if not refused and self._adapter.hear(line) and not framed:
+                    framed, end = True, min(end, self.waited + QUIET)  # a refusal may still be on its way
                 if refused or line in ACKNOWLEDGEMENTS:
                     answer = not refused
             self._pause()
@@ -91,9 +94,10 @@ def go_on_bus(adapter: Opening, address: LinkAddress, speed: int, wait: Callable
         exchange.settle(b"\rC\r")  # CR: an earlier run's torn line
         set_speed = exchange.ask(b"S%d\r" % speed)
         opened, framed = exchange.frames(b"O\r")
-        if framed or (set_speed and opened):
+        refuses = False in (set_speed, opened)
+        if (framed and not refuses) or (set_speed and opened):
             return
-        if False in (set_speed, opened):
+        if refuses:
             refused = f"S{speed} ({address.bitrate} bit/s)" if set_speed is False else "O (open)"
             rounds += 1
             if rounds >= REFUSALS:
@@ -101,5 +105,7 @@ def go_on_bus(adapter: Opening, address: LinkAddress, speed: int, wait: Callable
         else:
             rounds = 0
     if refused:
-        raise LinkError(f"{address}: the adapter refuses {refused}: does it know this bit rate? Plug it in again")
+        raise LinkError(
+            f"{address}: the adapter refuses {refused}: plug it in again, or use an adapter that has this bit rate"
+        )
     raise LinkError(f"{address}: the adapter does not answer: does it speak slcan, at this baud rate? Plug it in again")

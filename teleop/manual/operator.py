@@ -3,8 +3,7 @@
 `Arbitration` decides what moves; here are the presses, and what overrules all motion: STOP, latched, and the end. An
 input that is locked (see `interlock`) moves nothing, but its STOP always works.
 
-Where the axes are commanded to be comes from the loop. `status` is a new immutable value each tick, so that a view may
-read it from another thread.
+`status` is a new immutable value each tick, so that a view may read it from another thread.
 """
 
 from __future__ import annotations
@@ -16,8 +15,8 @@ from teleop.config.device_commands import DRONE
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
 from teleop.core.axes import Axis, Limits, Motion
-from teleop.core.events import Action, DeviceCommand, DialInput, Tick, TickEvent
-from teleop.core.interfaces import Source
+from teleop.core.events import Action, DeviceCommand, DialInput, TickEvent
+from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Input, Press
 from teleop.core.setpoints import Demand, PositionTarget, Setpoint, Stop
 from teleop.manual.arbitration import Arbitration
@@ -108,7 +107,8 @@ class Operator:
         elif action is Action.STOP:
             self._recording = self._filming  # the next press asks it to stop once more
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+        self._motion = feedback.motion
         seconds, self._now, self._actions = now - self._now, now, []
         presses = [(lock, press) for lock in self._locks for press in lock.read(now, self._manual_control).presses]
         notes = [note for lock in self._locks for note in lock.held.notes]
@@ -116,7 +116,7 @@ class Operator:
             self.say(text)
         for lock, press in sorted(presses, key=_is_stop):
             self._commands.get(press.command, self._unavailable)(lock, press)
-        beneath = self._read_beneath(now)
+        beneath = self._read_beneath(now, feedback)
         if self._stopped or self._done:
             demand: dict[Axis, Setpoint] = {axis: Stop() for axis in self._motion}
             self._arbitration.drop_all()
@@ -130,17 +130,10 @@ class Operator:
     def next_change(self, now: float) -> float:
         return math.inf if self._done else now
 
-    def write(self, tick: Tick) -> None:
-        """The loop's tick, to see where the axes are now commanded to be."""
-        self._motion = tick.motion
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
-
-    def _read_beneath(self, now: float) -> Demand:
+    def _read_beneath(self, now: float, feedback: Feedback) -> Demand:
         if self._beneath is None:
             return {}
-        demand, actions = self._beneath.read(now)
+        demand, actions = self._beneath.read(now, feedback)
         self._actions += actions
         self._done = self._done or math.isinf(self._beneath.next_change(now))
         rests = all(setpoint == CENTERED_STICK for setpoint in demand.values())

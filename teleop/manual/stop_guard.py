@@ -4,9 +4,6 @@ The guard stands between the loop and such a source, and reads every input first
 acceleration and jerk and latches; what was due is kept for later. An operator clears it and then goes on; the source
 takes the axes from rest back to where it was left. An input that has a STOP and is lost pauses the run. It is no
 emergency stop (ISO 13850): the motors stay powered.
-
-The guard also looks on as a sink: there it learns how the axes are commanded to move, and only what is raised there
-ends a run without losing a tick.
 """
 
 from __future__ import annotations
@@ -19,8 +16,8 @@ from typing import Protocol
 
 from teleop.core.axes import Motion
 from teleop.core.errors import DeviceError, Interrupted
-from teleop.core.events import Tick, TickEvent
-from teleop.core.interfaces import Source
+from teleop.core.events import TickEvent
+from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Held, Input, Press
 from teleop.core.run_status import Hint, RunStatus, stop_state
 from teleop.core.setpoints import Demand, Stop
@@ -154,17 +151,21 @@ class StopGuard:
         if self._hold is not Hold.FREE:
             self._source.suspend(now)
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+        """Raises Interrupted once an operator has ended it, DeviceError where a lost input does."""
+        self._motion = feedback.motion
         # A STOP has the last word: a clear in the same tick does not undo it.
         pressed = [(relay, press) for relay in self._relays for press in relay.poll(now)]
         self._check_stops(now)
         for relay, press in sorted(pressed, key=lambda each: each[1].command is Command.STOP):
             self._handle(relay, press, now)
+        if self._end is not None:
+            raise self._end
         if self._going and self._rests and not self._source.busy:
             self._hold, self._going, self.stopped_by, self._why = Hold.FREE, False, "", ""
             self._source.resume(now, self._motion)
-        if self._hold is Hold.FREE and self._end is None:
-            return self._source.read(now)
+        if self._hold is Hold.FREE:
+            return self._source.read(now, feedback)
         return dict.fromkeys(self._motion, Stop()), self._source.linger(now)
 
     def next_change(self, now: float) -> float:
@@ -172,15 +173,6 @@ class StopGuard:
             change = self._source.next_change(now)
             return change if math.isinf(change) or not self._relays else min(change, now + self._period)
         return now if self._source.busy or not self._rests else now + self._period
-
-    def write(self, tick: Tick) -> None:
-        """Raises Interrupted once an operator has ended it, DeviceError where a lost input does."""
-        self._motion = tick.motion
-        if self._end is not None:
-            raise self._end
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     @property
     def halted(self) -> bool:

@@ -34,21 +34,18 @@ class Delay(NamedTuple):
 
 
 class Traces:
-    """A sink that keeps what one axis was commanded and measured to do: pairs of s and units."""
+    """An observer that keeps what one axis was commanded and measured to do: pairs of s and units."""
 
     def __init__(self, axis: Axis) -> None:
         self.commanded: list[tuple[float, float]] = []
         self.measured: list[tuple[float, float]] = []
         self._axis = axis
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         self.commanded.append((tick.time, tick.motion[self._axis].position))
         reading = tick.reported.get(self._axis)
         if reading is not None and (reading.time, reading.position) not in self.measured[-1:]:
             self.measured.append((reading.time, reading.position))
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
 
 def estimate(

@@ -1,4 +1,4 @@
-"""A watcher that notices, within about a degree, an axis that moves the other way than it is sent.
+"""Notices, within about a degree, an axis that moves the other way than it is sent.
 
 The cause is a sign in the profile that does not fit the gimbal, so the cure is a line in it. With a wrong sign of the
 speeds the correction makes matters worse all by itself, which is why this may not be left to the stall guard.
@@ -50,7 +50,7 @@ class Seen(NamedTuple):
 
 
 class DirectionGuard:
-    """A sink that only watches; add it after the devices. `found` are the axes that go the other way.
+    """An observer. `found` are the axes that go the other way.
 
     `line` is what the profile needs for an axis. A sink that sends speeds calls `sent` with each of them; without, the
     plan's positions are what is sent. `delay` is how much later than commanded the axes move, in s.
@@ -71,7 +71,7 @@ class DirectionGuard:
         self._advance(now)
         self._speed, self._sent_at = dict(speeds), now
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         """Raises DeviceError for an axis that goes the other way, once."""
         if self._speeds:
             self._advance(tick.time)
@@ -86,9 +86,6 @@ class DirectionGuard:
                 seen.clear()
             if not seen or reading.time > seen[-1].time:
                 self._add(axis, Seen(reading.time, reading.position, state.position, self._before(axis, reading.time)))
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _advance(self, now: float) -> None:
         until = min(now, self._sent_at + HOLDS)

@@ -1,4 +1,4 @@
-"""A watcher that stops the run when an axis does not do what it is told: blocked, held by hand, or out of sight.
+"""Stops the run when an axis does not follow: blocked, held by hand, or without readings.
 
 A gimbal trails what is commanded by a little, so a reading is compared with everywhere the axis was commanded to be
 during the time that it may lag, not with one moment. What lies beyond that by more than the tolerance, reading after
@@ -22,7 +22,7 @@ HISTORY = 300  # ticks of commanded motion: the lag, and the age of a reading
 
 
 class FollowingErrorGuard:
-    """A sink that only watches; add it after the devices.
+    """An observer of the run.
 
     `tolerance` is how far from commanded each axis to be watched may be, in units; `delay` how much later than
     commanded it moves, in s (0 where absent). Of an axis that is `excused` the reason is known already.
@@ -42,7 +42,7 @@ class FollowingErrorGuard:
         self._judged: dict[Axis, float] = {}  # the time of the last reading that was looked at
         self._away: dict[Axis, float] = {}  # since which reading an axis is elsewhere
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         """Raises DeviceError for an axis that has been elsewhere, or unseen, for too long."""
         self._commanded.append((tick.time, tick.motion))
         for axis in self._tolerance:
@@ -54,9 +54,6 @@ class FollowingErrorGuard:
             if reading.time != self._judged.get(axis) and reading.time >= self._commanded[0][0]:
                 self._judged[axis] = reading.time
                 self._judge(axis, reading.position, reading.time)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _judge(self, axis: Axis, measured: float, time: float) -> None:
         nearest = self._nearest(axis, measured, time)

@@ -53,7 +53,7 @@ class Trace:
 
 
 class Repeatability:
-    """A sink that only watches. `place` says where in which pass the move is at a time of the loop's, None for in none.
+    """An observer. `place` has the pass and where in the move, for a time of the loop; None outside a pass.
 
     `passes` has the differences of the second and later passes, by number.
     """
@@ -65,7 +65,7 @@ class Repeatability:
         self._measured: dict[Axis, Trace] = {}
         self._counted: dict[Axis, float] = {}
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         place = self._place(tick.time)
         if place is None:
             return
@@ -76,9 +76,6 @@ class Repeatability:
             if axis in tick.motion and then is not None and reading.time != self._counted.get(axis):
                 self._counted[axis] = reading.time
                 self._see(self._measured, axis, then, reading.position)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _see(self, first: dict[Axis, Trace], axis: Axis, place: Place, position: float) -> None:
         number, time = place

@@ -34,7 +34,7 @@ class Score:
 
 
 class TrackingErrorMonitor:
-    """A sink that only watches. Readings from before `begin`, on the loop's clock, do not count."""
+    """An observer. Readings from before `begin`, on the loop's clock, do not count."""
 
     def __init__(self, begin: Callable[[], float]) -> None:
         self.scores: dict[Axis, Score] = {}
@@ -43,7 +43,7 @@ class TrackingErrorMonitor:
         self._commanded: deque[tuple[float, Motion]] = deque(maxlen=100)
         self._counted: dict[Axis, float] = {}
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         self._latest = tick
         self._commanded.append((tick.time, tick.motion))
         for axis, reading in tick.reported.items():
@@ -51,9 +51,6 @@ class TrackingErrorMonitor:
                 self._counted[axis] = reading.time
                 error = self._commanded_at(axis, reading.time) - reading.position
                 self.scores.setdefault(axis, Score()).add(error)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     @property
     def seconds(self) -> float:

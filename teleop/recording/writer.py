@@ -1,4 +1,4 @@
-"""The recorder: it never makes the motion wait for a disk.
+"""The recorder: an observer that never makes the motion wait for a disk.
 
 The control thread only appends the tick, which no longer changes, to a bounded queue. A thread of the recorder's
 own encodes, compresses and writes, and gives way after every tick, because the interpreter would otherwise keep the
@@ -36,7 +36,7 @@ Status = Callable[[], object]
 
 
 class Recorder:
-    """A sink that only watches, writing to `stream`, an unbuffered file; `name` is what its user calls it.
+    """An observer that writes to `stream`, an unbuffered file; `name` is what its user calls it.
 
     `status` is asked each tick in the control thread for a value that no longer changes. `patient` is for
     runs in virtual time, which may wait for the disk: in real time what does not fit into the queue is dropped.
@@ -58,7 +58,7 @@ class Recorder:
         self._thread = Thread(target=self._work, name="recorder", daemon=True)
         self._thread.start()
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         queue = self._queue
         status = None if self._status is None else self._status()
         if self._patient:
@@ -67,9 +67,6 @@ class Recorder:
             self._dropped += 1
         else:
             queue.append((tick, status))
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def finish(
         self, result: Result, reasons: Sequence[str], links: Mapping[str, Mapping[str, int]] | None = None

@@ -1,8 +1,7 @@
 """The operator's controls of a sequence that plays: pause, resume, faster, slower, from key to key, go, end and trim.
 
 A key asks; `Playback` decides what becomes of it and when, and `LiveOffset` where an axis is trimmed to. The
-`StopGuard` above it handles a STOP: it suspends all of this and resumes it. The controls are a sink too, because only
-what is raised there ends a run without losing a tick.
+`StopGuard` above it handles a STOP: it suspends all of this and resumes it.
 """
 
 from __future__ import annotations
@@ -13,10 +12,11 @@ from dataclasses import replace
 
 from teleop.core.axes import Axis, Motion, State
 from teleop.core.errors import Interrupted
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import TickEvent
+from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input, Press
 from teleop.core.run_status import Hint, RunStatus
-from teleop.core.setpoints import Demand, StateTarget, Stop
+from teleop.core.setpoints import Demand, StateTarget
 from teleop.manual.live_offset import LiveOffset
 from teleop.sequence.phases import SequencePhase
 from teleop.sequence.progress import run_status
@@ -121,28 +121,23 @@ class PlaybackControls:
         self._note = ""
         self._sequence.resume(now, bare)
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+        """Raises Interrupted once an operator has ended it."""
         self._check_keys(now)
-        demand, acts = self._sequence.read(now)
+        if self._stopped:
+            raise Interrupted(self._stopped)
+        demand, acts = self._sequence.read(now, feedback)
         if self._noted is not self._sequence.phase:
             self._note, self._noted = "", self._sequence.phase
         if self._trimming:
             demand = self._trimmed(self._trimming, demand)
-        return (dict.fromkeys(demand, Stop()), ()) if self._stopped else (demand, acts)
+        return demand, acts
 
     def next_change(self, now: float) -> float:
         change = self._sequence.next_change(now)
         if math.isinf(change):
             return change
         return now if self._trimming else min(change, now + KEYS_PERIOD)
-
-    def write(self, tick: Tick) -> None:  # noqa: ARG002 - only whether the run is to end
-        """Raises Interrupted once it has been stopped."""
-        if self._stopped:
-            raise Interrupted(self._stopped)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _check_keys(self, now: float) -> None:
         if self._trimming is None:

@@ -15,9 +15,10 @@ from concurrent.futures import Executor
 from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.errors import DeviceError
 from teleop.core.events import TickEvent
+from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, StateTarget
 from teleop.core.timing import KEEP_ALIVE
-from teleop.planner.rest_to_rest import ease
+from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue, Wait, cues_from
@@ -82,7 +83,7 @@ class SequenceSource:
         self._ease_to_time(self.playback.opening, now, motion)
         self._foresee_begin()
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         self._events = []
         self._advance(now)
         if self.waiting and self._go_pressed:
@@ -219,7 +220,7 @@ class SequenceSource:
 
     def _ease_to(self, target: Motion, now: float, motion: Motion) -> None:
         positions = {axis: state.position for axis, state in target.items()}
-        self._ease = ease({axis: motion[axis] for axis in positions}, positions, self._limits, EASE_SHARE)
+        self._ease = rest_to_rest({axis: motion[axis] for axis in positions}, positions, self._limits, EASE_SHARE)
         self._ease_begin, self.until = now, now + whole_ticks(self._ease.duration)
 
     def _foresee_begin(self) -> None:

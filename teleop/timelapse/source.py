@@ -10,7 +10,8 @@ from collections.abc import Sequence
 
 from teleop.core.axes import Motion
 from teleop.core.errors import Interrupted
-from teleop.core.events import ShutterResult, Tick, TickEvent
+from teleop.core.events import ShutterResult, TickEvent
+from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input
 from teleop.core.setpoints import Demand, StateTarget
 from teleop.timelapse.compile import Timelapse
@@ -27,7 +28,7 @@ _INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 
 
 class TimelapseSource:
-    """Frames from `first` on; also a sink, which sees how still the axes are measured to be.
+    """Frames from `first` on.
 
     `progress` goes on counting where an earlier run of the same shoot left off. `keys` may pause it. `slot` is when
     the next frame is due, on the loop's clock; a run that follows another of the same shoot is given that of the other,
@@ -59,8 +60,10 @@ class TimelapseSource:
         self._set_out(now, motion, self._timelapse.delay if self._cycle.frame == 0 else 0.0)
         self.begin = self.slot
 
-    def read(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         self._check_keys(now)
+        if self.phase is TimelapsePhase.SETTLE:
+            self._cycle.settle_detector.update(feedback.readings)
         self._cycle.advance(now)
         self.progress.due = self._mover.when(self._cycle.due, now)
         demand = {axis: StateTarget(*state) for axis, state in self._mover.at(now).items()}
@@ -111,13 +114,6 @@ class TimelapseSource:
         self._set_out(now, motion)
         if self._halted_before_begin:
             self.begin, self._halted_before_begin = self.slot, False
-
-    def write(self, tick: Tick) -> None:
-        if self.phase is TimelapsePhase.SETTLE:
-            self._cycle.settle_detector.update(tick.reported)
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def on_shutter_result(self, result: ShutterResult) -> None:
         """Take the camera's answer to a press; it is written down at once."""

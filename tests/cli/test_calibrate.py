@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from command import running, teleop
+from fakes import NO_FEEDBACK
 from waiting import DEADLINE
 
 from teleop.app.calibration_move import SHARE, CalibrationMove
@@ -133,7 +134,7 @@ def test_the_test_move_stays_within_its_share_of_the_limits(velocity: float, acc
     states: list[StateTarget] = []
     while swing.next_change(clock.now()) <= clock.now():
         clock.sleep_until(clock.now() + 0.01)
-        wish = swing.read(clock.now())[0][Axis.PAN]
+        wish = swing.read(clock.now(), NO_FEEDBACK)[0][Axis.PAN]
         assert isinstance(wish, StateTarget)
         states.append(wish)
     assert max(s.position for s in states) == pytest.approx(179.0)

@@ -201,7 +201,7 @@ class Measuring:
         guard = StopGuard(self.probe, [Relay(self)])
         reporter = Angles(connection, Wiring(section.axes), section.legacy_angles)
         self._loop = ControlLoop(
-            self.clock, Live(profile.limits, PERIOD), profile.limits, [guard], [self.probe, guard], [reporter]
+            self.clock, Live(profile.limits, PERIOD), profile.limits, [guard], [self.probe], [reporter]
         )
         self._begin = self.device.angles
 

@@ -62,7 +62,7 @@ def test_one_sequence_moves_sticks_gimbal_and_focus_on_one_clock(sequence: str, 
     ran = teleop("play", sequence, *RIG, "--fast", "--i-understand", "--json", "--take", str(take))
     assert ran.returncode == 0, ran.stderr
     assert "drone: engaged: the drone confirms virtual RC" in ran.stderr
-    assert "virtual RC is given back: the drone confirms" in ran.stderr
+    assert "virtual RC is released: the drone confirms it" in ran.stderr
     report = json.loads(ran.stdout)
     drone = report["drone"]
     assert drone["height"] > 12, "it was raised"
@@ -172,7 +172,7 @@ def test_an_operator_types_a_word_and_sees_the_drone(tmp_path: Path) -> None:
         term.type("darm\r")
         term.wait_for("arm: sticks in the corners for 2 s")
         term.type("b")
-        term.wait_for("virtual RC is given back: the drone confirms")
+        term.wait_for("virtual RC is released: the drone confirms it")
         term.type("q")
         assert term.end()[0] == 0
 

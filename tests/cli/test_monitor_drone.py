@@ -15,7 +15,7 @@ from teleop.dji.drone import messages as drone
 from teleop.dji.drone.broadcast import Broadcast
 from teleop.dji.drone.broadcast_parts import Position
 from teleop.dji.drone.enums import FlightStatus
-from teleop.dji.drone.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.drone.movement import Horizontal, Move, ReferenceFrame, Vertical, Yaw
 from teleop.dji.drone.onboard_sdk import M100
 from teleop.dji.drone.session import OnboardSession
 from teleop.links import FAR_END
@@ -70,7 +70,7 @@ def test_a_broadcast_in_units(capsys: pytest.CaptureFixture[str]) -> None:
     said = OnboardSession()
     broadcast = Broadcast(position=Position(0.5, 1.25, 60.0, 3.5, 4), status=FlightStatus.IN_AIR, battery=87)
     modes: dict[str, Any] = {"horizontal": Horizontal.VELOCITY, "vertical": Vertical.VELOCITY, "yaw_control": Yaw.RATE}
-    move = Move(stable=True, frame=Frame.GROUND, x=1, y=0, z=2, yaw=9, **modes)
+    move = Move(stable=True, frame=ReferenceFrame.GROUND, x=1, y=0, z=2, yaw=9, **modes)
     Watch(Overheard(said.command(broadcast) + said.command(move)), tapped, False).look(1.0)
     assert capsys.readouterr().out.splitlines() == [
         "    1.000 <- drone.broadcast, position.latitude 0.5 rad, position.longitude 1.25 rad, position.altitude 60 m, "

@@ -52,7 +52,7 @@ def test_a_write_that_failed_is_never_followed_by_written_to_file(
         assert report.keep
         assert report.keep() == "writing the trim to out.yaml"
     report.print()
-    report.write(TICK)
+    report.observe(TICK)
     printed = capsys.readouterr()
     reason = "out.yaml: cannot be written: "
     assert printed.out == "trim: pan +1.500 deg\n"
@@ -70,7 +70,7 @@ def test_a_file_that_was_written_is_reported(capsys: pytest.CaptureFixture[str])
     hands = Hands()
     report = TrimReport(hands, File())  # type: ignore[arg-type]  # stand-ins
     report.print()
-    report.write(TICK)
+    report.observe(TICK)
     assert capsys.readouterr().out == "trim: pan +1.500 deg; written to out.yaml\n"
     assert hands.lines == ["the trim is written to out.yaml"]
     assert (report.failure, dict(report.facts())["trim"]["file"]) == ("", "out.yaml")  # type: ignore[index]  # a dict

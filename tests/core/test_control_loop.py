@@ -6,19 +6,19 @@ from collections.abc import Callable
 from itertools import pairwise
 
 import pytest
-from fakes import PlacedReporter, RecordingSink, ScriptedSource, StallingClock, cruising
+from fakes import PlacedReporter, RecordingObserver, RecordingSink, ScriptedSource, StallingClock, cruising
 
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.clock import VirtualClock
 from teleop.core.control_loop import LEAD, STALL, ControlLoop
 from teleop.core.errors import Interrupted, LinkError
 from teleop.core.events import Action
-from teleop.core.interfaces import Clock
+from teleop.core.interfaces import Clock, Feedback
 from teleop.core.run_state import Result, RunState
 from teleop.core.setpoints import Stop, VelocityTarget
 from teleop.core.shutdown import RELEASE_LONGEST, RELEASE_PATIENCE
 from teleop.core.stall_recovery import PATIENCE
-from teleop.core.timing import FIRST_REPORT, KEEP_ALIVE, PERIOD
+from teleop.core.timing import FIRST_REPORT, KEEP_ALIVE, PERIOD, LoopTiming
 from teleop.planner.live import Live
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-56, 146, 60, 120, 600)}
@@ -26,9 +26,10 @@ ASLEEP = 0.005  # s before a tick, while nothing is prepared for it yet
 PLACES = {Axis.PAN: 10.0, Axis.TILT: -5.0}
 
 
-def loop_of(sources, sinks, reporters=None, clock: Clock | None = None, planner=None) -> ControlLoop:
+def loop_of(sources, sinks, reporters=None, clock: Clock | None = None, planner=None, observers=()) -> ControlLoop:
     reporters = [PlacedReporter(PLACES)] if reporters is None else reporters
-    return ControlLoop(clock or VirtualClock(), planner or Live(LIMITS, PERIOD), LIMITS, sources, sinks, reporters)
+    planner = planner or Live(LIMITS, PERIOD)
+    return ControlLoop(clock or VirtualClock(), planner, LIMITS, sources, sinks, reporters, observers)
 
 
 def assert_smooth_to_rest(sink: RecordingSink, axis: Axis = Axis.PAN) -> None:
@@ -65,6 +66,50 @@ def test_the_first_source_with_an_opinion_drives() -> None:
     assert velocity[1.9] == pytest.approx(-20)
     assert velocity[2.9] == pytest.approx(20)
     assert max(tick.motion[Axis.TILT].velocity for tick in sink.ticks) == pytest.approx(5)
+    assert_smooth_to_rest(sink)
+
+
+def test_a_source_that_fails_costs_no_tick() -> None:
+    """The ramp to rest begins in the tick in which it failed."""
+    clock, sink, source = VirtualClock(), RecordingSink(), cruising(Axis.PAN, 50, end=60.0)
+    source.read = failing(1.0, clock, source.read, Interrupted("stopped by keys"))  # type: ignore[method-assign]
+    loop_of([source], [sink], clock=clock).run()
+    assert max(after.time - before.time for before, after in pairwise(sink.ticks)) == pytest.approx(PERIOD)
+    first = next(tick for tick in sink.ticks if tick.time > 1.0)
+    assert first.demand == dict.fromkeys(LIMITS, Stop())
+    assert_smooth_to_rest(sink)
+
+
+def test_a_source_sees_the_motion_commanded_before_and_the_last_readings() -> None:
+    sink, source, seen = RecordingSink(), cruising(Axis.PAN, 50, end=0.5), []
+    read = source.read
+    source.read = lambda now, feedback: (seen.append(feedback), read(now, feedback))[1]  # type: ignore[method-assign]
+    loop_of([source], [sink]).run()
+    assert seen[0].motion == {axis: State(place) for axis, place in PLACES.items()}
+    running = sink.ticks[: len(seen) - 1]
+    assert [feedback.motion for feedback in seen[1:]] == [tick.motion for tick in running]
+    assert [feedback.readings for feedback in seen[1:]] == [tick.reported for tick in running]
+
+
+def test_an_observer_sees_every_tick_after_the_sinks_and_releases_nothing() -> None:
+    calls: list[str] = []
+    sink, observer = RecordingSink(), RecordingObserver()
+    write, observe = sink.write, observer.observe
+    sink.write = lambda tick: (calls.append("sink"), write(tick))[1]  # type: ignore[method-assign]
+    observer.observe = lambda tick: (calls.append("observer"), observe(tick))[1]  # type: ignore[method-assign]
+    loop_of([cruising(Axis.PAN, 30, end=0.5)], [sink], observers=[observer]).run()
+    assert calls == ["sink", "observer"] * len(sink.ticks)
+    assert observer.ticks == sink.ticks
+
+
+@pytest.mark.parametrize("period", [0.005, 0.02])
+def test_a_loop_turns_at_the_period_that_it_is_given(period: float) -> None:
+    clock, sink = VirtualClock(), RecordingSink()
+    planner, timing = Live(LIMITS, period), LoopTiming(period)
+    reporters = [PlacedReporter(PLACES)]
+    ControlLoop(clock, planner, LIMITS, [cruising(Axis.PAN, 50, 1.0)], [sink], reporters, timing=timing).run()
+    assert {round(after.time - before.time, 9) for before, after in pairwise(sink.ticks)} == {period}
+    assert max(tick.motion[Axis.PAN].velocity for tick in sink.ticks) == pytest.approx(50)
     assert_smooth_to_rest(sink)
 
 
@@ -163,9 +208,9 @@ def test_an_interrupt_ramps_to_rest_however_often_it_comes() -> None:
 
 def test_an_operator_who_has_had_enough_ends_it_as_an_interrupt() -> None:
     clock, sink = VirtualClock(), RecordingSink()
-    watcher = RecordingSink()
-    watcher.write = failing(1.0, clock, watcher.write, Interrupted("stopped by keys"))
-    ended = loop_of([cruising(Axis.PAN, 30, 60)], [sink, watcher], clock=clock).run()
+    observer = RecordingObserver()
+    observer.observe = failing(1.0, clock, observer.observe, Interrupted("stopped by keys"))
+    ended = loop_of([cruising(Axis.PAN, 30, 60)], [sink], clock=clock, observers=[observer]).run()
     assert (ended.result, ended.reasons) == (Result.INTERRUPTED, ["stopped by keys"])
     assert_smooth_to_rest(sink)
 
@@ -199,9 +244,9 @@ def test_commands_leave_on_the_grid_however_long_they_took_to_make() -> None:
     clock, sink, source = VirtualClock(), RecordingSink(), cruising(Axis.PAN, 50, end=1.0)
     write, read, off, dice = sink.write, source.read, [], random.Random(1)
 
-    def slow(now: float):
+    def slow(now: float, feedback: Feedback):
         clock.sleep_until(clock.now() + dice.uniform(0, LEAD))
-        return read(now)
+        return read(now, feedback)
 
     source.read = slow  # type: ignore[method-assign]
     sink.write = lambda tick: (off.append(clock.now() - tick.time), write(tick))  # type: ignore[method-assign]

@@ -126,7 +126,7 @@ def test_whatever_raises_for_ever_the_run_ends(
     if stalls and "clock.sleep_until" not in places:
         _stall_once(stage)
     if interrupted:
-        stage.breaks("source.read", lambda _now: ({}, stage.loop.interrupt("SIGINT received") or ()))
+        stage.breaks("source.read", lambda _now, _feedback: ({}, stage.loop.interrupt("SIGINT received") or ()))
     stage.run()
     if stalls or interrupted or places != {"planner.reset"}:  # which is asked only at the start and after a stall
         assert stage.loop.supervisor.result is not Result.DONE

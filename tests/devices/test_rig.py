@@ -16,7 +16,7 @@ from teleop.core.axes import Axis
 from teleop.core.clock import VirtualClock
 from teleop.core.control_loop import ControlLoop
 from teleop.core.events import Tick
-from teleop.core.interfaces import Sink
+from teleop.core.interfaces import Observer
 from teleop.core.run_state import Result
 from teleop.devices.rig import Rig, open_rig
 from teleop.dji.gimbal import camera, focus
@@ -72,12 +72,14 @@ class Stage:
         with open_rig(self.profile, self.clock) as rig:
             yield rig, wire.tapped(rig)
 
-    def playing(self, rig: Rig, move: str = MOVE, watchers: Sequence[Sink] = ()) -> tuple[ControlLoop, SequenceSource]:
+    def playing(
+        self, rig: Rig, move: str = MOVE, observers: Sequence[Observer] = ()
+    ) -> tuple[ControlLoop, SequenceSource]:
         (self.folder / "move.yaml").write_text(move)
         performance = load_sequence(str(self.folder / "move.yaml"), self.profile.limits, "the rig")
         source = SequenceSource(performance, self.profile.limits)
         self.tally = TrackingErrorMonitor(lambda: source.begin)
-        return rig.loop(list(performance.move.tracks), [source], [self.tally, *watchers]), source
+        return rig.loop(list(performance.move.tracks), [source], [self.tally, *observers]), source
 
     def on_sticks(self, rig: Rig, rows: str) -> ControlLoop:
         (self.folder / "sticks.csv").write_text(rows)
@@ -241,12 +243,10 @@ class At:
         self.action: Callable[[float], None] = lambda _now: None
         self.done_at = math.inf
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         if tick.time >= self.begin() + self.time and self.done_at == math.inf:
             self.done_at = tick.time
             self.action(tick.time)
-
-    def release(self, now: float) -> float | None: ...
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -254,7 +254,7 @@ class At:
 def test_a_fault_mid_move_stops_within_two_seconds(tmp_path: Path, mode: str, fault: str) -> None:
     stage, trigger = Stage(tmp_path, mode), At(8.0)
     with stage.rig() as (rig, tap):
-        loop, source = stage.playing(rig, watchers=[trigger])
+        loop, source = stage.playing(rig, observers=[trigger])
 
         def cut(now: float) -> None:
             if fault in ("mute", "both"):

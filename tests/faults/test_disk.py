@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import IO
 
 import pytest
-from scene import scene
+from gimbal_fault_bench import gimbal_fault_bench
 
 from teleop.core.run_state import Result
 from teleop.recording import writer as module
@@ -76,19 +76,19 @@ def test_a_failing_disk_is_said_and_the_motion_is_the_same_to_the_frame(
     wires, over = [], threading.Event()
     try:
         for recorded in (False, True):
-            with scene("speed", tmp_path, monkeypatch) as stage:
+            with gimbal_fault_bench("speed", tmp_path, monkeypatch) as bench:
                 takes = []
                 if recorded:
-                    about = About("Rig", "Move", 1.7e9, stage.rig.profile.limits, "0")
+                    about = About("Rig", "Move", 1.7e9, bench.rig.profile.limits, "0")
                     takes.append(Recorder(opens(over), about, "take.mcap"))
-                stage.move(lambda _now: None, takes, seconds=4.0)
+                bench.move(lambda _now: None, takes, seconds=4.0)
                 for take in takes:
-                    take.finish(stage.ended.result, stage.ended.reasons)  # comes back, although the disk never does
+                    take.finish(bench.ended.result, bench.ended.reasons)  # comes back, although the disk never does
                     assert trouble in take.trouble
                     assert "\n" not in take.trouble
-                assert (stage.ended.result, stage.ended.reasons) == (Result.DONE, [])
-                stage.assert_given_back()
-                wires.append(stage.wire)
+                assert (bench.ended.result, bench.ended.reasons) == (Result.DONE, [])
+                bench.assert_given_back()
+                wires.append(bench.wire)
     finally:
         over.set()
     assert wires[0] == wires[1]

@@ -12,7 +12,7 @@ from subprocess import Popen
 
 import pytest
 from command import running
-from sky import check_enables
+from drone_fault_bench import check_enables
 from waiting import wait_until
 
 from teleop.core.clock import SystemClock
@@ -37,8 +37,8 @@ class FarDrone:
         self.line = PtyLink()
         self.clock = SystemClock()
         self.drone = SimulatedDrone(now=self.clock.now())
-        self.drone.cockpit.flight.start_motors()
-        self.drone.cockpit.flight.rise_to(20)
+        self.drone.autopilot.flight.start_motors()
+        self.drone.autopilot.flight.rise_to(20)
         self.heard: list[tuple[float, Message]] = []
         self.pilots: list[tuple[float, Pilot]] = []
         self.unplugged = False
@@ -59,7 +59,7 @@ class FarDrone:
 
     @property
     def pilot(self) -> Pilot:
-        return self.drone.cockpit.pilot
+        return self.drone.autopilot.pilot
 
     def close(self) -> None:
         self._over.set()
@@ -155,7 +155,7 @@ def test_a_new_run_flies_only_when_it_is_asked_to(
     enables = [at for at, message in far.of(VirtualRc) if getattr(message, "on", False)]
     assert len(enables) == 2
     assert enables[1] - enables[0] >= 2.0
-    assert not far.drone.cockpit.locked
+    assert not far.drone.autopilot.locked
 
 
 def test_an_adapter_that_is_unplugged_and_back_flies_nothing(
@@ -171,7 +171,7 @@ def test_an_adapter_that_is_unplugged_and_back_flies_nothing(
         _, said = process.communicate(timeout=20)
     assert process.returncode == 1
     assert "the adapter is gone: plug it in, then start again" in said
-    assert "the drone goes back to its RC by itself, a second after the last sticks that it heard" in said
+    assert "the drone goes back to its RC by itself, 1 s after the last sticks that reached it" in said
     wait_until(lambda: far.pilots[-1][1] is Pilot.RC, "its pilot has it", patience=3)
     assert len(far.heard) == count
 

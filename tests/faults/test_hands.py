@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from fake_hid import FakeBackend, FakeDevice, real
-from scene import PAN, Scene, scene
+from gimbal_fault_bench import PAN, GimbalFaultBench, gimbal_fault_bench
 from waiting import wait_until
 
 from teleop.config.operator_settings import SticksSection
@@ -89,29 +89,27 @@ ROWS = [
 class Handler:
     """Passes time on to the pad each tick, breaks it, and ends the run when it has been at rest for a while."""
 
-    def __init__(self, stage: Scene, pad: Pad, row: Row, operator: Operator) -> None:
+    def __init__(self, bench: GimbalFaultBench, pad: Pad, row: Row, operator: Operator) -> None:
         self.moving_when_broken = 0.0
         self.stopped_after = float("inf")
-        self._stage, self._pad, self._row, self._operator = stage, pad, row, operator
+        self._bench, self._pad, self._row, self._operator = bench, pad, row, operator
         self._begin = 0.0
         self._number = 0
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         self._begin = self._begin or tick.time
         self._number += 1
         elapsed = tick.time - self._begin
         if elapsed >= BREAK_AT and self._pad.broken_at == float("inf"):
             self._pad.broken_at = tick.time
-            self.moving_when_broken = self._stage.gimbal.rates.yaw
+            self.moving_when_broken = self._bench.gimbal.rates.yaw
             self._row.breaks(self._pad)
         self._pad.tell(elapsed, self._number)
         since = tick.time - self._pad.broken_at
         if since > 0 and all(state.velocity == 0 for state in tick.motion.values()):
             self.stopped_after = min(self.stopped_after, since)
         if since > self._row.within + 1:
-            self._stage.loop.interrupt("enough")
-
-    def release(self, now: float) -> float | None: ...
+            self._bench.loop.interrupt("enough")
 
 
 @pytest.mark.parametrize("mode", ["position", "speed", "stick"])
@@ -122,21 +120,21 @@ def test_a_pad_that_fails_mid_pan_stops_the_pan(
     monkeypatch.setattr(hid_reader, "LOOK_EVERY", 0.001)
     backend = FakeBackend()
     pad = Pad(backend)
-    with scene(mode, tmp_path, monkeypatch) as stage, open_inputs([], stage.clock.now, backend) as inputs:
+    with gimbal_fault_bench(mode, tmp_path, monkeypatch) as bench, open_inputs([], bench.clock.now, backend) as inputs:
         presets = Presets(tmp_path / "presets.yaml")
-        operator = Operator(stage.rig.profile.limits, inputs, presets, SticksSection(), 2.0)
-        handler = Handler(stage, pad, row, operator)
-        stage.run(operator, [operator, handler])
+        operator = Operator(bench.rig.profile.limits, inputs, presets, SticksSection(), 2.0)
+        handler = Handler(bench, pad, row, operator)
+        bench.run(operator, [handler])
         presets.close()
         said = [message.text for message in operator.status.messages]
         assert handler.moving_when_broken > 1.0
         assert handler.stopped_after < row.within
-        after = [rate for time, rate, _ in stage.rates if time >= pad.broken_at]
+        after = [rate for time, rate, _ in bench.rates if time >= pad.broken_at]
         assert min(after) > -1.5
         assert max(after) < handler.moving_when_broken + 1.5
-        stage.assert_no_jump()
-        stage.assert_at_rest()
-        stage.assert_given_back()
-        assert (stage.ended.result, stage.ended.reasons) == (Result.INTERRUPTED, ["enough"])
+        bench.assert_no_jump()
+        bench.assert_at_rest()
+        bench.assert_given_back()
+        assert (bench.ended.result, bench.ended.reasons) == (Result.INTERRUPTED, ["enough"])
         assert any(row.trouble in text for text in said), said
         assert PAN.velocity > max(after)

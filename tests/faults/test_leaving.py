@@ -11,10 +11,10 @@ from pathlib import Path
 from subprocess import DEVNULL, PIPE
 
 import pytest
+from drone_fault_bench import FLIGHT, READY, VIRTUAL_RC, drone_fault_bench
 from far_gimbal import FarGimbal, far_gimbal
+from gimbal_fault_bench import GimbalFaultBench, gimbal_fault_bench
 from network import own_network
-from scene import Scene, scene
-from sky import FLIGHT, READY, VIRTUAL_RC, sky
 from waiting import wait_until
 
 from teleop.cli.signals import AT_MOST, PRESSES, signals_to
@@ -33,23 +33,23 @@ URL = "udp_multicast:239.74.163.3"
 PROFILES = Path(__file__).parents[2] / "profiles"
 
 
-def never_rests(scene: Scene) -> None:
+def never_rests(bench: GimbalFaultBench) -> None:
     """A planner that goes on as before, and a loop that believes it for ever."""
-    planner = scene.loop._planner
+    planner = bench.loop._planner
     step = planner.step
-    moving = {axis: VelocityTarget(5.0) for axis in scene.loop._limits}
+    moving = {axis: VelocityTarget(5.0) for axis in bench.loop._limits}
     planner.step = lambda demand, steps=1: step(moving, steps)  # type: ignore[method-assign]
-    scene.loop._stop_end = scene.loop._stop_limit = 1e9
+    bench.loop._stop_end = bench.loop._stop_limit = 1e9
 
 
-def hangs(scene: Scene) -> None:
+def hangs(bench: GimbalFaultBench) -> None:
     """A watcher's call that does not come back by itself."""
 
     def write(_tick: object) -> None:
         while True:
-            scene.clock.sleep_until(scene.clock.now() + 0.1)
+            bench.clock.sleep_until(bench.clock.now() + 0.1)
 
-    scene.watcher.write = write  # type: ignore[method-assign]
+    bench.watcher.observe = write  # type: ignore[method-assign]
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -58,71 +58,74 @@ def hangs(scene: Scene) -> None:
 def test_the_third_signal_releases_and_leaves_at_once(
     number: signal.Signals, fault, mode: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with scene(mode, tmp_path, monkeypatch) as stage:
+    with gimbal_fault_bench(mode, tmp_path, monkeypatch) as bench:
         pressed: list[float] = []
-        passes = stage.clock.hook
+        passes = bench.clock.hook
 
         def press(now: float) -> None:
             passes(now)
-            if now >= stage.broken_at + len(pressed) + 1 and len(pressed) < PRESSES:
+            if now >= bench.broken_at + len(pressed) + 1 and len(pressed) < PRESSES:
                 pressed.append(now)
                 signal.raise_signal(number)
 
-        stage.clock.hook = press
+        bench.clock.hook = press
 
         def run() -> None:
-            with signals_to(lambda reason: stage.loop.interrupt(reason), lambda: stage.loop.release_at_once()):
-                stage.move(lambda _now: fault(stage))
+            with signals_to(lambda reason: bench.loop.interrupt(reason), lambda: bench.loop.release_at_once()):
+                bench.move(lambda _now: fault(bench))
 
         with pytest.raises(LeaveAtOnce, match=number.name):
             run()
         assert len(pressed) == PRESSES
-        left = stage.clock.now()
+        left = bench.clock.now()
         assert left - pressed[-1] <= AT_ONCE + 0.02
-        stage.clock.sleep_until(left + 1)
-        stage.assert_given_back()
-        stage.assert_at_rest()
-        assert stage.loop.supervisor.state is not RunState.OVER, "it was not waited for"
+        bench.clock.sleep_until(left + 1)
+        bench.assert_given_back()
+        bench.assert_at_rest()
+        assert bench.loop.supervisor.state is not RunState.OVER, "it was not waited for"
         if mode == "speed":
-            last = [each for _, each in stage.of(gimbal.Speed)][-4:]
+            last = [each for _, each in bench.of(gimbal.Speed)][-4:]
             assert [each.take_over for each in last] == [True, True, True, False]
 
 
 def test_two_signals_only_ask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with scene("speed", tmp_path, monkeypatch) as stage, signals_to(lambda reason: stage.loop.interrupt(reason)):
-        stage.move(lambda _now: (signal.raise_signal(signal.SIGINT), signal.raise_signal(signal.SIGTERM)))
-        stage.assert_no_lurch()
-        stage.assert_no_jump()
-        stage.assert_given_back()
-        assert stage.ended.reasons == ["SIGTERM received"]
+    with (
+        gimbal_fault_bench("speed", tmp_path, monkeypatch) as bench,
+        signals_to(lambda reason: bench.loop.interrupt(reason)),
+    ):
+        bench.move(lambda _now: (signal.raise_signal(signal.SIGINT), signal.raise_signal(signal.SIGTERM)))
+        bench.assert_no_lurch()
+        bench.assert_no_jump()
+        bench.assert_given_back()
+        assert bench.ended.reasons == ["SIGTERM received"]
 
 
 @pytest.mark.parametrize("held", [VIRTUAL_RC, FLIGHT], ids=["virtual RC", "movement"])
 @pytest.mark.parametrize("hung", [True, False])
 def test_the_third_signal_leaves_a_drone_neutral_and_released(hung: bool, held: str, tmp_path: Path) -> None:
-    with sky(tmp_path, held) as air:
-        air.airborne()
-        air.engage_at(READY)
-        air.hold_at(READY + 1, stick_pitch=0.5)
+    with drone_fault_bench(tmp_path, held) as bench:
+        bench.airborne()
+        bench.engage_at(READY)
+        bench.hold_at(READY + 1, stick_pitch=0.5)
         for press in range(PRESSES):
-            air.at(BREAKS + press * 0.02, lambda: signal.raise_signal(signal.SIGINT))
+            bench.at(BREAKS + press * 0.02, lambda: signal.raise_signal(signal.SIGINT))
         if hung:
-            air.at(BREAKS - 0.001, lambda: setattr(air.operator, "write", hangs_with(air.clock.sleep_until)))
+            bench.at(BREAKS - 0.001, lambda: setattr(bench.operator, "write", hangs_with(bench.clock.sleep_until)))
 
         def run() -> None:
-            with signals_to(lambda reason: air.loop.interrupt(reason), lambda: air.loop.release_at_once()):
-                air.run()
+            with signals_to(lambda reason: bench.loop.interrupt(reason), lambda: bench.loop.release_at_once()):
+                bench.run()
 
         with pytest.raises(LeaveAtOnce):
             run()
-        left = air.clock.now() - air.begin
+        left = bench.clock.now() - bench.begin
         assert left <= BREAKS + PRESSES * 0.02 + AT_ONCE + 0.05
-        air.clock.sleep_until(air.clock.now() + 2)
-        air.check()
-        assert air.pilot(left + 2) is Pilot.RC
+        bench.clock.sleep_until(bench.clock.now() + 2)
+        bench.check()
+        assert bench.pilot(left + 2) is Pilot.RC
         if held == VIRTUAL_RC:
-            assert [message for _, message in air.of(Sticks)][-LAST_NEUTRALS:] == [NEUTRAL] * LAST_NEUTRALS
-            assert len(air.disables) == 1
+            assert [message for _, message in bench.of(Sticks)][-LAST_NEUTRALS:] == [NEUTRAL] * LAST_NEUTRALS
+            assert len(bench.disables) == 1
 
 
 def hangs_with(sleep_until):
@@ -165,8 +168,8 @@ def write(self, tick):
 SpeedSink._ticks, SpeedSink._write, SpeedSink.write = 0, SpeedSink.write, write
 """,
     "another sink's release hangs": """
-from teleop.monitors.tracking_error import TrackingErrorMonitor
-TrackingErrorMonitor.release = lambda self, now: threading.Event().wait()
+from teleop.devices.gimbal.commands import CommandSink
+CommandSink.release = lambda self, now: threading.Event().wait()
 """,
 }
 PROGRAM = """

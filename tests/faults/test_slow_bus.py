@@ -62,7 +62,7 @@ class Moving:
     def start(self, now: float, motion) -> None:
         self._end = now + self._seconds
 
-    def read(self, now: float):
+    def read(self, now: float, _feedback: object):
         acts = []
         if not self._recorded and now > self._end - self._seconds + 2:
             self._recorded, acts = True, [Action.RECORD]

@@ -19,7 +19,7 @@ from typing import Any
 import can
 import pytest
 from faulty_bus import driver_fault
-from scene import SLACK, SPEEDS, RealClock, Scene, StallingClock, scene
+from gimbal_fault_bench import SLACK, SPEEDS, GimbalFaultBench, RealClock, StallingClock, gimbal_fault_bench
 
 from teleop.cli.running import EXIT_CODES
 from teleop.core.run_state import Result, RunState
@@ -39,7 +39,7 @@ class Row:
     """A fault, what is said of it, and what may be asked of the wire: `lives` is whether commands still arrive."""
 
     name: str
-    breaks: Callable[[Scene, float], None]
+    breaks: Callable[[GimbalFaultBench, float], None]
     said: str
     code: int = 1
     lives: bool = True
@@ -49,69 +49,69 @@ class Row:
     modes: tuple[str, ...] = MODES
 
 
-def unplugged(scene: Scene, _now: float) -> None:
-    scene.deaf = True
-    scene.bus.send_fault = driver_fault("Failed to transmit", errno.ENXIO)
-    scene.bus.receive_faults.append(OSError(errno.ENODEV, "No such device"))
+def unplugged(bench: GimbalFaultBench, _now: float) -> None:
+    bench.deaf = True
+    bench.bus.send_fault = driver_fault("Failed to transmit", errno.ENXIO)
+    bench.bus.receive_faults.append(OSError(errno.ENODEV, "No such device"))
 
 
-def bus_off(scene: Scene, _now: float) -> None:
-    scene.bus.off = scene.mute = True
-    scene.bus.own_errors.append(can.Message(arbitration_id=_BUS_OFF, is_error_frame=True, is_extended_id=False))
+def bus_off(bench: GimbalFaultBench, _now: float) -> None:
+    bench.bus.off = bench.mute = True
+    bench.bus.own_errors.append(can.Message(arbitration_id=_BUS_OFF, is_error_frame=True, is_extended_id=False))
 
 
-def bus_full(scene: Scene, _now: float) -> None:
-    scene.bus.room = 0
+def bus_full(bench: GimbalFaultBench, _now: float) -> None:
+    bench.bus.room = 0
 
 
-def full_for(seconds: float) -> Callable[[Scene, float], None]:
+def full_for(seconds: float) -> Callable[[GimbalFaultBench, float], None]:
     """Longer than the link's patience, shorter than the time for which giving back is tried."""
 
-    def breaks(scene: Scene, now: float) -> None:
-        pass_time = scene.clock.hook
+    def breaks(bench: GimbalFaultBench, now: float) -> None:
+        pass_time = bench.clock.hook
 
         def until(later: float) -> None:
-            scene.bus.room = 0 if later < now + seconds else 1 << 30
+            bench.bus.room = 0 if later < now + seconds else 1 << 30
             pass_time(later)
 
-        scene.clock.hook = until
+        bench.clock.hook = until
 
     return breaks
 
 
-def stalled(scene: Scene, seconds: float) -> None:
-    assert isinstance(scene.clock, StallingClock)
-    scene.clock.stall(seconds)
+def stalled(bench: GimbalFaultBench, seconds: float) -> None:
+    assert isinstance(bench.clock, StallingClock)
+    bench.clock.stall(seconds)
 
 
-def stalled_with_a_coarse_clock(scene: Scene, now: float) -> None:
+def stalled_with_a_coarse_clock(bench: GimbalFaultBench, now: float) -> None:
     """All readings from then on have one time, whatever the place: a device may date them so."""
-    stalled(scene, 0.3)
-    reporter = scene.loop._reporters[0]
+    stalled(bench, 0.3)
+    reporter = bench.loop._reporters[0]
     report = reporter.report
     reporter.report = lambda later: {  # type: ignore[method-assign]  # a defect is put in
         axis: reading._replace(time=min(reading.time, now + 0.35)) for axis, reading in report(later).items()
     }
 
 
-def stalled_and_deaf(scene: Scene, _now: float) -> None:
+def stalled_and_deaf(bench: GimbalFaultBench, _now: float) -> None:
     """It hears, but its readings stay those of before the stall."""
-    stalled(scene, 0.3)
-    reporter = scene.loop._reporters[0]
-    before = reporter.report(scene.clock.now())
+    stalled(bench, 0.3)
+    reporter = bench.loop._reporters[0]
+    before = reporter.report(bench.clock.now())
     reporter.report = lambda _now: before  # type: ignore[method-assign]
 
 
-def cable_out(scene: Scene, _now: float) -> None:
-    scene.deaf = scene.mute = True
+def cable_out(bench: GimbalFaultBench, _now: float) -> None:
+    bench.deaf = bench.mute = True
 
 
-def mute(scene: Scene, _now: float) -> None:
-    scene.mute = True
+def mute(bench: GimbalFaultBench, _now: float) -> None:
+    bench.mute = True
 
 
-def angles_lost(scene: Scene, _now: float) -> None:
-    scene.gimbal.tells_angles = False
+def angles_lost(bench: GimbalFaultBench, _now: float) -> None:
+    bench.gimbal.tells_angles = False
 
 
 def raises_always(error: BaseException) -> Callable[..., Any]:
@@ -121,41 +121,41 @@ def raises_always(error: BaseException) -> Callable[..., Any]:
     return fails
 
 
-def in_source(error: BaseException) -> Callable[[Scene, float], None]:
+def in_source(error: BaseException) -> Callable[[GimbalFaultBench, float], None]:
     """In every read from now on, not in one only."""
 
-    def breaks(scene: Scene, _now: float) -> None:
-        scene.mover.read = raises_always(error)  # type: ignore[method-assign]  # a defect is put in
+    def breaks(bench: GimbalFaultBench, _now: float) -> None:
+        bench.mover.read = raises_always(error)  # type: ignore[method-assign]  # a defect is put in
         raise error
 
     return breaks
 
 
-def in_planner(scene: Scene, _now: float) -> None:
-    scene.loop._planner.step = raises_always(ZeroDivisionError("a defect"))  # type: ignore[method-assign]
+def in_planner(bench: GimbalFaultBench, _now: float) -> None:
+    bench.loop._planner.step = raises_always(ZeroDivisionError("a defect"))  # type: ignore[method-assign]
 
 
-def planner_goes_mad(scene: Scene, _now: float) -> None:
-    planner = scene.loop._planner
+def planner_goes_mad(bench: GimbalFaultBench, _now: float) -> None:
+    planner = bench.loop._planner
     step = planner.step
     planner.step = lambda demand, steps=1: {
         axis: s._replace(position=float("nan")) for axis, s in step(demand, steps).items()
     }  # type: ignore[method-assign]
 
 
-def planner_never_rests(scene: Scene, now: float) -> None:
-    planner = scene.loop._planner
+def planner_never_rests(bench: GimbalFaultBench, now: float) -> None:
+    planner = bench.loop._planner
     step = planner.step
     planner.step = lambda demand, steps=1: step(_SPEED_ON, steps)  # type: ignore[method-assign]
-    scene.loop.interrupt("SIGINT received")
+    bench.loop.interrupt("SIGINT received")
 
 
-def in_watcher(scene: Scene, _now: float) -> None:
-    scene.watcher.write = raises_always(MemoryError("no room"))  # type: ignore[method-assign]
+def in_watcher(bench: GimbalFaultBench, _now: float) -> None:
+    bench.watcher.observe = raises_always(MemoryError("no room"))  # type: ignore[method-assign]
 
 
-def in_sink(scene: Scene, _now: float) -> None:
-    sink = scene.loop._sinks[0]
+def in_sink(bench: GimbalFaultBench, _now: float) -> None:
+    sink = bench.loop._sinks[0]
     write = sink.write
     countdown = iter(range(3))
 
@@ -167,8 +167,8 @@ def in_sink(scene: Scene, _now: float) -> None:
     sink.write = fails  # type: ignore[method-assign]
 
 
-def in_reporter(scene: Scene, _now: float) -> None:
-    scene.loop._reporters[0].report = raises_always(KeyError("a defect"))  # type: ignore[method-assign]
+def in_reporter(bench: GimbalFaultBench, _now: float) -> None:
+    bench.loop._reporters[0].report = raises_always(KeyError("a defect"))  # type: ignore[method-assign]
 
 
 SILENT = "gimbal on faulty:.* does not answer: is it on, is the cable in[?]"
@@ -240,7 +240,7 @@ ROWS = [
 def test_a_fault_ends_at_rest_and_given_back_with_its_reason(
     row: Row, mode: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with scene(mode, tmp_path, monkeypatch) as stage:
+    with gimbal_fault_bench(mode, tmp_path, monkeypatch) as stage:
         stage.move(lambda now: row.breaks(stage, now))
         stage.assert_moving_when_broken()
         stage.assert_at_rest()
@@ -257,7 +257,7 @@ def test_a_gimbal_that_is_no_longer_reached_stops_by_itself_within_half_a_second
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for mode, holds in (("position", 0.1), ("speed", 0.5), ("stick", 0.5)):
-        with scene(mode, tmp_path, monkeypatch) as stage:
+        with gimbal_fault_bench(mode, tmp_path, monkeypatch) as stage:
             stage.move(lambda now: unplugged(stage, now))
             last = max(time for time, _ in stage.wire)
             still = min(time for time, yaw, pitch in stage.rates if time > last and abs(yaw) < 0.5 and abs(pitch) < 0.5)
@@ -268,7 +268,7 @@ def test_a_gimbal_that_is_no_longer_reached_stops_by_itself_within_half_a_second
 def test_a_jump_of_the_wall_clock_is_not_felt(step: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In real time, because only there is a clock that might be the wrong one."""
     wall, sent = time.time, []
-    with scene("speed", tmp_path, monkeypatch, RealClock()) as stage:
+    with gimbal_fault_bench("speed", tmp_path, monkeypatch, RealClock()) as stage:
         send = stage.bus.send
 
         def noted(message: can.Message, timeout: float | None = None) -> None:
@@ -288,7 +288,7 @@ def test_an_axis_that_was_held_does_not_set_out_once_it_is_let_go(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for mode in MODES:
-        with scene(mode, tmp_path, monkeypatch) as stage:
+        with gimbal_fault_bench(mode, tmp_path, monkeypatch) as stage:
             stage.move(lambda now: stage.gimbal.hold(now, yaw=True))
             stood = stage.gimbal.angles.yaw
             [*_, (_, last)] = (
@@ -308,7 +308,7 @@ def test_an_axis_that_was_held_does_not_set_out_once_it_is_let_go(
 def test_control_is_given_back_again_when_that_very_frame_is_lost(
     lost: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with scene("speed", tmp_path, monkeypatch) as stage:
+    with gimbal_fault_bench("speed", tmp_path, monkeypatch) as stage:
         receive, left = stage.gimbal.receive, [lost]
 
         def lossy(data: bytes, now: float) -> None:
@@ -331,7 +331,7 @@ def test_ctrl_c_again_and_again_while_it_is_given_back(
     at: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As Python raises it where nobody handles the signal, out of whatever is being called."""
-    with scene("speed", tmp_path, monkeypatch) as stage:
+    with gimbal_fault_bench("speed", tmp_path, monkeypatch) as stage:
         pressed: list[float] = []
         send = stage.bus.send
 

@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
+from fakes import NO_FEEDBACK
 
 from teleop.config.document import DocumentError
 from teleop.core.axes import Axis, State
@@ -53,11 +54,11 @@ def test_deflections_hold_between_rows_and_end_with_the_last(tmp_path: Path) -> 
     sticks = read_sticks(written(tmp_path, "time, pan, tilt\n1,0.5,0\n2,-1,1\n3,1,1\n"), KNOWN)
     source = SticksSource(sticks, lambda axis, deflection: 100 * deflection)
     source.start(10.0, {Axis.PAN: State(0), Axis.TILT: State(0)})
-    assert source.read(10.5) == ({}, ())
+    assert source.read(10.5, NO_FEEDBACK) == ({}, ())
     assert source.next_change(10.5) == 11.0
-    assert source.read(11.0)[0] == {Axis.PAN: VelocityTarget(50)}  # a centred stick has no opinion
-    assert source.read(11.99)[0] == {Axis.PAN: VelocityTarget(50)}
-    assert source.read(12.0)[0] == {Axis.PAN: VelocityTarget(-100), Axis.TILT: VelocityTarget(100)}
+    assert source.read(11.0, NO_FEEDBACK)[0] == {Axis.PAN: VelocityTarget(50)}  # a centred stick has no opinion
+    assert source.read(11.99, NO_FEEDBACK)[0] == {Axis.PAN: VelocityTarget(50)}
+    assert source.read(12.0, NO_FEEDBACK)[0] == {Axis.PAN: VelocityTarget(-100), Axis.TILT: VelocityTarget(100)}
     assert source.next_change(12.0) == 13.0
-    assert source.read(13.0) == ({}, ())  # the last row ends it
+    assert source.read(13.0, NO_FEEDBACK) == ({}, ())  # the last row ends it
     assert math.isinf(source.next_change(13.0))

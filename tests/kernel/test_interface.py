@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from bus_listener import BusListener
 from command import running
 from network import own_network
-from onlooker import Onlooker
 
 GIMBAL = "gimbal=socketcan:vcan0"
 DOWN = "socketcan:vcan0: vcan0 is down: sudo ip link set vcan0 up"
@@ -41,8 +41,8 @@ def panning(sticks: Path) -> Iterator[list[subprocess.Popen[str]]]:
         assert sim.stdout is not None
         assert "simulated gimbal" in sim.stdout.readline()
         with running("live", "--sticks", str(sticks), "--link", GIMBAL) as live:
-            with Onlooker("vcan0") as onlooker:
-                onlooker.until(lambda: onlooker.pan > 5, "the pan")
+            with BusListener("vcan0") as listener:
+                listener.until(lambda: listener.pan > 5, "the pan")
             yield [sim, live]
 
 

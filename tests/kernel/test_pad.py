@@ -15,9 +15,9 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+from bus_listener import BusListener
 from command import running
 from network import own_network
-from onlooker import Onlooker
 from uhid import Pad, plugged_in
 
 DEVICES = json.loads((Path(__file__).parents[1] / "data" / "hid.json").read_text())["devices"]
@@ -51,7 +51,7 @@ sinks:
 class Scene:
     """A pad and a run that it drives, watched from the bus."""
 
-    def __init__(self, pad: Pad, live: subprocess.Popen[str], bus: Onlooker) -> None:
+    def __init__(self, pad: Pad, live: subprocess.Popen[str], bus: BusListener) -> None:
         self.pad, self.bus = pad, bus
         self._said: list[str] = []
         self._heard = 0
@@ -97,7 +97,7 @@ def scene(tmp_path: Path) -> Iterator[Scene]:
         sim = stack.enter_context(running("sim", "--link", LINK))
         assert sim.stdout is not None
         assert "simulated gimbal" in sim.stdout.readline()
-        bus = stack.enter_context(Onlooker("vcan0"))
+        bus = stack.enter_context(BusListener("vcan0"))
         scene = Scene(pad, stack.enter_context(running("live", *options)), bus)
         bus.more(10)
         yield scene

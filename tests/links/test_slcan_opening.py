@@ -144,6 +144,37 @@ def test_a_refusal_of_the_bit_rate_or_of_opening_is_reported_as_one(refused: byt
     assert firmware.now < 2
 
 
+@pytest.mark.parametrize(
+    ("refused", "named"), [(b"S8", r"refuses S8 \(1000000 bit/s\)"), (b"O", r"refuses O \(open\)")]
+)
+def test_frames_do_not_hide_a_refusal(refused: bytes, named: str) -> None:
+    """An adapter at its old bit rate may send frames all the same."""
+    firmware = Firmware(traffic=True)
+    firmware.speed = b"S6"
+
+    def refuses(command: bytes) -> bytes:
+        answer = firmware.lawicel(command)
+        return b"\a" if command == refused else answer
+
+    firmware.answers = refuses
+    with pytest.raises(LinkError, match=f"^slcan:/dev/ttyACM0: the adapter {named}: plug it in again, or use an"):
+        firmware.open()
+
+
+def test_a_refused_bit_rate_is_forgotten_once_a_later_round_succeeds() -> None:
+    firmware, heard = Firmware(traffic=True), []
+
+    def first_refused(command: bytes) -> bytes:
+        heard.append(command)
+        return b"\a" if command == b"S8" and heard.count(b"S8") < 3 else firmware.lawicel(command)
+
+    firmware.answers = first_refused
+    firmware.speed = b"S6"
+    firmware.open()
+    assert (firmware.opened, firmware.speed) == (True, b"S8")
+    assert heard.count(b"S8") == 3
+
+
 def test_one_that_refuses_what_it_heard_in_half_is_asked_again() -> None:
     firmware, heard = Firmware(), []
 
@@ -195,6 +226,24 @@ class Resetting(SlcanBus):
     def handle(self, side: int, data: bytes) -> None:
         if time.monotonic() - self._first.setdefault(side, time.monotonic()) >= self.DEAF:
             super().handle(side, data)
+
+
+class OtherBitRate(SlcanBus):
+    """The adapters refuse S8, and send a frame with each command all the same."""
+
+    def handle(self, side: int, data: bytes) -> None:
+        for command in data.split(b"\r")[:-1]:
+            self.write(side, b"t2221AA\r" + (b"\a" if command.startswith(b"S") else b"\r"))
+
+
+def test_a_refused_bit_rate_on_a_pty_is_an_error_of_one_line() -> None:
+    hardware = OtherBitRate()
+    try:
+        with pytest.raises(LinkError, match=r"^slcan:/dev/\S+: the adapter refuses S8 \(1000000 bit/s\): ") as error:
+            open_link(f"slcan:{hardware.ports[0]}", now=time.monotonic)
+        assert "\n" not in str(error.value)
+    finally:
+        hardware.close()
 
 
 def test_a_link_over_an_adapter_on_a_pty_that_resets() -> None:

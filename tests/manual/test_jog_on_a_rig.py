@@ -77,7 +77,7 @@ class Repeats:
         self.last = self.begin = float("nan")
         self.fastest = State(0.0)
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         if self.begin != self.begin:  # not yet known
             self.begin = tick.time
         if self._left and tick.time - self.begin >= self._left[0]:
@@ -88,8 +88,6 @@ class Repeats:
             self.fastest = tick.motion[Axis.PAN]
         if tick.time - self.begin >= END:
             self._device.press(Command.QUIT)
-
-    def release(self, now: float) -> float | None: ...
 
 
 def last_motion(tap: wire.Tap, mode: str) -> float:
@@ -113,7 +111,7 @@ class Run:
             self.tap = wire.tapped(rig)
             self._advance, self.tap.gimbal.advance = self.tap.gimbal.advance, self._followed
             operator = Operator(profile.limits, [device], presets, profile.sticks, profile.presets.recall)
-            ended = rig.loop([Axis.PAN], [operator], [operator, self.repeats]).run()
+            ended = rig.loop([Axis.PAN], [operator], [self.repeats]).run()
         presets.close()
         assert ended.result is Result.DONE
         assert self.repeats.fastest.velocity > 2, "it moved while the key was held"

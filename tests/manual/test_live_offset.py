@@ -4,13 +4,14 @@ import math
 
 import pytest
 from at_once import AtOnce
+from fakes import NO_FEEDBACK
 from hands import FakeInput
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teleop.config.operator_settings import SticksSection
 from teleop.core.axes import Axis, Limits, State
-from teleop.core.events import Tick
+from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command
 from teleop.core.setpoints import StateTarget, Stop
 from teleop.manual.live_offset import LiveOffset
@@ -71,7 +72,7 @@ class Set:
         """One tick, late ones too; asserts that the sum is legal and met."""
         self.now += ticks * DT
         self.ticks += 1
-        demand, _ = self.controls.read(self.now)
+        demand, _ = self.controls.read(self.now, NO_FEEDBACK)
         before = self.live.motion
         after = self.live.step(demand, ticks)
         for axis, limits in LIMITS.items():
@@ -207,13 +208,12 @@ def test_a_stop_halts_sequence_and_trim_and_both_are_met_again_afterwards():
     def run(seconds: float) -> None:
         for _ in range(round(seconds / DT)):
             scene.now += DT
-            demand, _ = guard.read(scene.now)
+            demand, _ = guard.read(scene.now, Feedback(scene.live.motion, {}))
             before, after = scene.live.motion, scene.live.step(demand)
             for axis, limits in LIMITS.items():
                 assert abs(after[axis].velocity) <= limits.velocity + 1e-6
                 assert abs(after[axis].acceleration) <= limits.acceleration + 1e-6
                 assert abs(after[axis].acceleration - before[axis].acceleration) / DT <= limits.jerk + 1e-6
-            guard.write(Tick(scene.now, after, demand, (), {}))
             taken.append((demand, after))
 
     run(5)

@@ -47,13 +47,11 @@ class Performer:
         self.history: list[tuple[float, Motion]] = []
         self._pad, self._script = pad, list(script)
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         self.history.append((tick.time, tick.motion))
         elapsed = tick.time - self.history[0][0]
         while self._script and elapsed >= self._script[0][0]:
             self._script.pop(0)[1](self._pad)
-
-    def release(self, now: float) -> float | None: ...
 
 
 class Show:
@@ -71,7 +69,7 @@ class Show:
         with open_rig(profile, clock) as rig:
             self.tap = wire.tapped(rig)
             commands = CommandSink(rig.connections["gimbal"], self.operator.say)
-            loop = rig.loop(list(profile.axes), [self.operator], [self.operator, commands, self.performer])
+            loop = rig.loop(list(profile.axes), [self.operator], [self.performer], [commands])
             self.ended: RunStateMachine = loop.run()
             self.tap.gimbal.advance(clock.now() + 1)
         presets.close()

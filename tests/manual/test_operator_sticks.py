@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from fakes import NO_FEEDBACK
 from hands import LIMITS, Desk
 
 from teleop.core.axes import STICKS, Axis, Limits
@@ -102,6 +103,6 @@ def test_what_a_drone_is_told_does_not_wait_for_rest(desk: Desk) -> None:
 def test_recorded_sticks_hold_it_where_the_row_has_it_to_the_end() -> None:
     source = SticksSource(Sticks([PITCH, Axis.PAN], [0, 1, 2], [[0, 0], [0.5, 0.5], [0, 0]]), lambda _axis, d: 10 * d)
     source.start(5.0, {})
-    assert source.read(5.5)[0] == {PITCH: PositionTarget(0)}
-    assert source.read(6.5)[0][PITCH] == PositionTarget(0.5)
-    assert source.read(7.0)[0] == {PITCH: PositionTarget(0.0)}, "let go, and still held"
+    assert source.read(5.5, NO_FEEDBACK)[0] == {PITCH: PositionTarget(0)}
+    assert source.read(6.5, NO_FEEDBACK)[0][PITCH] == PositionTarget(0.5)
+    assert source.read(7.0, NO_FEEDBACK)[0] == {PITCH: PositionTarget(0.0)}, "let go, and still held"

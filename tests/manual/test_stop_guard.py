@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 from teleop.app.calibration_move import CalibrationMove
 from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.errors import DeviceError, Interrupted
-from teleop.core.events import Action, DeviceCommand, Tick, TickEvent
+from teleop.core.events import Action, DeviceCommand, TickEvent
 from teleop.core.guard_stop import stop_phases, stop_state
+from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command
 from teleop.core.setpoints import Demand, Stop
 from teleop.inputs.recorded_sticks import Sticks, SticksSource
@@ -88,15 +89,14 @@ class Run:
 
     def tick(self) -> None:
         self.now += DT
-        self.demand, acts = self.guard.read(self.now)
+        try:
+            self.demand, acts = self.guard.read(self.now, Feedback(self.motion, {}))
+        except Interrupted as ended:
+            self.ended = ended
+            self.demand, acts = dict.fromkeys(self.motion, Stop()), ()  # as the loop does in the same tick
         self.acts += acts
         before, self.motion = self.motion, self.planner.step(self.demand)
         check_legal(before, self.motion)
-        try:
-            for watcher in (self.controls, self.guard):
-                watcher.write(Tick(self.now, self.motion, self.demand, acts, {}))
-        except Interrupted as ended:
-            self.ended = ended
 
     def run(self, seconds: float) -> None:
         for _ in range(round(seconds / DT)):
@@ -155,6 +155,7 @@ def test_stop_takes_the_fastest_legal_stop_and_latches() -> None:
     for axis, state in moving.items():
         end = stop_state(state, LIMITS[axis].acceleration, LIMITS[axis].jerk, math.inf).position
         assert run.motion[axis].position == pytest.approx(end, abs=1e-6)
+    run.tick()  # whose feedback is that they rest
     assert run.guard.stop == "stopped"
     assert run.guard.note == "STOPPED. Press c to clear, q to end."
     there = dict(run.motion)
@@ -370,9 +371,8 @@ def test_a_calibration_move_that_was_stopped_begins_anew_where_the_axis_rests() 
         now += DT
         if tick in script:
             keys.press(script[tick])
-        demand, acts = guard.read(now)
+        demand, _ = guard.read(now, Feedback(motion, {}))
         motion = planner.step(demand)
-        guard.write(Tick(now, motion, demand, acts, {}))
         if tick == 450:
             assert motion[PAN].velocity == 0
             rest = motion[PAN].position
@@ -395,9 +395,8 @@ def test_recorded_sticks_stand_still_during_a_stop_and_go_on_where_they_were() -
         for at, command in ((100, STOP), (400, CLEAR), (500, GO)):
             if tick == at:
                 pad.press(command)
-        demand, acts = guard.read(now)
+        demand, _ = guard.read(now, Feedback(motion, {}))
         motion = planner.step(demand)
-        guard.write(Tick(now, motion, demand, acts, {}))
         assert not 200 < tick < 500 or motion[PAN].velocity == 0
         if math.isinf(guard.next_change(now)):
             break

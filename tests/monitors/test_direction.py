@@ -78,7 +78,7 @@ class Plant:
                     guard.sent(now, speeds)
                 pending.append((now + self.dead_time, speeds[Axis.PAN] if self.speeds else state.position))
             try:
-                guard.write(tick)
+                guard.observe(tick)
             except DeviceError as error:
                 return now, abs(place), str(error)
         return math.inf, abs(place), ""

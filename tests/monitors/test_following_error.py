@@ -35,7 +35,7 @@ def watch(
         at = math.floor(now * rate + 1e-9) / rate
         reported = {Axis.PAN: Reading(measured(at), at)}
         try:
-            guard.write(Tick(now, {Axis.PAN: State(commanded(now))}, {}, (), reported))
+            guard.observe(Tick(now, {Axis.PAN: State(commanded(now))}, {}, (), reported))
         except DeviceError:
             return now
     return math.inf
@@ -46,7 +46,7 @@ def test_an_axis_that_stays_behind_is_said_with_both_places() -> None:
     ticks = [Tick(n / 100, {Axis.PAN: State(12.0)}, {}, (), {Axis.PAN: Reading(3.1, n / 100)}) for n in range(100)]
     said = r"^pan does not follow: commanded 12\.0, measured 3\.1: is it blocked, or held by hand\?$"
     with pytest.raises(DeviceError, match=said):
-        list(map(guard.write, ticks))
+        list(map(guard.observe, ticks))
 
 
 @pytest.mark.parametrize("delay", [0.0, 0.3])
@@ -72,9 +72,9 @@ def test_readings_that_stop_are_blindness_even_at_rest() -> None:
     assert watch(lambda _t: 0.0, lambda _t: 0.0, 10, rate=0.1) == pytest.approx(BLIND, abs=0.02)
     guard = FollowingErrorGuard({Axis.PAN: BOUNDED}, {Axis.PAN: 5.0}, {})
     motion = {Axis.PAN: State(0.0)}
-    guard.write(Tick(100.0, motion, {}, (), {Axis.PAN: Reading(0.0, 1.0)}))  # from before the run
+    guard.observe(Tick(100.0, motion, {}, (), {Axis.PAN: Reading(0.0, 1.0)}))  # from before the run
     with pytest.raises(DeviceError, match=r"^pan: no position has been reported for 2\.5 s$"):
-        guard.write(Tick(102.6, motion, {}, (), {Axis.PAN: Reading(0.0, 1.0)}))
+        guard.observe(Tick(102.6, motion, {}, (), {Axis.PAN: Reading(0.0, 1.0)}))
 
 
 @given(st.integers(-5, 5))
@@ -89,4 +89,4 @@ def test_a_turn_more_or_less_is_the_same_place_for_an_axis_without_stops(turns: 
 def test_axes_that_are_not_watched_or_not_in_use_are_left_alone() -> None:
     guard = FollowingErrorGuard({Axis.PAN: BOUNDED}, {Axis.PAN: 5.0}, {})
     for number in range(1000):
-        guard.write(Tick(number / 100, {Axis.FOCUS: State(1.0)}, {}, (), {Axis.FOCUS: Reading(0.0, number / 100)}))
+        guard.observe(Tick(number / 100, {Axis.FOCUS: State(1.0)}, {}, (), {Axis.FOCUS: Reading(0.0, number / 100)}))

@@ -18,7 +18,7 @@ PAN = Axis.PAN
 
 
 def watch(passes: Repeatability, time: float, commanded: float, measured: float, measured_at: float) -> None:
-    passes.write(Tick(time, {PAN: State(commanded)}, {}, (), {PAN: Reading(measured, measured_at)}))
+    passes.observe(Tick(time, {PAN: State(commanded)}, {}, (), {PAN: Reading(measured, measured_at)}))
 
 
 def test_a_pass_is_compared_at_the_moves_own_time_and_readings_once():

@@ -60,7 +60,7 @@ def heard(
         tap = wire.tapped(rig)
         source = SequenceSource(performance, profile.limits, speed, cycle=Cycle(0.5, passes=passes))
         told = CommandSink(next(iter(rig.connections.values())), lambda _text: None)
-        ended = rig.loop(list(performance.move.tracks), [source], [told]).run()
+        ended = rig.loop(list(performance.move.tracks), [source], sinks=[told]).run()
     assert (ended.result, ended.reasons) == (Result.DONE, [])
     sent = [(round(time - source.begin, 6), each) for time, each in tap.heard if time > source.begin - 1e-6]
     return [(time, each) for time, each in sent if not isinstance(each, streams)]

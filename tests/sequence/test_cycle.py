@@ -5,6 +5,7 @@ from contextlib import ExitStack
 
 import pytest
 from at_once import AtOnce
+from fakes import NO_FEEDBACK
 
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.events import Action, DeviceCommand, TickEvent
@@ -62,7 +63,7 @@ class Stage:
 
     def step(self) -> None:
         self.now += DT
-        demand, acts = self.source.read(self.now)
+        demand, acts = self.source.read(self.now, NO_FEEDBACK)
         wish = demand[PAN]
         assert isinstance(wish, StateTarget)
         self.pan = self.live.step(demand)[PAN]
@@ -171,11 +172,11 @@ def test_a_loop_that_does_not_is_eased_back_and_keeps_the_speed_chosen_meanwhile
 
 def test_before_a_pass_that_is_compared_there_is_a_hush():
     source = Stage(THERE, Cycle(passes=2, compared=True)).source
-    source.read(100.0)
+    source.read(100.0, NO_FEEDBACK)
     assert source.phase is SequencePhase.PREROLL
     assert source.next_change(100.0) == source.begin == 100.0 + KEEP_ALIVE
     long = Stage(THERE, Cycle(preroll=5, passes=2, compared=True)).source
-    long.read(100.0)
+    long.read(100.0, NO_FEEDBACK)
     assert long.next_change(100.0) == pytest.approx(105 - KEEP_ALIVE)
     assert long.next_change(105 - KEEP_ALIVE) == 105
 

@@ -4,12 +4,13 @@ import math
 
 import pytest
 from at_once import AtOnce
+from fakes import NO_FEEDBACK
 
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.errors import Interrupted
-from teleop.core.events import Action, Tick
+from teleop.core.events import Action
 from teleop.core.operator_input import Command, Held, Press
-from teleop.core.setpoints import StateTarget, Stop
+from teleop.core.setpoints import StateTarget
 from teleop.planner.keyframes.planner import Key, plan
 from teleop.planner.live import Live
 from teleop.sequence.compile import CompiledSequence
@@ -71,7 +72,7 @@ class Show:
         demand = {}
         for _ in range(round(seconds / DT)):
             self.now += DT
-            demand, _ = self.controls.read(self.now)
+            demand, _ = self.controls.read(self.now, NO_FEEDBACK)
         wish = demand[Axis.PAN]
         assert isinstance(wish, StateTarget)
         return wish.position
@@ -121,7 +122,7 @@ def test_before_the_move_begins_keys_are_answered_and_do_nothing():
     early = PlaybackControls(show.sequence, show.keys)
     early.start(0.0, {Axis.PAN: State(-40.0)})
     show.keys.pressed.append(PAUSE)
-    early.read(0.01)
+    early.read(0.01, NO_FEEDBACK)
     assert early.note == "the move has not begun"
     assert not show.sequence.playback.changing(show.sequence.begin)
 
@@ -131,9 +132,9 @@ def test_what_was_said_before_the_move_is_not_said_while_it_plays():
     again = PlaybackControls(show.sequence, show.keys)
     again.start(0.0, {Axis.PAN: State(20.0)})
     show.keys.pressed += [PAUSE]
-    again.read(DT)
+    again.read(DT, NO_FEEDBACK)
     assert again.note == "the move has not begun"
-    again.read(show.sequence.begin)
+    again.read(show.sequence.begin, NO_FEEDBACK)
     assert again.note == f"100%  {HELP}"
 
 
@@ -143,15 +144,13 @@ def test_it_is_over_when_the_sequence_is():
     assert show.controls.next_change(show.now) == float("inf")
 
 
-def test_stop_halts_at_once_and_ends_the_run_without_losing_a_tick():
+def test_an_end_by_the_operator_ends_the_run_at_once():
     show = Show()
     show.run(2)
     show.keys.pressed.append(QUIT)
     show.now += DT
-    demand, acts = show.controls.read(show.now)
-    assert (demand, acts) == ({Axis.PAN: Stop()}, ())
     with pytest.raises(Interrupted, match="stopped by keys"):
-        show.controls.write(Tick(show.now, {}, demand, (), {}))
+        show.controls.read(show.now, NO_FEEDBACK)
 
 
 def test_go_is_for_a_move_that_waits_and_means_nothing_else():
@@ -182,7 +181,7 @@ class WaitingShow(Show):
     def watch(self, seconds: float) -> None:
         for _ in range(round(seconds / DT)):
             self.now += DT
-            demand, acts = self.controls.read(self.now)
+            demand, acts = self.controls.read(self.now, NO_FEEDBACK)
             self.acts += [(self.now, act) for act in acts]
             follow = demand[Axis.PAN]
             assert isinstance(follow, StateTarget)
@@ -245,9 +244,8 @@ def test_a_stop_ends_it_while_it_waits() -> None:
     show = WaitingShow()
     show.watch(6)
     show.keys.pressed.append(QUIT)
-    show.controls.read(show.now + DT)
     with pytest.raises(Interrupted):
-        show.controls.write(Tick(show.now, {}, {}, (), {}))
+        show.controls.read(show.now + DT, NO_FEEDBACK)
 
 
 def test_a_drone_is_not_paused() -> None:
@@ -257,8 +255,8 @@ def test_a_drone_is_not_paused() -> None:
     sequence = SequenceSource(CompiledSequence("Fly", plan(keys, limits), [], [], keys), limits, executor=AtOnce())
     controls = PlaybackControls(sequence, pressed)
     controls.start(0.0, {Axis.STICK_YAW: State(0.0)})
-    controls.read(sequence.begin + 1)
+    controls.read(sequence.begin + 1, NO_FEEDBACK)
     pressed.pressed.append(PAUSE)
-    controls.read(sequence.begin + 1.01)
+    controls.read(sequence.begin + 1.01, NO_FEEDBACK)
     assert "a drone keeps flying" in controls.note
     assert not sequence.playback.changing(sequence.begin + 1.01)

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from fakes import NO_FEEDBACK
 
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.events import Action
@@ -23,14 +24,14 @@ def started(here: float = 0.0, cues: list[Cue] | None = None) -> SequenceSource:
 
 def test_it_eases_from_where_the_axes_are_and_waits_the_preroll() -> None:
     source = started(here=-20)
-    first = source.read(5.0)[0][Axis.PAN]
+    first = source.read(5.0, NO_FEEDBACK)[0][Axis.PAN]
     assert isinstance(first, StateTarget)
     assert first.position == pytest.approx(-20)
     assert source.next_change(5.0) == 5.0
     assert 5.0 < source.begin < 9.0
     assert source.begin * 100 == pytest.approx(round(source.begin * 100), abs=1e-6)
     waiting = source.begin - PREROLL / 2
-    assert source.read(waiting)[0][Axis.PAN] == StateTarget(10, 0, 0)
+    assert source.read(waiting, NO_FEEDBACK)[0][Axis.PAN] == StateTarget(10, 0, 0)
     assert source.next_change(waiting) == source.begin
 
 
@@ -38,21 +39,21 @@ def test_the_move_runs_on_its_own_clock_and_rests_are_slept_over() -> None:
     source = started(here=10)
     assert source.begin == 5.0 + PREROLL
     assert source.next_change(source.begin + 1) == source.begin + 1
-    assert source.read(source.begin + 4)[0][Axis.PAN] == StateTarget(30, 0, 0)
+    assert source.read(source.begin + 4, NO_FEEDBACK)[0][Axis.PAN] == StateTarget(30, 0, 0)
     assert source.next_change(source.begin + 4) == source.begin + 104
     assert source.next_change(source.begin + 105) == source.begin + 105
-    source.read(source.begin + 110)
+    source.read(source.begin + 110, NO_FEEDBACK)
     assert math.isinf(source.next_change(source.begin + 110))
-    assert source.read(source.begin + 1000)[0][Axis.PAN] == StateTarget(0, 0, 0)
+    assert source.read(source.begin + 1000, NO_FEEDBACK)[0][Axis.PAN] == StateTarget(0, 0, 0)
 
 
 def test_cues_are_given_once_and_keep_it_awake() -> None:
     source = started(here=10, cues=[Cue(0, Action.RECORD), Cue(50, Action.SHUTTER), Cue(120, Action.STOP)])
-    assert source.read(source.begin - 0.01)[1] == []
-    assert source.read(source.begin)[1] == [Action.RECORD]
-    assert source.read(source.begin + 0.01)[1] == []
+    assert source.read(source.begin - 0.01, NO_FEEDBACK)[1] == []
+    assert source.read(source.begin, NO_FEEDBACK)[1] == [Action.RECORD]
+    assert source.read(source.begin + 0.01, NO_FEEDBACK)[1] == []
     assert source.next_change(source.begin + 10) == source.begin + 50
-    assert source.read(source.begin + 50.02)[1] == [Action.SHUTTER]
+    assert source.read(source.begin + 50.02, NO_FEEDBACK)[1] == [Action.SHUTTER]
     assert source.next_change(source.begin + 110) == source.begin + 120
-    assert source.read(source.begin + 120)[1] == [Action.STOP]
+    assert source.read(source.begin + 120, NO_FEEDBACK)[1] == [Action.STOP]
     assert math.isinf(source.next_change(source.begin + 120))

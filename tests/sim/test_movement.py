@@ -51,17 +51,17 @@ COMBINATIONS = [
 def flying() -> SimulatedDrone:
     """At 50 m, its nose to the east, controlled by the onboard computer."""
     drone = SimulatedDrone(yaw=NOSE)
-    drone.cockpit.flight.hover(50.0)
+    drone.autopilot.flight.hover(50.0)
     drone.receive(raw_frame(b"\x00\x01" + struct.pack("<III32s", 1, 2, 0x03010A00, b"9" * 32), 2, 1), 0.0)
     for sequence in (2, 3):
         drone.receive(raw_frame(b"\x01\x00\x01", 2, sequence), 0.0)
     drone.advance(0.0)
-    assert drone.cockpit.obtained
+    assert drone.autopilot.obtained
     return drone
 
 
 def bearing(drone: SimulatedDrone) -> str:
-    pose = drone.cockpit.pose
+    pose = drone.autopilot.pose
     assert math.hypot(pose.north, pose.east) > 0.5
     assert min(abs(pose.north), abs(pose.east)) < 0.01
     if abs(pose.north) > abs(pose.east):
@@ -80,7 +80,7 @@ def test_every_combination_moves_it_the_documented_way(
         drone.receive(raw_frame(b"\x01\x03" + struct.pack("<Bffff", mode, first, second, z, w), 0, step), step / 50)
     drone.advance(2.0)
     assert bearing(drone) == way
-    pose = drone.cockpit.pose
+    pose = drone.autopilot.pose
     assert pose.height == pytest.approx(50.0, abs=0.01)
     if horizontal == TILT:  # what the maker's sample attitudeControl waits for in the broadcast
         roll, pitch = (first, second) if frame == BODY else (second, -first)  # the nose points east

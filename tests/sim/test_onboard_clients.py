@@ -59,17 +59,17 @@ def test_the_makers_own_virtual_rc_frames_fly_it() -> None:
     """VirtualRC::resetData has gear 1024; other clients leave channel 5 and the rest 0."""
     client = Client()
     client.ask(ACTIVATE)
-    client.drone.cockpit.flight.hover(20.0)
+    client.drone.autopilot.flight.hover(20.0)
     client.tell(ENABLE)
     for number in range(40):
         client.tell(sticks(1024, 1354, 1024, 1024, 1024, 0, 7, rest=0xFFFFFFFF if number % 2 else 0))
         client.wait(0.05)
-    controls = client.drone.cockpit.virtual
+    controls = client.drone.autopilot.virtual
     assert (controls.pitch, controls.switch.name, controls.gear_up) == (0.5, "P", False)
-    assert client.drone.cockpit.pose.velocity_north == pytest.approx(5.0, abs=0.2)
+    assert client.drone.autopilot.pose.velocity_north == pytest.approx(5.0, abs=0.2)
     client.tell(sticks(1024, 1354, 1024, 1024, 1684, 1024, 496))
     client.tell(sticks(1024, 1354, 1024, 1024, 1024, 0, 1))
-    controls = client.drone.cockpit.virtual
+    controls = client.drone.autopilot.virtual
     assert (controls.switch.name, controls.gear_up) == ("F", True), "an unknown value changes nothing"
     assert refusals(client.drone) == []
 
@@ -78,7 +78,7 @@ def test_the_reserved_bits_of_an_enable_are_not_looked_at() -> None:
     client = Client()
     client.ask(ACTIVATE)
     client.tell(b"\x05\x00\xab")
-    assert client.drone.cockpit.virtual_on
+    assert client.drone.autopilot.virtual_on
 
 
 def test_a_repetition_is_answered_by_the_same_bytes_and_not_obeyed_again() -> None:
@@ -94,7 +94,7 @@ def test_a_repetition_is_answered_by_the_same_bytes_and_not_obeyed_again() -> No
     drone.receive(raw_frame(OBTAIN, 2, 10), 1.2)
     assert raw_data(cut(drone.advance(1.2))[-1]) == b"\x02\x00"
     drone.receive(raw_frame(b"\x01\x05\x01", 2, 10), 1.3)  # the same session and sequence, another command
-    assert drone.cockpit.flight.motors
+    assert drone.autopilot.flight.motors
 
 
 def test_constant_sequence_numbers_do_no_harm() -> None:
@@ -118,9 +118,9 @@ def test_the_time_outs_are_settings() -> None:
     client.ask(ACTIVATE)
     client.tell(ENABLE)
     client.wait(0.29)
-    assert client.drone.cockpit.virtual_on
+    assert client.drone.autopilot.virtual_on
     client.wait(0.02)
-    assert not client.drone.cockpit.virtual_on
+    assert not client.drone.autopilot.virtual_on
 
 
 def test_the_result_of_a_task_can_be_asked_for() -> None:
@@ -236,7 +236,7 @@ def test_with_a_key_everything_after_activation_is_encrypted() -> None:
     drone.receive(frame("get_version") + raw_frame(ACTIVATE, 3, 2), 0.1)
     assert all(each[4] == 0 for each in cut(drone.advance(0.1)))
     drone.receive(frame("vrc_enable_backtoreal_enc"), 0.2)
-    assert drone.cockpit.virtual_on
+    assert drone.autopilot.virtual_on
     drone.receive(encrypted(OBTAIN, 2, 7), 0.3)
     sent = cut(drone.advance(0.4))
     assert sent

@@ -17,13 +17,13 @@ def test_control_is_obtained_and_released_at_the_second_time() -> None:
     client = Client()
     client.ask(ACTIVATE)
     assert client.ask(OBTAIN) == "0300"
-    assert not client.drone.cockpit.obtained
+    assert not client.drone.autopilot.obtained
     assert client.ask(OBTAIN) == "0200"
-    assert client.drone.cockpit.obtained
+    assert client.drone.autopilot.obtained
     assert client.ask(RELEASE) == "0400"
-    assert client.drone.cockpit.obtained
+    assert client.drone.autopilot.obtained
     assert client.ask(RELEASE) == "0100"
-    assert not client.drone.cockpit.obtained
+    assert not client.drone.autopilot.obtained
     assert [client.ask(OBTAIN), client.ask(RELEASE), client.ask(OBTAIN)] == ["0300", "0100", "0300"]
 
 
@@ -38,7 +38,7 @@ def test_a_task_that_starts_is_answered_by_2() -> None:
     client = Client.in_control()
     assert client.task(TAKE_OFF) == "0200"
     client.wait(9.0)
-    assert client.drone.cockpit.pose.height == pytest.approx(1.2, abs=0.01)
+    assert client.drone.autopilot.pose.height == pytest.approx(1.2, abs=0.01)
     assert client.task(LAND) == "0200"
 
 
@@ -57,7 +57,7 @@ def test_a_task_that_cannot_start_is_answered_by_1() -> None:
     client.wait(9.0)
     assert client.task(TAKE_OFF) == "0100", "in the air"
     client.task(LAND)
-    while client.drone.cockpit.flight.airborne:
+    while client.drone.autopilot.flight.airborne:
         client.wait(0.1)
     assert client.task(TAKE_OFF) == "0100", "within two seconds of a landing"
     client.wait(2.1)
@@ -67,15 +67,15 @@ def test_a_task_that_cannot_start_is_answered_by_1() -> None:
 @pytest.mark.parametrize("task", [LAND, GO_HOME])
 def test_a_task_holds_against_the_end_of_movement_commands(task: int) -> None:
     client = Client.in_control()
-    client.drone.cockpit.flight.hover(5.5)
+    client.drone.autopilot.flight.hover(5.5)
     for _ in range(100):
         client.tell(b"\x01\x03" + struct.pack("<Bffff", 0x4B, 2.0, 0, 0, 0))
         client.wait(0.02)
     assert client.task(task) == "0200"
     client.wait(40.0)
-    pose = client.drone.cockpit.pose
+    pose = client.drone.autopilot.pose
     assert pose.height == 0.0
-    assert client.drone.cockpit.status.value == 1
+    assert client.drone.autopilot.status.value == 1
     assert (abs(pose.north) < 0.1) == (task == GO_HOME)
 
 
@@ -86,7 +86,7 @@ def test_movement_breaks_a_take_off() -> None:
     client.wait(0.5)
     client.tell(b"\x01\x03" + struct.pack("<Bffff", 0x4B, 0, 0, 0, 0))
     client.wait(9.0)
-    assert client.drone.cockpit.pose.height == 0.0
+    assert client.drone.autopilot.pose.height == 0.0
 
 
 def test_the_loss_of_control_is_pushed_and_its_acknowledgement_is_no_command() -> None:

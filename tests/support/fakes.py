@@ -1,4 +1,4 @@
-"""Plain objects in the shape of the ports, for tests of what stands between them."""
+"""Plain objects in the shape of the interfaces, for tests of what stands between them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from collections.abc import Callable, Mapping, Sequence
 from teleop.core.axes import Axis, Motion, Reading
 from teleop.core.clock import VirtualClock
 from teleop.core.events import Action, Tick
+from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, VelocityTarget
+
+NO_FEEDBACK = Feedback({}, {})  # for a source that asks for none
 
 
 class ScriptedSource:
@@ -21,7 +24,7 @@ class ScriptedSource:
     def start(self, now: float, motion: Motion) -> None:
         self.begin = now
 
-    def read(self, now: float) -> tuple[Demand, Sequence[Action]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[Action]]:
         elapsed = now - self.begin
         due = [action for at, action in self._actions if at <= elapsed]
         self._actions = [(at, action) for at, action in self._actions if at > elapsed]
@@ -49,6 +52,16 @@ class RecordingSink:
     def release(self, now: float) -> float | None:
         self.released.append(now)
         return now + 0.05 if len(self.released) < self._steps else None
+
+
+class RecordingObserver:
+    """Keeps every tick."""
+
+    def __init__(self) -> None:
+        self.ticks: list[Tick] = []
+
+    def observe(self, tick: Tick) -> None:
+        self.ticks.append(tick)
 
 
 class PlacedReporter:

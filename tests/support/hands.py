@@ -8,8 +8,8 @@ from pathlib import Path
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
 from teleop.core.axes import Axis, Limits, Motion, State
-from teleop.core.events import DeviceCommand, Tick, TickEvent
-from teleop.core.interfaces import Source
+from teleop.core.events import DeviceCommand, TickEvent
+from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Held, Press
 from teleop.core.setpoints import Demand
 from teleop.core.timing import PERIOD
@@ -100,11 +100,10 @@ class Desk:
     def tick(self, ticks: int = 1) -> None:
         for _ in range(ticks):
             self.now += PERIOD
-            self.demand, actions = self.operator.read(self.now)
+            self.demand, actions = self.operator.read(self.now, Feedback(self.motion, {}))
             self.actions += actions
             self.motion = self.planner.step(self.demand)
             self.history.append(self.motion)
-            self.operator.write(Tick(self.now, self.motion, self.demand, actions, {}))
 
     def run(self, seconds: float) -> None:
         self.tick(round(seconds / PERIOD))

@@ -88,7 +88,7 @@ class Watch:
 
         return tapped
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         if self._went[0]:
             self.sent.append((tick.time, *self._went))
             self._went = 0.0, False
@@ -97,8 +97,6 @@ class Watch:
             self.skipped += round((tick.time - self._before) / PERIOD) - 1
         self._before = tick.time
         self.each_tick(tick)
-
-    def release(self, now: float) -> float | None: ...
 
 
 class Bench:
@@ -122,7 +120,7 @@ def bench(
         rig = stack.enter_context(open_rig(profile, working))
         link = rig.connections["gimbal"]._link
         link.send = watch.tap(link.send)  # type: ignore[method-assign]
-        yield Bench(rig.loop([Axis.PAN, Axis.TILT], [operator], [operator, watch]), pad, watch, working)
+        yield Bench(rig.loop([Axis.PAN, Axis.TILT], [operator], [watch]), pad, watch, working)
 
 
 class Hand(threading.Thread):

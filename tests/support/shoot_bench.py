@@ -141,10 +141,8 @@ class Watcher:
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         self._stage.watch(tick)
-
-    def release(self, now: float) -> None: ...
 
 
 class Stage:

@@ -61,7 +61,8 @@ class TerminalScreen:
         self._resize(self._master)
         self.screen = Wrapping(*size)
         self._stream = pyte.ByteStream(self.screen)
-        self._lock, self._over, self._quiet = threading.Lock(), threading.Event(), threading.Event()
+        self._lock, self._over = threading.Lock(), threading.Event()
+        self._whole: list[str] = []
         self.raw = b""
         changed = {"TERM": "xterm-256color", "XDG_STATE_HOME": str(folder), "COLUMNS": None, "LINES": None}
         asked = {**os.environ, **changed, **(environment or {})}
@@ -98,7 +99,7 @@ class TerminalScreen:
     def wait_until(self, holds: Callable[[list[str]], object], what: str) -> list[str]:
         """The rows of the first whole screen for which it holds: a picture comes in pieces."""
         deadline = time.monotonic() + PATIENCE
-        while not (holds(rows := self.rows) and self._quiet.is_set()):
+        while not holds(rows := self._whole):
             assert time.monotonic() < deadline, f"{what} never held:\n" + "\n".join(self.everything)
             time.sleep(0.01)
         return rows
@@ -152,18 +153,20 @@ class TerminalScreen:
         fcntl.ioctl(descriptor, termios.TIOCSWINSZ, struct.pack("HHHH", self.lines, self.columns, 0, 0))
 
     def _read(self) -> None:
+        changed = True
         while True:
             ended = self._over.is_set()  # before the look, so that nothing written until then is missed
-            if select.select([self._master], [], [], 0 if ended else 0.02)[0]:
+            if select.select([self._master], [], [], 0 if ended else 0.005)[0]:
                 data = os.read(self._master, 65536)
-                self._quiet.clear()
                 with self._lock:
                     self.raw += data
                     self._stream.feed(data)
-            elif ended:
+                changed = True
+                continue
+            if changed:
+                self._whole, changed = self.rows, False
+            if ended:
                 return
-            else:
-                self._quiet.set()
 
 
 @contextmanager

@@ -9,7 +9,8 @@ from pathlib import Path
 from at_once import AtOnce
 
 from teleop.core.axes import Axis, Limits, Reading, State
-from teleop.core.events import Exposure, ShutterResult, ShutterStep, Tick
+from teleop.core.events import Exposure, ShutterResult, ShutterStep
+from teleop.core.interfaces import Feedback
 from teleop.core.timing import PERIOD
 from teleop.planner.live import Live
 from teleop.timelapse.compile import Timelapse, load_timelapse
@@ -78,10 +79,10 @@ class Shoot:
                 return
 
     def tick(self) -> None:
-        demand, events = self.source.read(self.now)
-        motion = self.live.step(demand, 1)
-        reported = {axis: Reading(state.position, self.now) for axis, state in motion.items()}
-        self.source.write(Tick(self.now, motion, demand, events, reported))
+        motion = self.live.motion
+        readings = {axis: Reading(state.position, self.now - PERIOD) for axis, state in motion.items()}
+        demand, events = self.source.read(self.now, Feedback(motion, readings))
+        self.live.step(demand, 1)
         for event in events:
             assert isinstance(event, Exposure)
             self.steps.append((self.now, event))

@@ -85,7 +85,7 @@ class LiveView:
         self._stack.close()
         self._plain.lines.finish()
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         if self._tick is None:
             self._begin = tick.time
         self._tick = tick
@@ -95,9 +95,6 @@ class LiveView:
     def say(self, text: str) -> None:
         """Show a line above the messages, on a screen; safe to call from any thread."""
         self._word = text
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
     def _draw(self, width: int, height: int) -> Rows:
         status, tick, keyboard = self._status(), self._tick, self._keyboard

@@ -54,7 +54,7 @@ class RunView(Screen):
         self._announced = ""
         self._hinted: Sequence[Hint] = ()
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         for act in tick.actions:
             if act in (Action.RECORD, Action.STOP):
                 self._recording = act is Action.RECORD

@@ -58,10 +58,7 @@ class Screen(ABC):
             self._lines.say(f"teleop: {text}")
 
     @abstractmethod
-    def write(self, tick: Tick) -> None: ...
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
+    def observe(self, tick: Tick) -> None: ...
 
     @property
     def _in_lines(self) -> bool:

@@ -84,7 +84,7 @@ def not_in_standby(seen: Telemetry, now: float) -> str:
     status = seen.get("status", now, STANDBY_WITHIN)
     if status == FlightStatus.STANDBY:
         return ""
-    return "the drone does not say its flight status" if status is None else f"the drone says {word_of(status)}"
+    return "the drone does not report its flight status" if status is None else f"the drone reports {word_of(status)}"
 
 
 def word_of(value: object) -> str:

@@ -114,7 +114,7 @@ class Engagement:
     def refusal(self, now: float) -> str:
         """Why the drone cannot be taken now, "" if it can."""
         if (self.stage, EngagementEvent.ENGAGE) not in TRANSITIONS:
-            return "it is engaged" if self.stage in HELD else "it is still being given back"
+            return "it is engaged" if self.stage in HELD else "its release is not confirmed yet"
         if (left := self._taken + self._gap - now) > SLACK:
             wait = math.ceil(left * 10 - SLACK) / 10  # never "0.0 s"
             return f"wait {wait:.1f} s: twice within {self._gap:g} s would lock the drone"
@@ -131,7 +131,7 @@ class Engagement:
         """Begin to give the drone back, if it is held; `asked` is whether the operator wants it so."""
         if self.stage in HELD:
             self.failure = "" if asked else why
-            self._say(f"{why}: sticks neutral, {self._what} is given back")
+            self._say(f"{why}: sticks neutral, releasing {self._what}")
             self._happened(EngagementEvent.LEAVE, now)
 
     def not_sent(self, now: float) -> None:
@@ -142,7 +142,7 @@ class Engagement:
     def contradicted(self, now: float) -> None:
         """The drone says that it is held, long after it confirmed that it is not: give it back again."""
         if self.stage is Stage.IDLE and now - self._since > SETTLED:
-            self._say(f"the drone says again that {self._what} is on: giving it back")
+            self._say(f"the drone reports {self._what} on again: releasing it")
             self._happened(EngagementEvent.CONTRADICTED, now)
 
     def advance(self, now: float, hand: bool, held: bool | None, patience: float = CONFIRM) -> Order:
@@ -160,9 +160,9 @@ class Engagement:
             case Stage.TAKING:
                 self._confirm(now, held, patience)
             case Stage.ENGAGED | Stage.ADRIFT if held is False:
-                self.leave(now, f"the drone has ended {self._what}: its pilot took it back, or it heard nothing")
+                self.leave(now, f"the drone has ended {self._what}: its pilot took control, or no frame reached it")
             case Stage.ENGAGED | Stage.ADRIFT if held is None and self._told:
-                self.leave(now, f"the drone no longer says whether {self._what} is on")
+                self.leave(now, f"the drone no longer reports whether {self._what} is on")
         self._mind_the_hand(now, hand)
         return self._frame(now)
 
@@ -177,19 +177,19 @@ class Engagement:
 
     @property
     def _unconfirmed(self) -> str:
-        return f"engaged, but the drone does not say whether {self._what} is on: it sends no control field"
+        return f"engaged, but the drone does not report whether {self._what} is on: it sends no control field"
 
     def _mind_the_hand(self, now: float, hand: bool) -> None:
         if self.stage is Stage.TAKING and not hand:
-            self.leave(now, "no hand is on the sticks")
+            self.leave(now, "no stick input")
         elif self.stage is Stage.ENGAGED and not hand:
             self._happened(EngagementEvent.HAND_LOST, now)
-            self._say(f"no hand is on the sticks: neutral, and in {OFF_AFTER:g} s {self._what} is given back")
+            self._say(f"no stick input: sending neutral, releasing {self._what} in {OFF_AFTER:g} s")
         elif self.stage is Stage.ADRIFT and hand:
             self._happened(EngagementEvent.HAND_BACK, now)
-            self._say("a hand is on the sticks again")
+            self._say("stick input is back")
         elif self.stage is Stage.ADRIFT and now - self._since >= OFF_AFTER - SLACK:
-            self.leave(now, f"no hand on the sticks for {OFF_AFTER:g} s")
+            self.leave(now, f"no stick input for {OFF_AFTER:g} s")
 
     def _frame(self, now: float) -> Order:
         if now < self._next - SLACK:
@@ -204,12 +204,12 @@ class Engagement:
 
     def _check(self, now: float, held: bool | None) -> None:
         if held is False:
-            self._say(f"{self._what} is given back: the drone confirms")
+            self._say(f"{self._what} is released: the drone confirms it")
             self.unreturned = ""
             self._happened(EngagementEvent.FREE, now)
         elif self.stage is Stage.CHECKING and now - self._since > CHECK:
-            said = "says that it still has it" if held else "says nothing"
-            self.unreturned = f"{self._what} was given back, but the drone {said}: take it over with its RC"
+            answer = "reports that it is still on" if held else "reports nothing"
+            self.unreturned = f"{self._what}: released, but the drone {answer}: take it over with its RC"
             self._say(self.unreturned)
             self._happened(EngagementEvent.SILENT if self._repeats else EngagementEvent.GIVEN_UP, now)
 

@@ -39,7 +39,7 @@ class MovementControl:
         self,
         connection: Connection,
         combination: movement.Combination,
-        frame: movement.Frame,
+        frame: movement.ReferenceFrame,
         full: Mapping[str, float],
         site: Site,
     ) -> None:
@@ -64,9 +64,9 @@ class MovementControl:
         position = seen.get("position", now)
         yield from mode_refusals(self._combination, self._site, None if position is None else position.health)
         if self._combination.yaw == movement.Yaw.ANGLE and seen.get("quaternion", now) is None:
-            yield "the drone does not say where it looks, and yaw angles start from there"
+            yield "the drone does not report where it looks, and yaw angles start from there"
         if self._combination.vertical == movement.Vertical.POSITION and position is None:
-            yield "the drone does not say how high it is, and heights start from there"
+            yield "the drone does not report how high it is, and heights start from there"
 
     def warnings(self, seen: Telemetry, now: float) -> Iterator[str]:
         position = seen.get("position", now)

@@ -29,11 +29,11 @@ def mode_refusals(combination: Combination, site: Site, health: int | None) -> I
     """Why a movement mode would not work with a GPS of this `health`, None for one that says nothing."""
     if health is not None and health >= GPS_HEALTH:
         return
-    said = "the GPS says nothing" if health is None else f"GPS health is {health} of 5"
+    said = "the GPS reports nothing" if health is None else f"GPS health is {health} of 5"
     if combination.horizontal == Horizontal.POSITION:
-        yield f"{said}: horizontal positions want {GPS_HEALTH}"
+        yield f"{said}: horizontal positions need {GPS_HEALTH}"
     elif combination.horizontal == Horizontal.VELOCITY and not site.guidance:
-        yield f"{said}: horizontal velocities want {GPS_HEALTH}, or Guidance declared in the profile"
+        yield f"{said}: horizontal velocities need {GPS_HEALTH}, or Guidance declared in the profile"
 
 
 def mode_warnings(combination: Combination, site: Site, height: float | None) -> Iterator[str]:
@@ -41,7 +41,7 @@ def mode_warnings(combination: Combination, site: Site, height: float | None) ->
     if combination.vertical != Vertical.POSITION:
         return
     if height is None:
-        yield "the drone does not say how high it is: a height may not be kept"
+        yield "the drone does not report how high it is: a height may not be kept"
     elif site.indoors and not (site.guidance and height <= LOW_HEIGHT):
         yield f"indoors, without Guidance or above {LOW_HEIGHT:g} m, the barometer misleads: a height may not be kept"
     elif height < LOW_HEIGHT:
@@ -54,15 +54,15 @@ def refusals(seen: Telemetry, now: float, low_battery: int) -> Iterator[str]:
         yield "the drone is not activated yet"
         return
     if seen.get("status", now) is None:
-        yield "the drone does not say its flight status"
+        yield "the drone does not report its flight status"
     battery = seen.get("battery", now)
     if battery is None:
-        yield "the drone does not say how full its battery is"
+        yield "the drone does not report its battery"
     elif battery <= low_battery:
         yield f"the battery is at {battery} %: {low_battery} % is too low to begin with"
     rc = seen.get("rc", now)
     if rc is None:
-        yield "the drone does not say where its RC's mode switch is"
+        yield "the drone does not report where its RC's mode switch is"
     elif rc.mode != RcMode.F:
         where = rc.mode.name if isinstance(rc.mode, RcMode) else rc.mode
         yield f"its RC's mode switch is in {where}: it must be in F, which its pilot leaves to take the drone back"
@@ -72,10 +72,10 @@ def refusals(seen: Telemetry, now: float, low_battery: int) -> Iterator[str]:
 def troubles(seen: Telemetry, now: float, low_battery: int) -> Iterator[str]:
     """Why a drone that is held must be given back now."""
     if seen.get("status", now) is None:
-        yield "the drone no longer says its flight status"
+        yield "the drone no longer reports its flight status"
     battery = seen.get("battery", now)
     if battery is None:
-        yield "the drone no longer says how full its battery is"
+        yield "the drone no longer reports its battery"
     elif battery <= low_battery:
         yield f"the battery is at {battery} %"
     yield from _mobile_device(seen, now)

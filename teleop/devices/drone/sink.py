@@ -137,7 +137,7 @@ class DroneSink:
         self._sticks = {axis: tick.motion[axis].position if axis in asked else 0.0 for axis in STICKS}
         self._hand = bool(asked)
         if any(isinstance(tick.demand.get(axis), Stop) for axis in STICKS):
-            self._engagement.leave(tick.time, "everything is to stop", asked=True)
+            self._engagement.leave(tick.time, "STOP", asked=True)
 
     def _turn(self, now: float) -> None:
         """Look after the engagement, and send what it says; once for each time."""
@@ -180,7 +180,7 @@ class DroneSink:
             return
         if self.telemetry.control_lost > self._control_lost:
             self._control_lost = self.telemetry.control_lost
-            yield "the drone says that control was lost"
+            yield "the drone reports that control was lost"
         yield from troubles(self.telemetry, now, self._low_battery)
 
     def _refusals(self, now: float) -> Iterator[str]:
@@ -195,7 +195,7 @@ class DroneSink:
         if not self._hand:
             wanting.append("no input holds its sticks")
         elif any(abs(deflection) > CENTRED for deflection in self._sticks.values()):
-            wanting.append("let its sticks go to their centre")
+            wanting.append("center its sticks")
         if wanting:
             self._refuse(wanting)
             return
@@ -216,7 +216,7 @@ class DroneSink:
         if word == "engage":
             self._engage(now)
         elif word == "disengage":
-            self._engagement.leave(now, "the operator lets go", asked=True)
+            self._engagement.leave(now, "disengaged by the operator", asked=True)
         elif self._engagement.stage is not Stage.ENGAGED:
             self.say(f"drone: {word} refused: it is not engaged")
         else:

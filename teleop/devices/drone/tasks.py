@@ -126,14 +126,14 @@ class TaskWatch:
             if now - self._level_since >= (BLIND_FOR if climb is None else LEVEL_FOR):
                 self._end("finished: the drone is in the air")
         elif self._begun and status != FlightStatus.TAKE_OFF:
-            self._end(f"interrupted: the drone says {word_of(status)}")
+            self._end(f"interrupted: the drone reports {word_of(status)}")
 
     def _unchanged(self, status: object) -> None:
         if self._phase is Phase.UNANSWERED:
-            self._end(f"not started: the drone says {word_of(status)}")
+            self._end(f"not started: the drone reports {word_of(status)}")
         elif not self._warned:
             self._warned = True
-            self._say(f"{self.word}: the drone still says {word_of(status)}; a moved stick flies it again")
+            self._say(f"{self.word}: the drone still reports {word_of(status)}; a moved stick flies it again")
 
     def _end(self, why: str) -> None:
         word, self.kind = self.word, None

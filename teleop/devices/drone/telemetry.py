@@ -80,7 +80,7 @@ class Telemetry:
 
     def _answered(self, answer: Answer) -> None:
         if answer.reply is None:
-            name = ("", " when asked to activate it", " when told what to broadcast")[self._step]
+            name = ("", " when asked to activate it", " when it is asked for its broadcast")[self._step]
             self._fault = LinkError(f"{self._connection} does not answer{name}: is it on, is the cable in?")
         elif code := getattr(answer.reply, "code", None):
             if self._step == 0 and code == Code.NOT_ACTIVATED:

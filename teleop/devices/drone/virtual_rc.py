@@ -18,8 +18,8 @@ from teleop.devices.drone.telemetry import FRESH, Telemetry
 from teleop.dji.drone.enums import GearChannel, ModeChannel
 from teleop.dji.drone.virtual_rc import CENTRE, DEFLECTION, NEUTRAL, Sticks, VirtualRc
 
-BACK_ALONE = "the drone goes back to its RC by itself, a second after the last sticks that it heard"
-LOST_ALONE = "a second after the last sticks that it heard, the drone behaves as without any RC"
+BACK_ALONE = "the drone goes back to its RC by itself, 1 s after the last sticks that reached it"
+LOST_ALONE = "1 s after the last sticks that reached it, the drone behaves as without any RC"
 GESTURE = 2.0  # s for which the arm gesture is made, at most
 CORNERS: Deflections = dict(zip(STICKS, (-1.0, -1.0, -1.0, 1.0), strict=True))
 """The gesture that starts and stops the motors, and in the air cuts them: Virtual RC page, Example."""
@@ -118,12 +118,12 @@ class VirtualRcControl:
 
     def tell(self, word: str, seen: Telemetry, now: float) -> str:
         if word == "home" and self._go_home is None:
-            return "go home: the profile does not say what its channel is to be (go_home)"
+            return "go home: the profile has no channel value for it (go_home)"
         if word in ARMING:
             if refusal := not_in_standby(seen, now):
                 return f"{word} refused: {refusal}; in the air this would cut the motors"
             self._gesture_end = now + GESTURE
-            return f"{word}: sticks in the corners for {GESTURE:g} s, while the drone says standby"
+            return f"{word}: sticks in the corners for {GESTURE:g} s, while the drone reports standby"
         self._switches = _replaced(self._switches, **self._words[word])
         return f"{word}: set"
 

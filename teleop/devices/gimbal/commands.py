@@ -27,15 +27,12 @@ class Unheard:
     def __init__(self, gimbal: bool, drone: bool, say: Callable[[str], object]) -> None:
         self._gimbal, self._drone, self._say = gimbal, drone, say
 
-    def write(self, tick: Tick) -> None:
+    def observe(self, tick: Tick) -> None:
         for act in tick.actions:
             if isinstance(act, DeviceCommand):
                 addressee, is_there = ("drone", self._drone) if act.device == DRONE else ("gimbal", self._gimbal)
                 if not is_there:
                     self._say(f"{act}: this rig has no {addressee}")
-
-    def release(self, now: float) -> float | None:  # noqa: ARG002 - nothing was taken over
-        return None
 
 
 class CommandSink:
@@ -85,7 +82,7 @@ class CommandSink:
             self._say(f"{command}: {error}")
             return
         if is_taken_back(message):
-            self._say(f"{command} refused: the run's motion would undo it")
+            self._say(f"{command} refused: it would disturb the commands of the run")
             return
         if not message.has_reply:
             self._connection.stream(message)

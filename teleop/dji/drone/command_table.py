@@ -42,7 +42,7 @@ def never(message: Message) -> str:
     if isinstance(message, virtual_rc.VirtualRc) and message.on:
         return "virtual RC without a stream of sticks gives the drone up after a second"
     if isinstance(message, virtual_rc.Sticks):
-        return "sticks that nobody holds fly on for a second: only a run's control loop sends them"
+        return "sticks fly on for 1 s without an operator: only a run's control loop sends them"
     return ""
 
 
@@ -54,7 +54,7 @@ def hazard(message: Message) -> str:
         case drone.Arm():
             return "it stops the motors"
         case drone.Task() | movement.Move():
-            return "the drone flies, and nobody is at the controls"
+            return "the drone flies without an operator"
         case drone.Control(order=ControlOrder.OBTAIN):
             return "it takes the drone from its pilot"
         case virtual_rc.VirtualRc():

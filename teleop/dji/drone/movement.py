@@ -49,7 +49,7 @@ class Yaw(IntEnum):
     RATE = 1
 
 
-class Frame(IntEnum):
+class ReferenceFrame(IntEnum):
     """Bits 2 and 1, of the horizontal control: north and east, or forward and right of the nose."""
 
     GROUND = 0
@@ -105,7 +105,7 @@ class Move(Message):
     """
 
     stable: Annotated[bool, Flag(first=0)]
-    frame: Annotated[int, Bits(first=1, width=2, words=Frame)]
+    frame: Annotated[int, Bits(first=1, width=2, words=ReferenceFrame)]
     yaw_control: Annotated[int, Bits(first=3, words=Yaw)]
     vertical: Annotated[int, Bits(first=4, width=2, words=Vertical)]
     horizontal: Annotated[int, Bits(first=6, width=2, words=Horizontal)]

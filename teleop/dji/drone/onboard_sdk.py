@@ -58,4 +58,4 @@ def _registry(*of_this_model: type[Message]) -> OnboardRegistry:
 M100: Final = _registry(drone.Frequency, Broadcast)
 A3: Final = _registry(drone.A3Frequency, A3Broadcast)
 MODELS: Final[Mapping[str, OnboardRegistry]] = {"m100": M100, "a3": A3}
-"""By the name that an operator gives; a frame does not say which it is."""
+"""By the name that an operator gives; a frame does not report which it is."""

@@ -18,7 +18,7 @@ from teleop.core.errors import DeviceError
 from teleop.dji.drone import messages as drone
 from teleop.dji.drone.encryption import Cipher
 from teleop.dji.drone.onboard_sdk import M100, SESSION, OnboardRegistry
-from teleop.dji.frame import REPLY, Damage, Frame, FrameReader, encode
+from teleop.dji.frame import REPLY, Damage, Frame, FrameReader
 from teleop.dji.gimbal.session import Counts, Lost, Received
 from teleop.dji.message import Message, Opaque
 
@@ -135,7 +135,7 @@ class OnboardSession:
         cipher = self.cipher if frame.is_encrypted else None
         data, encryption = cipher.encrypt(message.encode()) if cipher else (message.encode(), 0)
         self.counts.frames_out += 1
-        return encode(data, REPLY | frame.cmd_type & SESSION, frame.sequence, encryption)
+        return Frame(data, REPLY | frame.cmd_type & SESSION, frame.sequence, encryption).encode()
 
     def receive(self, data: bytes, now: float) -> list[Received]:
         """What the bytes that arrived at `now` complete. Never raises: what is damaged or unknown is counted."""
@@ -172,7 +172,7 @@ class OnboardSession:
         message.check()
         data, encryption = self.cipher.encrypt(message.data()) if self.cipher else (message.data(), 0)
         sequence = self._sequence
-        frame = encode(data, session, sequence, encryption)
+        frame = Frame(data, session, sequence, encryption).encode()
         self._sequence = sequence + 1 & 0xFFFF
         self.counts.frames_out += 1
         return frame, sequence

@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
-from teleop.dji.frame import Damage, Frame, FrameReader, encode
+from teleop.dji.frame import Damage, Frame, FrameReader
 from teleop.dji.gimbal.r_sdk import R_SDK
 from teleop.dji.message import REPLY, Message, Opaque
 from teleop.dji.registry import Registry
@@ -97,7 +97,7 @@ class Session:
         value = message.encode()
         data = value if bare else frame.data[:2] + value
         self.counts.frames_out += 1
-        return encode(data, REPLY, frame.sequence)
+        return Frame(data, REPLY, frame.sequence).encode()
 
     def receive(self, data: bytes, now: float) -> list[Received]:
         """What the bytes that arrived at `now` complete. Never raises: what is damaged or unknown is counted."""
@@ -129,7 +129,7 @@ class Session:
     def _send(self, message: Message) -> tuple[bytes, int]:
         message.check()
         sequence = self._sequence
-        frame = encode(message.data(), message.cmd_type, sequence)
+        frame = Frame(message.data(), message.cmd_type, sequence).encode()
         self._sequence = sequence + 1 & 0xFFFF
         self._sent = min(self._sent + 1, RECENT)
         self.counts.frames_out += 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from teleop.dji.drone.enums import GearChannel, ModeChannel
-from teleop.dji.drone.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.drone.movement import Horizontal, Move, ReferenceFrame, Vertical, Yaw
 from teleop.dji.drone.virtual_rc import CENTRE, DEFLECTION, Sticks
 from teleop.sim.drone.controls import Controls, Switch
 from teleop.sim.drone.flight import Flight
@@ -38,7 +38,7 @@ def move(flight: Flight, message: Move) -> None:
     goes east and positive pitch south (OPENProtocol.md 3.1.9, 01 03, offsets 1 and 5; docs/protocol-facts.md).
     Velocity and position: x is forward or north, y is right or east.
     """
-    to_north = message.frame == Frame.GROUND
+    to_north = message.frame == ReferenceFrame.GROUND
     if message.yaw_control == Yaw.RATE:
         flight.turn(math.radians(message.yaw))
     else:

@@ -1,7 +1,7 @@
 """A Matrice 100 that obeys nothing but Onboard SDK frames: no I/O, no clock, no other way in.
 
 Like the simulated gimbal it is the far end of the program's own kind of Session, and exact in time. What a command
-does is a row in the table of DroneHandlers; what it does to the flight is the cockpit's affair. It refuses what the
+does is a row in the table of DroneHandlers; what it does to the flight is the autopilot's affair. It refuses what the
 real one would: nearly all before it is activated, movement without control, commands of a wrong length, and numbers
 that the documents do not list; `refusals` has each with its reason.
 
@@ -55,7 +55,7 @@ class SimulatedDrone:
         self.refusals = Refusals()
         self.settings = settings
         self.acknowledges = True
-        self._beacon = TelemetrySender(mirrors, health)
+        self._telemetry = TelemetrySender(mirrors, health)
         self._session = OnboardSession()
         self._cipher = cipher
         self._outgoing = bytearray()
@@ -65,12 +65,12 @@ class SimulatedDrone:
         self._boot(now, math.radians(yaw), battery)
 
     def _boot(self, now: float, heading: float, battery: float) -> None:
-        self.cockpit = Autopilot(now, heading, battery, self.settings)
-        self._commands = DroneHandlers(self.cockpit, self._beacon, self.settings, self._refuse)
+        self.autopilot = Autopilot(now, heading, battery, self.settings)
+        self._commands = DroneHandlers(self.autopilot, self._telemetry, self.settings, self._refuse)
         self._handlers = self._commands.handlers
         self._session.cipher = None
         if self.settings.broadcasts_before_activation:
-            self._beacon.begin(now)
+            self._telemetry.begin(now)
 
     @property
     def activated(self) -> bool:
@@ -102,43 +102,43 @@ class SimulatedDrone:
 
     def hide(self, *parts: str) -> None:
         """These parts of the broadcast no longer come, the others do."""
-        self._beacon.hidden = parts
+        self._telemetry.hidden = parts
 
     def turn_switch(self, now: float, switch: Switch) -> None:
         """The pilot turns the mode switch of the real RC."""
         self._pass(now)
-        self.cockpit.turn_switch(switch)
+        self.autopilot.turn_switch(switch)
 
     def lose_control(self, now: float) -> None:
         """Control is taken from the onboard computer, by whatever has the right to."""
         self._pass(now)
-        self.cockpit.lose_control()
-        self.cockpit.control_lost = max(self.cockpit.control_lost, self._lost_control + 1)
+        self.autopilot.lose_control()
+        self.autopilot.control_lost = max(self.autopilot.control_lost, self._lost_control + 1)
 
     def set_battery(self, now: float, percent: float) -> None:
         self._pass(now)
-        self.cockpit.set_battery(percent)
+        self.autopilot.set_battery(percent)
 
     def reboot(self, now: float, seconds: float) -> None:
         """On the ground it goes out, hears and says nothing for so long, and is then as at first."""
         self._pass(now)
         self._booted = now + seconds
         self._lost_control = 0
-        self._beacon.end()
+        self._telemetry.end()
         self._acknowledgements.forget()
         self._outgoing.clear()
-        self._boot(self._booted, self.cockpit.pose.yaw, self.cockpit.battery)
+        self._boot(self._booted, self.autopilot.pose.yaw, self.autopilot.battery)
 
     def _pass(self, now: float) -> None:
-        for time, parts in self._beacon.due(now):
-            self._pass_cockpit(time)
-            self._outgoing += self._session.command(self._beacon.say(self.cockpit, self.payload, parts))
-        self._pass_cockpit(now)
+        for time, parts in self._telemetry.due(now):
+            self._advance_autopilot(time)
+            self._outgoing += self._session.command(self._telemetry.say(self.autopilot, self.payload, parts))
+        self._advance_autopilot(now)
 
-    def _pass_cockpit(self, now: float) -> None:
+    def _advance_autopilot(self, now: float) -> None:
         self._outgoing += self._acknowledgements.due(now)
-        self.cockpit.pass_to(now)
-        while self._lost_control < self.cockpit.control_lost:
+        self.autopilot.pass_to(now)
+        while self._lost_control < self.autopilot.control_lost:
             self._lost_control += 1
             self._outgoing += self._session.request(drone.Pushed(), now)[0]
         for again in self._session.due(now):
@@ -147,7 +147,7 @@ class SimulatedDrone:
 
     def _refuse(self, command: str, why: Why, detail: str) -> None:
         self.counts["refused"] += 1
-        self.refusals.add(self.cockpit.time, command, why, detail)
+        self.refusals.add(self.autopilot.time, command, why, detail)
 
     def _obey(self, received: Received, now: float) -> None:
         frame = received.frame

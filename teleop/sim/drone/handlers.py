@@ -57,14 +57,14 @@ class DroneHandlers:
 
     def __init__(
         self,
-        cockpit: Autopilot,
-        beacon: TelemetrySender,
+        autopilot: Autopilot,
+        telemetry: TelemetrySender,
         settings: DroneSettings,
         refuse: Callable[[str, Why, str], object],
     ) -> None:
         self.activated = False
         self.payload = Payload()
-        self._cockpit, self._beacon, self._settings = cockpit, beacon, settings
+        self._autopilot, self._telemetry, self._settings = autopilot, telemetry, settings
         self._refuse = refuse
         self._asked: ControlOrder | None = None  # what has to be sent again to be confirmed
         self._task_number: int | None = None
@@ -79,7 +79,7 @@ class DroneHandlers:
             Move: self._move,
             VirtualRc: self._virtual_rc,
             Sticks: self._sticks,
-            drone.GimbalSpeed: lambda message: self.payload.turn(message, cockpit.time),
+            drone.GimbalSpeed: lambda message: self.payload.turn(message, autopilot.time),
             drone.GimbalAngle: self._point_gimbal,
             drone.Photo: self._photo,
             drone.StartVideo: lambda _: self._record(True),
@@ -131,43 +131,43 @@ class DroneHandlers:
 
     def _activate(self, _message: drone.Activate) -> Message:
         self.activated = True
-        self._beacon.begin(self._cockpit.time)
+        self._telemetry.begin(self._autopilot.time)
         return drone.ActivateAck(ActivationCode.OK)
 
     def _set_frequency(self, message: drone.Frequency) -> Message | None:
-        unknown = [part for part in self._beacon.rates if not isinstance(getattr(message, part), Rate)]
+        unknown = [part for part in self._telemetry.rates if not isinstance(getattr(message, part), Rate)]
         if unknown:
             detail = f"{unknown[0]} must be 0..5, not {getattr(message, unknown[0])}"
             return self._refused(message, Why.RANGE, detail, drone.FrequencyAck(PARAMETER_ERROR))
-        self._beacon.set(message)
+        self._telemetry.set(message)
         return drone.FrequencyAck(Code.OK)
 
     def _control(self, message: drone.Control) -> Message | None:
         """Each order is confirmed when it comes for the second time (OPENProtocol.md 3.1.9, 01 00)."""
-        cockpit, obtains = self._cockpit, message.order == ControlOrder.OBTAIN
-        if obtains and not cockpit.may_obtain:
+        autopilot, obtains = self._autopilot, message.order == ControlOrder.OBTAIN
+        if obtains and not autopilot.may_obtain:
             self._asked = None
             answer = drone.ControlAck(ControlCode.NOT_IN_F_MODE)
             return self._refused(message, Why.MODE, "the RC's mode switch is not in F", answer)
-        if self._settings.asks_twice and cockpit.obtained != obtains and self._asked != message.order:
+        if self._settings.asks_twice and autopilot.obtained != obtains and self._asked != message.order:
             self._asked = ControlOrder(message.order)
             return drone.ControlAck(ControlCode.OBTAINING if obtains else ControlCode.RELEASING)
         self._asked = None
         if obtains:
-            cockpit.obtain()
+            autopilot.obtain()
             return drone.ControlAck(ControlCode.OBTAINED)
-        cockpit.release()
+        autopilot.release()
         return drone.ControlAck(ControlCode.RELEASED)
 
     def _task(self, message: drone.Task) -> Message | None:
         """Without control it fails as any other (the maker's sample LinuxFlight.cpp, takeoff and landing)."""
-        cockpit = self._cockpit
+        autopilot = self._autopilot
         starts = {
-            TaskKind.RETURN_HOME: cockpit.go_home,
-            TaskKind.TAKE_OFF: cockpit.take_off,
-            TaskKind.LAND: cockpit.land,
+            TaskKind.RETURN_HOME: autopilot.go_home,
+            TaskKind.TAKE_OFF: autopilot.take_off,
+            TaskKind.LAND: autopilot.land,
         }
-        if not cockpit.obtained:
+        if not autopilot.obtained:
             return self._refused(message, Why.NO_CONTROL, answer=drone.TaskAck(TaskCode.FAILED))
         if not starts[TaskKind(message.task)]():
             where = "the motors run or it is in the air" if message.task == TaskKind.TAKE_OFF else "it is on the ground"
@@ -180,11 +180,11 @@ class DroneHandlers:
         if message.number != self._task_number:
             detail = f"number {message.number}: the last task is {self._task_number}"
             return self._refused(message, Why.RANGE, detail, drone.TaskResultAck(TaskResultCode.WRONG_NUMBER))
-        return drone.TaskResultAck(_RESULTS[self._cockpit.task])
+        return drone.TaskResultAck(_RESULTS[self._autopilot.task])
 
     def _arm(self, message: drone.Arm) -> Message | None:
-        flight, arms = self._cockpit.flight, message.order == ArmOrder.ARM
-        if not self._cockpit.obtained:
+        flight, arms = self._autopilot.flight, message.order == ArmOrder.ARM
+        if not self._autopilot.obtained:
             return self._refused(message, Why.NO_CONTROL, answer=drone.ArmAck(ArmCode.NEED_CONTROL))
         if flight.motors == arms:
             detail = "the motors run already" if arms else "the motors are off already"
@@ -198,25 +198,25 @@ class DroneHandlers:
         return drone.ArmAck(ArmCode.OK)
 
     def _move(self, message: Move) -> Message | None:
-        cockpit = self._cockpit
-        if not cockpit.obtained:
+        autopilot = self._autopilot
+        if not autopilot.obtained:
             return self._refused(message, Why.NO_CONTROL)
-        if cockpit.pilot is not Pilot.ONBOARD:
-            return self._refused(message, Why.MODE, f"it is flown by {cockpit.pilot.value}")
+        if autopilot.pilot is not Pilot.ONBOARD:
+            return self._refused(message, Why.MODE, f"it is flown by {autopilot.pilot.value}")
         assert message.combination is not None
-        self._beacon.mode = CurrentMode(COMBINATIONS.index(message.combination) + 1)
-        cockpit.moves(lambda flight: move(flight, message))
+        self._telemetry.mode = CurrentMode(COMBINATIONS.index(message.combination) + 1)
+        autopilot.moves(lambda flight: move(flight, message))
         return None
 
     def _virtual_rc(self, message: VirtualRc) -> Message | None:
-        cockpit, locked = self._cockpit, self._cockpit.locked
+        autopilot, locked = self._autopilot, self._autopilot.locked
         if message.on:
-            cockpit.enable_virtual(message.back_to_rc)
+            autopilot.enable_virtual(message.back_to_rc)
         else:
-            cockpit.disable_virtual(message.back_to_rc)
-        if cockpit.locked:
+            autopilot.disable_virtual(message.back_to_rc)
+        if autopilot.locked:
             return self._refused(message, Why.STATE, "it is locked" if locked else _LOCKS_IT)
-        if message.on and cockpit.rc.switch is not Switch.F:
+        if message.on and autopilot.rc.switch is not Switch.F:
             return self._refused(message, Why.MODE, "the RC's mode switch is not in F")
         return None
 
@@ -224,17 +224,17 @@ class DroneHandlers:
         """Only 0 to 3, 4 and 6 mean anything; clients leave the rest unset (docs/protocol-facts.md)."""
         if detail := out_of_range(message):
             return self._refused(message, Why.RANGE, detail)
-        if not self._cockpit.virtual_on:
+        if not self._autopilot.virtual_on:
             return self._refused(message, Why.MODE, "virtual RC is off")
-        if self._cockpit.locked:
+        if self._autopilot.locked:
             return self._refused(message, Why.STATE, "it is locked")
-        self._cockpit.virtual_sticks(controls(message, self._cockpit.virtual))
+        self._autopilot.virtual_sticks(controls(message, self._autopilot.virtual))
         return None
 
     def _point_gimbal(self, message: drone.GimbalAngle) -> Message | None:
         if detail := self.payload.outside(message):
             return self._refused(message, Why.RANGE, detail)
-        self.payload.point(message, self._cockpit.time)
+        self.payload.point(message, self._autopilot.time)
         return None
 
     def _photo(self, _message: drone.Photo) -> None:

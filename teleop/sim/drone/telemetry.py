@@ -87,25 +87,25 @@ class TelemetrySender:
             if rate in EVERY and beat % EVERY[rate] == 0 and part not in self.hidden
         ]
 
-    def say(self, cockpit: Autopilot, payload: Payload, parts: Collection[str]) -> Broadcast:
+    def say(self, autopilot: Autopilot, payload: Payload, parts: Collection[str]) -> Broadcast:
         """These parts of the broadcast as they are now.
 
         Vertical velocity is up: the 3.1.9 sample takeoffConverged waits for v.z > 0.25 (docs/protocol-facts.md).
         """
-        pose = cockpit.pose
+        pose = autopilot.pose
         whole = {
-            "time": lambda: Time(round(cockpit.time * 400) & 0xFFFFFFFF, round(cockpit.time % 1 * 1e9), 0),
+            "time": lambda: Time(round(autopilot.time * 400) & 0xFFFFFFFF, round(autopilot.time % 1 * 1e9), 0),
             "quaternion": lambda: quaternion(pose.roll, pose.pitch, pose.yaw),
             "acceleration": lambda: Acceleration(0.0, 0.0, 0.0),
             "velocity": lambda: Velocity(pose.velocity_north, pose.velocity_east, pose.climb),
             "angular_rate": lambda: AngularRate(0.0, 0.0, pose.yaw_rate),
             "position": lambda: self._position(pose),
             "magnetometer": lambda: Magnetometer(0, 0, 0),
-            "rc": lambda: _rc(cockpit.virtual if self._mirrors and cockpit.virtual_on else cockpit.rc),
-            "gimbal": lambda: payload.reported(cockpit.time, pose.yaw),
-            "status": lambda: FlightStatus(cockpit.status.value),
-            "battery": lambda: round(cockpit.battery),
-            "control": lambda: self._control(cockpit),
+            "rc": lambda: _rc(autopilot.virtual if self._mirrors and autopilot.virtual_on else autopilot.rc),
+            "gimbal": lambda: payload.reported(autopilot.time, pose.yaw),
+            "status": lambda: FlightStatus(autopilot.status.value),
+            "battery": lambda: round(autopilot.battery),
+            "control": lambda: self._control(autopilot),
         }
         return Broadcast(**{part: whole[part]() for part in parts})
 
@@ -114,10 +114,10 @@ class TelemetrySender:
         longitude = HOME[1] + pose.east / (EARTH * math.cos(HOME[0]))
         return Position(latitude, longitude, ALTITUDE + pose.height, pose.height, self.health)
 
-    def _control(self, cockpit: Autopilot) -> ControlSource:
-        onboard = cockpit.pilot is Pilot.ONBOARD
+    def _control(self, autopilot: Autopilot) -> ControlSource:
+        onboard = autopilot.pilot is Pilot.ONBOARD
         device = ControlDevice.ONBOARD_DEVICE if onboard else ControlDevice.REMOTE_CONTROLLER
-        return ControlSource(self.mode, device, virtual_rc=cockpit.virtual_on)
+        return ControlSource(self.mode, device, virtual_rc=autopilot.virtual_on)
 
 
 def quaternion(roll: float, pitch: float, yaw: float) -> Quaternion:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from typing import Final
 
-from teleop.dji.frame import REPLY, encode
+from teleop.dji.frame import REPLY, Frame
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.message import Message, Opaque
 from teleop.sim.gimbal.firmware import Firmware, Order
@@ -28,4 +28,4 @@ def pushed(frame: bytes, push: Message, firmware: Firmware) -> bytes:
     if firmware.short_push and isinstance(push, gimbal.Push):
         data = data[:_SHORT]
     sequence = int.from_bytes(frame[8:10], "little")
-    return encode(data, REPLY if firmware.push_reply_bit else frame[3], sequence)
+    return Frame(data, REPLY if firmware.push_reply_bit else frame[3], sequence).encode()

@@ -61,7 +61,7 @@ def screen(
     monkeypatch.setenv("COLUMNS", str(size[0]))
     monkeypatch.setenv("LINES", str(size[1]))
     view = LiveView("Simulated rig", LIMITS, lambda: status, {"gimbal": Counts()}, keyboard, silent=True)
-    view.write(TICK)
+    view.observe(TICK)
     return view._picture.text().plain.split("\n")
 
 
@@ -155,7 +155,7 @@ def test_without_a_screen_each_message_comes_once_and_the_axes_each_second(
         for number in range(250):
             if number == 120:
                 status[0] = replace(STATUS, stopped=True, messages=[Message(6.0, "STOP by keys"), *STATUS.messages])
-            view.write(replace(TICK, time=10 + number / 100))
+            view.observe(replace(TICK, time=10 + number / 100))
     lines = capsys.readouterr().err.splitlines()
     assert lines[0] == "Simulated rig"
     assert len([line for line in lines if "pan -45.000" in line]) == 3

@@ -60,7 +60,7 @@ def test_any_view_is_drawn_at_any_moment_and_size(
             monkeypatch.setenv("LINES", str(height))
             view = views(replace(STATUS, stop=stop))[name]
             if ticked:
-                view.write(TICK)
+                view.observe(TICK)
             rows = view._picture.text().plain.split("\n")
             assert len(rows) == height
             assert max(map(len, rows)) <= width
@@ -120,7 +120,7 @@ def test_it_shows_all_that_an_operator_asks_for(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setenv("LINES", "24")
     view = display()
-    view.write(TICK)
+    view.observe(TICK)
     text = seen(view)
     for each in (
         "Slow reveal", "● REC", "playing", "6.5 / 15.0 s, 8.5 s left", "key 3 at 8.0 s", "cue stop at 15.0 s", "100%",
@@ -132,7 +132,7 @@ def test_it_shows_all_that_an_operator_asks_for(monkeypatch: pytest.MonkeyPatch)
 def test_the_lamp_is_what_the_camera_was_told() -> None:
     view = display(lambda: replace(STATUS, recording=None))
     for number_, (act, lamp) in enumerate([(None, "○ REC"), (Action.RECORD, "● REC"), (Action.STOP, "○ REC")]):
-        view.write(replace(TICK, time=12.0 + number_, actions=() if act is None else (act,)))
+        view.observe(replace(TICK, time=12.0 + number_, actions=() if act is None else (act,)))
         assert lamp in seen(view)
 
 
@@ -141,23 +141,23 @@ def test_a_stop_is_said_to_be_one_only_once_the_axes_rest() -> None:
     assert stop_state(False, RESTING) == ""
     status = replace(STATUS, stop="stopping", note="")
     view = display(lambda: status)
-    view.write(TICK)
+    view.observe(TICK)
     assert " stopping: " in seen(view)
     assert "STOPPED" not in seen(view)
     status = replace(status, stop="stopped")
-    view.write(replace(TICK, time=13.0, motion=RESTING))
+    view.observe(replace(TICK, time=13.0, motion=RESTING))
     assert "STOPPED. Press c to clear, q to end." in seen(view)
 
 
 def test_a_run_that_is_ended_in_mid_move_is_stopping_and_then_stopped(capsys: pytest.CaptureFixture[str]) -> None:
     view = display()
     with view:
-        view.write(TICK)
+        view.observe(TICK)
         for step in range(3):
-            view.write(replace(TICK, time=12.01 + step / 100, demand=HALT))
+            view.observe(replace(TICK, time=12.01 + step / 100, demand=HALT))
         assert "stopping" in seen(view)
-        view.write(replace(TICK, time=12.05, demand=HALT, motion=RESTING))
-        view.write(replace(TICK, time=12.15, demand=HALT, motion=RESTING))
+        view.observe(replace(TICK, time=12.05, demand=HALT, motion=RESTING))
+        view.observe(replace(TICK, time=12.15, demand=HALT, motion=RESTING))
         assert "STOPPED" in seen(view)
     lines = capsys.readouterr().err.splitlines()
     assert [line for line in lines if line in ("stopping", "STOPPED")] == ["stopping", "STOPPED"]
@@ -167,8 +167,8 @@ def test_a_run_that_is_ended_in_mid_move_is_stopping_and_then_stopped(capsys: py
 
 def test_a_run_that_ends_at_rest_was_not_stopped() -> None:
     view = display()
-    view.write(TICK)
-    view.write(replace(TICK, time=13.0, demand=HALT, motion=RESTING))
+    view.observe(TICK)
+    view.observe(replace(TICK, time=13.0, demand=HALT, motion=RESTING))
     assert "STOP" not in seen(view).replace("space STOP", "")
 
 

@@ -64,7 +64,7 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
         assert "take-off also the motors off" in capsys.readouterr().err
         assert send("disarm", url, "--i-understand") == 0
         assert send("take off", url, "--i-understand") == 0
-        wait_until(lambda: far.cockpit.flight.airborne, "flight")
+        wait_until(lambda: far.autopilot.flight.airborne, "flight")
         assert send("disarm", url, "--i-understand") == 1
         assert send("land", url, "--i-understand", "--json") == 0
         assert json.loads(capsys.readouterr().out.splitlines()[-1])["fields"] == {"code": "started"}
@@ -79,14 +79,14 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
     [
         ("arm", "drone.arm: it starts the motors; if that is what you want, say --i-understand"),
         ("arm order=disarm", "drone.arm: it stops the motors; if that is what you want, say --i-understand"),
-        ("take off", "drone.task: the drone flies, and nobody is at the controls; if that is what you want, say --"),
+        ("take off", "drone.task: the drone flies without an operator; if that is what you want, say --"),
         ("return home", "drone.task: the drone flies"),
         ("land", "drone.task: the drone flies"),
         (MOVE, "drone.move: the drone flies"),
         ("obtain control", "drone.control: it takes the drone from its pilot"),
         ("virtual rc off", "drone.virtual_rc: it takes the drone from whatever flies it by virtual RC"),
         ("virtual_rc on=true --i-understand", "drone.virtual_rc is not sent by itself: virtual RC without a stream"),
-        ("sticks --i-understand", "drone.sticks is not sent by itself: sticks that nobody holds fly on"),
+        ("sticks --i-understand", "drone.sticks is not sent by itself: sticks fly on for 1 s without an operator"),
         ("sticks throttle=1684 --i-understand", "drone.sticks is not sent by itself"),
         ("activate app_id=5", "drone activate takes no fields"),
         ("activate", "the drone wants the app id that DJI gave you: in TELEOP_DJI_APP_ID, or app_id in "),

@@ -88,13 +88,13 @@ def test_leaving_is_neutral_then_one_giving_back_then_silence() -> None:
     drone = Drone()
     drone.engage()
     drone.run(2)
-    drone.engagement.leave(drone.now, "the operator lets go", asked=True)
+    drone.engagement.leave(drone.now, "disengaged by the operator", asked=True)
     left = drone.now
     drone.run(5)
     after = [order for time, order in drone.orders if time > left]
     assert after == [Order.NEUTRAL] * LAST_NEUTRALS + [Order.GIVE_BACK]
     assert drone.stage is Stage.IDLE
-    assert drone.said[-1] == "virtual RC is given back: the drone confirms"
+    assert drone.said[-1] == "virtual RC is released: the drone confirms it"
     assert drone.engagement.failure == ""
 
 
@@ -108,7 +108,7 @@ def test_without_a_hand_it_is_neutral_at_once_and_given_back_after_a_second() ->
     assert all(order is not Order.DRIVE for time, order in drone.orders if time > lost)
     [given] = drone.of(Order.GIVE_BACK)
     assert OFF_AFTER <= given - lost < OFF_AFTER + 0.5
-    assert drone.engagement.failure == "no hand on the sticks for 1 s"
+    assert drone.engagement.failure == "no stick input for 1 s"
 
 
 def test_a_hand_that_is_back_in_time_goes_on() -> None:
@@ -139,11 +139,11 @@ def test_a_drone_that_says_nothing_of_it_is_flown_with_a_warning() -> None:
     drone.engage()
     drone.run(3)
     assert drone.stage is Stage.ENGAGED
-    assert "does not say whether virtual RC is on" in drone.said[0]
+    assert "does not report whether virtual RC is on" in drone.said[0]
     drone.engagement.leave(drone.now, "bye", asked=True)
     drone.run(1 + CHECK)
     assert drone.stage is Stage.IDLE
-    assert drone.said[-1] == "virtual RC was given back, but the drone says nothing: take it over with its RC"
+    assert drone.said[-1] == "virtual RC: released, but the drone reports nothing: take it over with its RC"
     assert drone.engagement.unreturned == drone.said[-1]
 
 
@@ -153,7 +153,7 @@ def test_a_drone_that_no_longer_says_that_it_is_held_is_given_back() -> None:
     drone.run(2)
     drone.silent = True
     drone.run(1 + CHECK)
-    assert drone.said[1].startswith("the drone no longer says whether virtual RC is on")
+    assert drone.said[1].startswith("the drone no longer reports whether virtual RC is on")
     assert len(drone.of(Order.GIVE_BACK)) == 1
 
 
@@ -201,7 +201,7 @@ def test_what_can_be_given_back_again_stays_unconfirmed_until_the_drone_says_oth
     drone.changes.append((drone.now, False))
     drone.run(0.1)
     assert drone.stage is Stage.IDLE
-    assert drone.said[-1] == "control is given back: the drone confirms"
+    assert drone.said[-1] == "control is released: the drone confirms it"
     assert drone.engagement.unreturned == ""
 
 

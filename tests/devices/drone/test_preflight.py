@@ -36,7 +36,7 @@ def test_heights_are_warned_of_near_the_ground_and_indoors(combination: Combinat
 def test_what_is_said_names_the_numbers() -> None:
     velocity = Combination(Horizontal.VELOCITY, Vertical.VELOCITY, Yaw.RATE)
     assert list(mode_refusals(velocity, AT_HOME, 1)) == [
-        "GPS health is 1 of 5: horizontal velocities want 3, or Guidance declared in the profile"
+        "GPS health is 1 of 5: horizontal velocities need 3, or Guidance declared in the profile"
     ]
     height = Combination(Horizontal.TILT, Vertical.POSITION, Yaw.RATE)
     assert list(mode_warnings(height, INSIDE, 2.0)) == [

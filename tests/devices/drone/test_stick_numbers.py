@@ -13,7 +13,7 @@ import pytest
 
 from teleop.core.axes import STICKS, Axis
 from teleop.devices.drone.stick_numbers import numbers
-from teleop.dji.drone.movement import COMBINATIONS, Combination, Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, Move, ReferenceFrame, Vertical, Yaw
 from teleop.sim.drone.commands import move
 from teleop.sim.drone.flight import Flight
 
@@ -47,7 +47,7 @@ def sticks(axis: Axis, deflection: float) -> dict[Axis, float]:
     return {**dict.fromkeys(STICKS, 0.0), axis: deflection}
 
 
-def flown(combination: Combination, frame: Frame, held: dict[Axis, float], seconds: float = 1.0) -> Flight:
+def flown(combination: Combination, frame: ReferenceFrame, held: dict[Axis, float], seconds: float = 1.0) -> Flight:
     """A flight at 30 m, nose to the east, after these sticks."""
     flight = Flight(0.0, math.radians(EAST))
     flight.hover(HEIGHT)
@@ -68,22 +68,22 @@ def bearing(flight: Flight) -> str:
 
 
 @pytest.mark.parametrize("way", WAYS, ids=lambda way: f"{way.stick}{way.deflection:+g}")
-@pytest.mark.parametrize("frame", Frame)
+@pytest.mark.parametrize("frame", ReferenceFrame)
 @pytest.mark.parametrize("combination", STICK_MODES, ids=lambda each: "-".join(part.name for part in each))
-def test_across(combination: Combination, frame: Frame, way: Way) -> None:
+def test_across(combination: Combination, frame: ReferenceFrame, way: Way) -> None:
     held = sticks(way.stick, way.deflection)
     made = numbers(combination, FULL, held, EAST, HEIGHT)
     assert (made.x, made.y) == (way.tilt if combination.horizontal is Horizontal.TILT else way.place)
     flight = flown(combination, frame, held)
-    assert bearing(flight) == (way.body if frame is Frame.BODY else way.ground)
+    assert bearing(flight) == (way.body if frame is ReferenceFrame.BODY else way.ground)
     assert flight.pose().height == pytest.approx(HEIGHT)
     assert math.degrees(flight.pose().yaw) == pytest.approx(EAST)
 
 
 @pytest.mark.parametrize(("deflection", "sense"), [(1.0, 1), (-1.0, -1)])
-@pytest.mark.parametrize("frame", Frame)
+@pytest.mark.parametrize("frame", ReferenceFrame)
 @pytest.mark.parametrize("combination", STICK_MODES, ids=lambda each: "-".join(part.name for part in each))
-def test_up_and_around(combination: Combination, frame: Frame, deflection: float, sense: int) -> None:
+def test_up_and_around(combination: Combination, frame: ReferenceFrame, deflection: float, sense: int) -> None:
     held = sticks(THROTTLE, deflection)
     rises = combination.vertical is Vertical.VELOCITY
     assert numbers(combination, FULL, held, EAST, HEIGHT).z == (2 * sense if rises else HEIGHT + 2 * sense)
@@ -97,7 +97,7 @@ def test_up_and_around(combination: Combination, frame: Frame, deflection: float
 def test_forward_by_ten_degrees() -> None:
     tilt = Combination(Horizontal.TILT, Vertical.VELOCITY, Yaw.RATE)
     assert numbers(tilt, FULL, sticks(PITCH, 1.0), 0.0, 0.0) == (0, -10, 0, 0)
-    pose = flown(tilt, Frame.BODY, sticks(PITCH, 1.0)).pose()
+    pose = flown(tilt, ReferenceFrame.BODY, sticks(PITCH, 1.0)).pose()
     assert math.degrees(pose.pitch) == pytest.approx(-10), "nose down"
 
 

@@ -86,9 +86,9 @@ def test_what_ends_bringing_up_is_said_once(spoil, error: type[TeleopError], sai
 
 def test_its_state_has_everything_in_units() -> None:
     bench = Bench(yaw=90.0, battery=80.0)
-    bench.drone.cockpit.flight.hover(12)
+    bench.drone.autopilot.flight.hover(12)
     bench.run(1.2)
-    bench.drone.cockpit.flight.fly(3 + 0j)
+    bench.drone.autopilot.flight.fly(3 + 0j)
     bench.run(3)
     state = drone_state(bench.telemetry, bench.now, Stage.IDLE, {})
     assert state.attitude == (pytest.approx(0, abs=0.5), pytest.approx(0, abs=0.5), pytest.approx(90))

@@ -69,10 +69,10 @@ def test_a_refusal_and_silence_are_said_and_are_no_fault() -> None:
     ("words", "said"),
     [
         ("gimbal folow lock", "unknown command gimbal folow lock; did you mean gimbal follow lock?"),
-        ("gimbal recenter", "refused: the run's motion would undo it"),
-        ("gimbal selfie", "refused: the run's motion would undo it"),
-        ("gimbal speed yaw=10 roll=0 pitch=0", "refused: the run's motion would undo it"),
-        ("focus set position=5", "refused: the run's motion would undo it"),
+        ("gimbal recenter", "refused: it would disturb the commands of the run"),
+        ("gimbal selfie", "refused: it would disturb the commands of the run"),
+        ("gimbal speed yaw=10 roll=0 pitch=0", "refused: it would disturb the commands of the run"),
+        ("focus set position=5", "refused: it would disturb the commands of the run"),
         ("gimbal dial speed=9999", "speed"),
     ],
 )
@@ -94,7 +94,7 @@ def test_a_command_that_cannot_be_sent_is_refused_with_the_reason(words: str, sa
 )
 def test_what_is_told_to_a_device_that_is_not_there_is_said(gimbal: bool, drone: bool, said: list[str]) -> None:
     heard: list[str] = []
-    Unheard(gimbal, drone, heard.append).write(
+    Unheard(gimbal, drone, heard.append).observe(
         Tick(1.0, {}, {}, (DeviceCommand("drone", "engage"), DeviceCommand("gimbal", "follow lock")), {})
     )
     assert heard == said

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from teleop.dji.drone.enums import CurrentMode
-from teleop.dji.drone.movement import COMBINATIONS, Combination, Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, Move, ReferenceFrame, Vertical, Yaw
 from teleop.dji.message import FieldError
 
 TABLE = [
@@ -34,7 +34,7 @@ TABLE = [
 def move(combination: Combination, **given: Any) -> Move:
     usual: dict[str, Any] = {
         "stable": False,
-        "frame": Frame.GROUND,
+        "frame": ReferenceFrame.GROUND,
         "horizontal": combination.horizontal,
         "vertical": combination.vertical,
         "yaw_control": combination.yaw,
@@ -57,8 +57,10 @@ def refused(message: Move) -> bool:
 
 
 @pytest.mark.parametrize(("index", "row"), list(enumerate(TABLE)))
-@pytest.mark.parametrize(("frame", "stable"), [(Frame.GROUND, False), (Frame.BODY, True), (Frame.BODY, False)])
-def test_the_mode_bytes(index: int, row: tuple[int, Any, Any, Any], frame: Frame, stable: bool) -> None:
+@pytest.mark.parametrize(
+    ("frame", "stable"), [(ReferenceFrame.GROUND, False), (ReferenceFrame.BODY, True), (ReferenceFrame.BODY, False)]
+)
+def test_the_mode_bytes(index: int, row: tuple[int, Any, Any, Any], frame: ReferenceFrame, stable: bool) -> None:
     message = move(COMBINATIONS[index], frame=frame, stable=stable)
     message.check()
     assert message.encode()[0] == row[0] | frame << 1 | stable

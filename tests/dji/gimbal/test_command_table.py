@@ -83,7 +83,7 @@ def test_every_command_of_the_document_can_be_sent() -> None:
         ("gimbal position", "gimbal.position: yaw, roll, pitch missing"),
         ("gimbal position time_for_action=1", "gimbal.position: yaw, roll, pitch missing"),
         ("gimbal set_stiffness yaw=1", "gimbal.set_stiffness: pitch, roll missing"),
-        ("gimbal position yaw=1 yaw=2 roll=0 pitch=0", "a field is given twice"),
+        ("gimbal position yaw=1 yaw=2 roll=0 pitch=0", "duplicate field"),
         ("focus set position=near", "focus.set: position must be 0..4095, not 'near'"),
     ],
 )

@@ -25,9 +25,9 @@ from teleop.dji.drone.enums import (
     TaskCode,
     TaskKind,
 )
-from teleop.dji.drone.movement import Frame, Horizontal, Move, Vertical, Yaw
+from teleop.dji.drone.movement import Horizontal, Move, ReferenceFrame, Vertical, Yaw
 from teleop.dji.drone.virtual_rc import Sticks, VirtualRc
-from teleop.dji.frame import encode
+from teleop.dji.frame import Frame
 from teleop.sim.drone.controls import Pilot, Switch
 from teleop.sim.drone.settings import DroneSettings
 
@@ -46,7 +46,7 @@ def test_before_activation_it_takes_rates_and_broadcasts_or_not_and_refuses_the_
     bench.run(1)
     assert bool(bench.heard) == broadcasts
     assert any(each.control for _, each in bench.heard) == broadcasts
-    assert not bench.drone.cockpit.virtual_on
+    assert not bench.drone.autopilot.virtual_on
     assert bench.ask(drone.Activate(1)).code == ActivationCode.OK
     assert bench.ask(drone.Version()).code == Code.OK
 
@@ -68,36 +68,36 @@ def test_settings_of_the_virtual_rc_of_any_other_length_are_refused() -> None:
     """SDK 3.3.1 to 4.0.1 sent stick data under id 00: docs/protocol-facts.md."""
     bench = DroneBench.activated()
     for value in (b"", b"\x03\x00", bytes.fromhex("03") + bytes(63)):
-        bench.send(encode(b"\x05\x00" + value, 0, 1))
+        bench.send(Frame(b"\x05\x00" + value, 0, 1).encode())
     bench.run(0.1)
-    assert not bench.drone.cockpit.virtual_on
+    assert not bench.drone.autopilot.virtual_on
     assert bench.drone.counts["refused"] == 3
-    bench.send(encode(b"\x05\x00\x03", 0, 1))
+    bench.send(Frame(b"\x05\x00\x03", 0, 1).encode())
     bench.run(0.1)
-    assert bench.drone.cockpit.virtual_on
+    assert bench.drone.autopilot.virtual_on
 
 
 def test_the_virtual_rc_arms_and_flies_it() -> None:
     bench = DroneBench.activated()
     bench.tell(VirtualRc(on=True))
     bench.hold(CORNERS, 1.2)
-    assert bench.drone.cockpit.flight.motors
+    assert bench.drone.autopilot.flight.motors
     bench.hold(UP, 3)
     bench.hold(Sticks(pitch=1024 + 330, mode=ModeChannel.P), 3)
     last = bench.last("velocity")
     assert (last.x, last.y) == (pytest.approx(5, abs=0.1), pytest.approx(0, abs=0.1))
     assert bench.last("status") == FlightStatus.IN_AIR
     assert bench.last("position").height > 8
-    assert bench.drone.cockpit.pilot is Pilot.VIRTUAL
+    assert bench.drone.autopilot.pilot is Pilot.VIRTUAL
     bench.run(1.5)
-    assert bench.drone.cockpit.pilot is Pilot.RC
+    assert bench.drone.autopilot.pilot is Pilot.RC
 
 
 def test_channels_out_of_their_range_are_refused() -> None:
     bench = DroneBench.activated()
     bench.tell(VirtualRc(on=True))
     sent = Sticks(roll=1900)
-    bench.send(encode(sent.data(), 0, 5))
+    bench.send(Frame(sent.data(), 0, 5).encode())
     assert bench.drone.counts["refused"] == 1
 
 
@@ -152,7 +152,7 @@ def test_motors_obey_whoever_has_control_and_never_stop_in_the_air() -> None:
 def moves(**changes: Any) -> Move:
     plain: dict[str, Any] = {
         "stable": True,
-        "frame": Frame.BODY,
+        "frame": ReferenceFrame.BODY,
         "yaw_control": Yaw.RATE,
         "vertical": Vertical.VELOCITY,
         "horizontal": Horizontal.VELOCITY,
@@ -175,14 +175,14 @@ def test_velocities_are_along_the_nose_or_north_and_up_is_positive() -> None:
     velocity = bench.last("velocity")
     assert (velocity.x, velocity.y) == (pytest.approx(0, abs=0.01), pytest.approx(2, abs=0.01))
     assert velocity.z == pytest.approx(1, abs=0.01), "the vertical velocity of the broadcast is up"
-    bench.hold(moves(x=2.0, frame=Frame.GROUND), 4, rate=50)
+    bench.hold(moves(x=2.0, frame=ReferenceFrame.GROUND), 4, rate=50)
     assert bench.last("velocity").x == pytest.approx(2, abs=0.01)
 
 
 def test_a_heading_and_a_height_are_sought() -> None:
     bench = flying()
     bench.hold(moves(yaw_control=Yaw.ANGLE, yaw=-45.0, vertical=Vertical.POSITION, z=7.0), 12, rate=50)
-    pose = bench.drone.cockpit.pose
+    pose = bench.drone.autopilot.pose
     assert math.degrees(pose.yaw) == pytest.approx(-45, abs=0.1)
     assert pose.height == pytest.approx(7, abs=0.05)
 
@@ -193,7 +193,7 @@ def test_movement_without_control_or_in_no_listed_mode_is_refused() -> None:
     bench.obtain()
     refused = bench.drone.counts["refused"]
     assert refused == 1
-    bench.send(encode(b"\x01\x03\x6a" + bytes(16), 0, 9))
+    bench.send(Frame(b"\x01\x03\x6a" + bytes(16), 0, 9).encode())
     assert bench.drone.counts["refused"] == 2
 
 
@@ -224,8 +224,8 @@ def test_a_reboot_forgets_the_activation() -> None:
 
 def test_damage_is_passed_over() -> None:
     bench = DroneBench.activated()
-    frame = bytearray(encode(b"\x05\x00\x03", 0, 1))
+    frame = bytearray(Frame(b"\x05\x00\x03", 0, 1).encode())
     frame[14] ^= 1
-    bench.send(bytes(frame) + encode(b"\x05\x00\x03", 0, 2)[:-3])
+    bench.send(bytes(frame) + Frame(b"\x05\x00\x03", 0, 2).encode()[:-3])
     bench.run(1)
-    assert not bench.drone.cockpit.virtual_on
+    assert not bench.drone.autopilot.virtual_on

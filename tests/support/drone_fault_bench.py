@@ -1,4 +1,4 @@
-"""A simulated drone in an operator's hands, on virtual time, and a monitor of everything that is sent to it.
+"""A simulated drone with an operator's inputs, on virtual time, and a monitor of everything that is sent to it.
 
 The rig is real from its profile to the frames; between it and the drone lies a cable that a test can unplug, cut in
 either direction, or let damage what passes. The monitor knows nothing of the program: it sees frames with their
@@ -14,8 +14,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TypeVar
 
+from gimbal_fault_bench import StallingClock
 from hands import FakeInput
-from scene import StallingClock
 
 from teleop.config.presets import Presets
 from teleop.config.profile import load_profile
@@ -79,7 +79,7 @@ class Cable:
             raise LinkError("serial:/dev/ttyUSB0@230400: the adapter is gone: plug it in, then start again")
 
 
-class Sky:
+class DroneFaultBench:
     """`said` is what the operator was told, `keys` and `pad` are what is in the operator's hands."""
 
     def __init__(self, clock: StallingClock) -> None:
@@ -120,7 +120,7 @@ class Sky:
 
     def airborne(self, height: float = 30.0) -> None:
         """The drone hovers already, flown up by its pilot."""
-        self.drone.cockpit.flight.hover(height)
+        self.drone.autopilot.flight.hover(height)
 
     def of(self, kind: type[Kind]) -> list[tuple[float, Kind]]:
         """What was sent of a kind, by seconds after the start."""
@@ -150,8 +150,8 @@ class Sky:
         if not self.pad.trouble:
             self.held.append((now, dict(self.pad.deflections)))
         self.drone.receive(b"", now)  # it lives, whether anybody looks or not
-        if not self.pilots or self.pilots[-1][1] is not self.drone.cockpit.pilot:
-            self.pilots.append((now, self.drone.cockpit.pilot))
+        if not self.pilots or self.pilots[-1][1] is not self.drone.autopilot.pilot:
+            self.pilots.append((now, self.drone.autopilot.pilot))
 
     def check(self) -> None:
         """What holds whatever happens, by what was sent alone."""
@@ -167,7 +167,7 @@ class Sky:
         for time, move in self.of(Move):
             still = (move.x, move.y, move.z, move.yaw) == (0, 0, 0, 0)
             assert still or self._fresh(time), f"stale movement at {time:.3f} s: {move}"
-        assert not self.drone.cockpit.locked
+        assert not self.drone.autopilot.locked
 
     def _fresh(self, seconds: float) -> bool:
         """Whether a hand was there, so many seconds after the start, or just before."""
@@ -191,16 +191,16 @@ def check_enables(enables: list[float], disables: list[float]) -> None:
 
 
 @contextmanager
-def sky(folder: Path, sink: str = VIRTUAL_RC, gimbal: bool = False) -> Iterator[Sky]:
+def drone_fault_bench(folder: Path, sink: str = VIRTUAL_RC, gimbal: bool = False) -> Iterator[DroneFaultBench]:
     """A drone flown by this kind of sink, with a `gimbal` beside it whose pan is moved too."""
     text = PROFILE.replace("SINK", sink)
     if gimbal:
         text = text.replace("'sim:'}", "'sim:', gimbal: 'sim:'}").replace("axes:\n", f"axes:\n{PAN}\n")
         text = text.replace("sinks: [", f"sinks: [{GIMBAL}, ")
-    (folder / "sky.yaml").write_text(text)
-    profile = load_profile(str(folder / "sky.yaml"))
+    (folder / "bench.yaml").write_text(text)
+    profile = load_profile(str(folder / "bench.yaml"))
     clock = StallingClock()
-    made = Sky(clock)
+    made = DroneFaultBench(clock)
     made.hold_at(0.0)
     with ExitStack() as stack:
         presets = Presets(folder / "presets.yaml")
@@ -215,5 +215,5 @@ def sky(folder: Path, sink: str = VIRTUAL_RC, gimbal: bool = False) -> Iterator[
         assert flown is not None
         made.sink = flown
         flown.say = made.hear
-        made.loop = rig.loop(list(profile.limits), [made.operator], [made.operator])
+        made.loop = rig.loop(list(profile.limits), [made.operator])
         yield made

@@ -24,7 +24,7 @@ from teleop.core.axes import Axis, Limits
 from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.control_loop import LEAD, ControlLoop
 from teleop.core.events import Tick
-from teleop.core.interfaces import Link, Sink, Source
+from teleop.core.interfaces import Link, Observer, Source
 from teleop.core.run_state import RunState, RunStateMachine
 from teleop.core.setpoints import VelocityTarget
 from teleop.devices.rig import Rig, open_rig
@@ -96,7 +96,7 @@ class Mover:
     def start(self, now: float, motion: object) -> None:
         self.begin = now
 
-    def read(self, now: float):
+    def read(self, now: float, _feedback: object):
         if now >= self.begin + BREAKS and self.broken_at == float("inf"):
             self.broken_at = now - LEAD  # the clock's time: a tick is read that long before its moment
             self._breaks(self.broken_at)
@@ -109,14 +109,12 @@ class Mover:
 
 
 class Watcher:
-    """A sink that only looks on."""
+    """Sees each tick; a test may break it."""
 
-    def write(self, tick: Tick) -> None: ...
-
-    def release(self, now: float) -> float | None: ...
+    def observe(self, tick: Tick) -> None: ...
 
 
-class Scene:
+class GimbalFaultBench:
     """`wire` is every message to the gimbal with its time, `rates` its rates (deg/s) with theirs."""
 
     def __init__(self, mode: str, rig: Rig, clock: StallingClock | RealClock, far: Link) -> None:
@@ -147,14 +145,16 @@ class Scene:
             self._far.send(said)
         self.rates.append((now, self.gimbal.rates.yaw, self.gimbal.rates.pitch))
 
-    def move(self, breaks: Callable[[float], object], watchers: Sequence[Sink] = (), seconds: float = 60.0) -> None:
+    def move(
+        self, breaks: Callable[[float], object], observers: Sequence[Observer] = (), seconds: float = 60.0
+    ) -> None:
         """The whole run of a move that is broken, and a second after it."""
         self.mover = Mover(breaks, seconds)
-        self.run(self.mover, [self.watcher, *watchers])
+        self.run(self.mover, [self.watcher, *observers])
 
-    def run(self, source: Source, watchers: Sequence[Sink]) -> None:
+    def run(self, source: Source, observers: Sequence[Observer]) -> None:
         """A whole run, and a second after it."""
-        self.loop = self.rig.loop(list(SPEEDS), [source], watchers)
+        self.loop = self.rig.loop(list(SPEEDS), [source], observers)
         self._run = self.loop.supervisor
         self.ended = self.loop.run()
         self.over = self.clock.now()
@@ -226,18 +226,18 @@ class Scene:
 
 
 @contextmanager
-def scene(
+def gimbal_fault_bench(
     mode: str, folder: Path, monkeypatch: pytest.MonkeyPatch, clock: StallingClock | RealClock | None = None
-) -> Iterator[Scene]:
+) -> Iterator[GimbalFaultBench]:
     register(monkeypatch)
     monkeypatch.setattr(can.interfaces, "VALID_INTERFACES", can.interfaces.VALID_INTERFACES | {"faulty"})
-    channel = f"scene{next(_channels)}"
+    channel = f"bench{next(_channels)}"
     text = PROFILE.replace("CHANNEL", channel).replace("MODE", mode).replace("DELAY", str(DELAYS[mode]))
     (folder / "rig.yaml").write_text(text)
     clock = clock or StallingClock()
     far = open_link(f"virtual:{channel}", host=False, now=clock.now)
     try:
         with open_rig(load_profile(str(folder / "rig.yaml")), clock) as rig:
-            yield Scene(mode, rig, clock, far)
+            yield GimbalFaultBench(mode, rig, clock, far)
     finally:
         far.close()

@@ -1,4 +1,4 @@
-"""A third node on a kernel's CAN bus: where the gimbal said that it was, with the kernel's own times."""
+"""A third node on a kernel's CAN bus: the angles that the gimbal reports, with the kernel's own times."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Angle(NamedTuple):
     pan: float
 
 
-class Onlooker:
+class BusListener:
     """Hears what is said while it waits for something; `angles` has the gimbal's answers since it was opened."""
 
     def __init__(self, channel: str) -> None:
