@@ -85,7 +85,9 @@ def live(
                 title, limits, lambda now: guard.over(shown(now)), silent=options.json, command="teleop live"
             )
             guard.say = display.say
-            recorder = stack.enter_context(recording(take, profile.name, title, limits, status, patient=fast))
+            recorder = stack.enter_context(
+                recording(take, profile.name, title, limits, status, patient=fast, option="--take ")
+            )
             rig = stack.enter_context(open_rig(profile, clock))
             aboard.board(rig, axes, display.say, by_script=True)
             return perform(
@@ -102,7 +104,7 @@ def live(
         for line in (*left_out, *([note] if note else [])):
             operator.say(line)
         recorder = stack.enter_context(
-            recording(take, profile.name, title, limits, lambda: aboard.status(operator.status))
+            recording(take, profile.name, title, limits, lambda: aboard.status(operator.status), option="--take ")
         )
         aboard.board(rig, axes, operator.say, by_script=False)
         view = LiveView(

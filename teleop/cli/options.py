@@ -56,7 +56,7 @@ class Options:
             if not equals or not name:
                 raise DocumentError([f"--link {text}: write it as NAME=URL, as in gimbal=socketcan:can0"])
             links[name] = url
-        return load_profile(self.rig, links)
+        return load_profile(self.rig, links, "--link ")
 
     def compiled(self, file: str, share: float = 1.0) -> tuple[Profile, CompiledSequence, Timelapse | None]:
         """The sequence or take called `file`, compiled for the rig, its warnings said.

@@ -62,7 +62,7 @@ class SequenceRun:
             conductor, guard = self._conductor(stack, axes, extras)
             title = self.performance.title
             status = aboard.status if is_flown(axes) else None
-            taking = recording(self.take, profile.name, title, limits, status, patient=self.patient)
+            taking = recording(self.take, profile.name, title, limits, status, patient=self.patient, option="--take ")
             recorder = stack.enter_context(taking)
             if source.staging.trigger is not None:
                 source.staging.trigger.open(stack)

@@ -49,7 +49,7 @@ def shoot(
             open_journal(path, belongs, resume=asked.resume, restart=asked.restart, patient=virtual)
         )
         recorder = stack.enter_context(
-            recording(take, profile.name, timelapse.title, timelapse.limits, patient=virtual)
+            recording(take, profile.name, timelapse.title, timelapse.limits, patient=virtual, option="--take ")
         )
         keys = None if descriptor is None else stack.enter_context(Keyboard(descriptor, PlayKeys(RUN_KEYS)))
         watchers: list[Sink] = [each for each in (recorder, keys) if each is not None]

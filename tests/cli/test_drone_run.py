@@ -200,7 +200,7 @@ def test_a_drone_on_a_real_line_wants_an_app_id(tmp_path: Path, monkeypatch: pyt
         links = ["--link", f"drone={line.split()[-1]}", "--link", "gimbal=sim:"]
         ran = teleop(*arguments, *links)
         assert ran.returncode == 2
-        assert "the drone wants the app id that DJI gave you: in TELEOP_DJI_APP_ID" in ran.stderr
+        assert "the drone needs the app id that DJI gave you: in TELEOP_DJI_APP_ID" in ran.stderr
         monkeypatch.setenv("TELEOP_DJI_APP_ID", "123456")
         ran = teleop(*arguments, *links)
         assert ran.returncode == 0, ran.stderr

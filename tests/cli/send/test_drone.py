@@ -89,7 +89,7 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
         ("sticks --i-understand", "drone.sticks is not sent by itself: sticks that nobody holds fly on"),
         ("sticks throttle=1684 --i-understand", "drone.sticks is not sent by itself"),
         ("activate app_id=5", "drone activate takes no fields"),
-        ("activate", "the drone wants the app id that DJI gave you: in TELEOP_DJI_APP_ID, or app_id in "),
+        ("activate", "the drone needs the app id that DJI gave you: in TELEOP_DJI_APP_ID, or app_id in "),
         ("", "say what to send to the drone; teleop send drone --help lists everything"),
         ("tkae off", "there is no command 'drone tkae off', did you mean 'drone take off'?"),
         ("event event=control_lost", "there is no command 'drone event'"),
