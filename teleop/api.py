@@ -257,4 +257,4 @@ def _refuse_real_links(profile: Profile) -> None:
     from teleop.links import parse
 
     if real := [f"{name}={url}" for name, url in profile.links.items() if parse(url).kind != "sim"]:
-        raise UsageError(f"virtual=True: {', '.join(real)} keeps its own time; only sim: links can be virtual")
+        raise UsageError(f"virtual=True: {', '.join(real)} runs in real time; only sim: links can be virtual")

@@ -44,7 +44,9 @@ class Session:
         self.profile = profile
         self.axes = [axis for axis in profile.axes if not axis.is_stick]
         if not self.axes:
-            raise UsageError(f"{profile.name} has no axis that a program can move: a drone needs an operator")
+            raise UsageError(
+                f"{profile.name} has no axis that a program can move: a drone needs an operator, with `teleop live`"
+            )
         self.program = ProgramSource()
         self._turning = threading.RLock()  # on the virtual clock, the thread that turns the loop
         self._closing = threading.Lock()

@@ -44,7 +44,9 @@ NOISE = 0.5  # deg rms that no delay explains
 HINTS = (Hint("space", "STOP"), Hint("p", "pause"), Hint("q", "end"))
 
 app = App(
-    name="calibrate", help="Measure what a profile has to know about a gimbal.", help_epilogue=examples("calibrate")
+    name="calibrate",
+    help="Measure the delay and the signs of a gimbal for its profile.",
+    help_epilogue=examples("calibrate"),
 )
 app.command(signs, help_epilogue=examples("calibrate signs"))
 
@@ -111,12 +113,15 @@ def _delays(swing: CalibrationMove, traces: Traces) -> list[Delay]:
     each = [estimate(traces.commanded, traces.measured, begin, begin + swing.period) for begin in begins]
     delays = [one for one in each if one is not None]
     if len(delays) < len(each):
-        raise DeviceError("the axis did not move, or hardly said where it was: nothing can be measured")
+        raise DeviceError(
+            "the axis did not move, or sent too few readings:"
+            " check that the gimbal is unlocked and awake, and measure again"
+        )
     scale, rms = fmean(one.scale for one in delays), max(one.rms for one in delays)
     if not FAITHFUL[0] <= scale <= FAITHFUL[1] or rms > NOISE:
         raise DeviceError(
-            f"the axis moved {scale:.2f} times as far as it was told, {rms:.2f} deg beside it:"
-            " does this gimbal obey this mode?"
+            f"the axis moved {scale:.2f} times the commanded distance, with an error of {rms:.2f} deg:"
+            " check that this gimbal supports this mode"
         )
     return delays
 

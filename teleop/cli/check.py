@@ -47,9 +47,9 @@ def check(
             counted = Counter(cue.name for cue in performance.cues)
             tell(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
         if is_flown(performance.move.tracks):
-            tell("It is flown at its own speed only.")
+            tell("A drone's move is played at its own speed only.")
         else:
-            tell(f"It can be played at most at {math.floor(100 * most)} % of its speed.")
+            tell(f"Maximum playback speed: {math.floor(100 * most)} %.")
     return 0
 
 

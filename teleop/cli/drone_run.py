@@ -25,7 +25,7 @@ Understood = Annotated[
     bool,
     Parameter(
         name="--i-understand",
-        help="Fly a drone without asking: its sticks are engaged at the start.",
+        help="Fly a drone without confirmation: its sticks are engaged at the start.",
         negative=(),
         show_default=False,
     ),
@@ -41,11 +41,11 @@ def ask_to_fly(what: str, axes: Collection[Axis], understood: bool) -> None:
     if not is_flown(axes) or understood:
         return
     if sys.stdin is None or sys.stdin.closed or not sys.stdin.isatty():
-        raise UsageError(f"{what} flies a drone: --i-understand says that somebody is there who may fly it")
+        raise UsageError(f"{what} flies a drone: run it on a terminal to confirm, or give --i-understand")
     print(f"{what} flies a drone. Its pilot has the RC in hand, in F? Type {WORD} and Enter: ", end="", file=sys.stderr)
     sys.stderr.flush()
     if sys.stdin.readline().strip().lower() != WORD:
-        raise UsageError(f"{what}: {WORD} was not typed, so nothing flies")
+        raise UsageError(f"{what}: {WORD} was not typed; nothing was sent to the drone")
 
 
 def refuse_offsets(profile: Profile) -> None:

@@ -39,7 +39,7 @@ from teleop.manual.stop_guard import Relay, StopGuard
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 from teleop.recording.writer import recording
 
-NOBODY = "live: there is no joystick, and no terminal for its keys: plug one in, run it on a terminal, or give --sticks"
+NOBODY = "live: no joystick and no terminal: plug in a joystick, run it on a terminal, or give --sticks"
 
 
 def live(
@@ -48,9 +48,11 @@ def live(
         Path | None, Parameter(metavar="FILE", help="CSV: time in s, and a deflection of -1..1 for each axis.")
     ] = None,
     presets: Annotated[
-        Path | None, Parameter(metavar="FILE", help="Where presets are kept; else one file for each rig.")
+        Path | None, Parameter(metavar="FILE", help="File of the presets; without it, one for each rig.")
     ] = None,
-    learn: Annotated[bool, Parameter(help="Ask what each control is to do.", negative=(), show_default=False)] = False,
+    learn: Annotated[
+        bool, Parameter(help="Ask what each control should do, and print the mapping.", negative=(), show_default=False)
+    ] = False,
     fast: Fast = False,
     take: Take = None,
     i_understand: Understood = False,
@@ -62,7 +64,7 @@ def live(
         return _learn(profile)
     refuse_offsets(profile)
     if sticks is None and fast:
-        raise UsageError("--fast: a hand keeps its own time; only --sticks can be replayed fast")
+        raise UsageError("--fast: an operator works in real time; only --sticks can be replayed fast")
     recorded = None if sticks is None else read_sticks(sticks, list(profile.axes))
     replay = None if recorded is None else _replay(profile, recorded)
     title = profile.name if sticks is None else sticks.name

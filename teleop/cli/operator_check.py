@@ -22,6 +22,6 @@ def attended(file: str, performance: CompiledSequence, keys: bool, fast: bool) -
     if not waits or keys:
         return performance
     if not fast:
-        raise UsageError(f"{file} waits for the operator at {waits[0]:g} s: there is no terminal on which to say go on")
-    print("--fast: nobody is waited for", file=sys.stderr)
+        raise UsageError(f"{file} waits for the operator at {waits[0]:g} s: run it on a terminal")
+    print("--fast: waits for the operator are skipped", file=sys.stderr)
     return replace(performance, cues=[cue for cue in performance.cues if not isinstance(cue.action, Wait)])

@@ -43,7 +43,12 @@ class Options:
     ] = "sim"
     link: Annotated[
         tuple[str, ...],
-        Parameter(metavar="NAME=URL", help="Where one of the rig's links is today.", negative=(), show_default=False),
+        Parameter(
+            metavar="NAME=URL",
+            help="URL of one of the rig's links, instead of the profile's.",
+            negative=(),
+            show_default=False,
+        ),
     ] = ()
     json: Annotated[bool, Parameter(help="Print JSON, for programs.", negative=(), show_default=False)] = False
     debug: Annotated[bool, Parameter(help="Print tracebacks.", negative=(), show_default=False)] = False

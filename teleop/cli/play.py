@@ -34,11 +34,11 @@ from teleop.sequence.trim_export import TrimmedFile
 
 Fast = Annotated[
     bool,
-    Parameter(help="Do not wait: simulated time, only on sim: links.", negative=(), show_default=False),
+    Parameter(
+        help="Run on simulated time, as fast as possible; only with sim: links.", negative=(), show_default=False
+    ),
 ]
-Take = Annotated[
-    Path | None, Parameter(name="--take", metavar="FILE", help="Record everything the run does to a new .mcap file.")
-]
+Take = Annotated[Path | None, Parameter(name="--take", metavar="FILE", help="Record the run to a new .mcap file.")]
 
 
 def play(
@@ -49,9 +49,7 @@ def play(
     *,
     speed: Annotated[
         str,
-        Parameter(
-            metavar="PERCENT", help="How fast, as a percentage: up to 200, as far as teleop check says the move allows."
-        ),
+        Parameter(metavar="PERCENT", help="Playback speed, up to 200; teleop check shows the move's maximum."),
     ] = "100%",
     staging: StagingOptions = NO_STAGING,
     shooting: ShootOptions = NOTHING_ASKED,
@@ -61,9 +59,9 @@ def play(
     i_understand: Understood = False,
     options: Options = DEFAULTS,
 ) -> int:
-    """Play a sequence: ease to its first keyframe, then the move, then say how well the rig followed.
+    """Play a sequence: ease to its first keyframe, then the move, then report how well the rig followed.
 
-    A timelapse is shot, frame by frame; its journal in this folder knows where it was left.
+    A timelapse is shot, frame by frame; its journal in this folder has the frames that were shot.
     """
     left, file = trim.left, named("play", file, options.json)
     profile, performance, timelapse = options.compiled(file, left)
@@ -73,12 +71,12 @@ def play(
     profile = profile.in_use(axes, [*(cue.action for cue in performance.cues), *([Action.SHUTTER] if shot else [])])
     flown = is_flown(axes)
     if timelapse is not None and flown:
-        raise DocumentError([f"{file}: a timelapse has no drone: it would fly on from frame to frame"])
+        raise DocumentError([f"{file}: a timelapse cannot fly a drone: leave out the stick axes"])
     if timelapse is not None and not shooting.rehearse:
         from teleop.cli.shoot import shoot
 
         if staging != NO_STAGING or trim != NO_TRIM or speed != "100%":
-            raise DocumentError([f"{file} is shot, not played: --speed and its kin go with --rehearse only"])
+            raise DocumentError([f"{file} is a timelapse: --speed, --trim and the options of passes need --rehearse"])
         return shoot(file, timelapse, profile, the_clock(fast, profile), shooting, take, options)
     if timelapse is not None:
         warn(performance)
@@ -92,7 +90,7 @@ def play(
         profile = followable(profile)
     clock = the_clock(fast, profile)
     if trim.trim and fast:
-        raise UsageError("--trim: a hand keeps its own time; leave out --fast")
+        raise UsageError("--trim: an operator works in real time; leave out --fast")
     if flown:
         _refuse_to_fly(speed, staging, trim)
     ask_to_fly(performance.title, axes, i_understand)
@@ -115,11 +113,13 @@ def play(
 def _refuse_to_fly(speed: str, staging: StagingOptions, trim: TrimOptions) -> None:
     """Raises DocumentError for what makes a move of a drone's sticks another one."""
     if percentage("--speed", speed) != 1:
-        raise DocumentError([f"--speed {speed}: a drone's sticks held for longer or shorter fly it somewhere else"])
+        raise DocumentError([f"--speed {speed}: a drone's move has one speed: leave out --speed"])
     if staging.start_at is not None:
-        raise DocumentError([f"--start-at {staging.start_at}: a drone flies its moves from their beginning"])
+        raise DocumentError(
+            [f"--start-at {staging.start_at}: a drone's move starts at its first key: leave out --start-at"]
+        )
     if trim.trim:
-        raise DocumentError(["--trim: a drone's sticks are not moved aside; fly it by hand in teleop live"])
+        raise DocumentError(["--trim: a drone's move cannot be trimmed: use teleop live"])
 
 
 def _trimmed(file: str, target: Path, axes: Sequence[Axis], profile: Profile) -> TrimmedFile:
@@ -145,5 +145,5 @@ def the_clock(fast: bool, profile: Profile) -> SystemClock | VirtualClock:
         return SystemClock()
     real = [f"{name}={url}" for name, url in profile.links.items() if parse(url).kind != "sim"]
     if real:
-        raise DocumentError([f"--fast: {', '.join(real)} keeps its own time; only sim: links can be played fast"])
+        raise DocumentError([f"--fast: {', '.join(real)} runs in real time; only sim: links can be played fast"])
     return VirtualClock()

@@ -34,7 +34,7 @@ from teleop.sequence.playback_controls import PlaybackControls
 from teleop.sequence.source import SequenceSource
 from teleop.sequence.trim_export import TrimmedFile
 
-NOBODY = "play --trim: there is no joystick, and no terminal for its keys: plug one in, or run it on a terminal"
+NOBODY = "play --trim: no joystick and no terminal: plug in a joystick, or run it on a terminal"
 
 
 @dataclass(frozen=True)

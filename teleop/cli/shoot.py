@@ -105,9 +105,9 @@ def _print(ended: Ended, shooting: Shooting, journal: Journal, tally: TrackingEr
         tell(line)
     if ended.result is not Result.DONE:
         if journal.in_doubt is not None:
-            tell(f"Frame {journal.in_doubt} is in doubt: its shutter was due just when the shoot stopped.")
+            tell(f"Frame {journal.in_doubt} may be missing: the shoot stopped at its shutter.")
         left = clock(max(0.0, progress.slots.at(progress.slots.frames - 1) - progress.slots.at(journal.next)))
-        tell(f"--resume goes on at frame {journal.next}, with {left} of shooting left ({journal.path})")
+        tell(f"Continue with --resume: frame {journal.next} is next, {left} of shooting left ({journal.path})")
 
 
 def _troubles(shooting: Shooting) -> list[str]:
@@ -118,9 +118,9 @@ def _troubles(shooting: Shooting) -> list[str]:
     if progress.lost:
         lines.append(f"No picture of frames {_numbers(progress.lost)}")
     if progress.doubtful:
-        lines.append(f"Frames {_numbers(progress.doubtful)} may be missing: nobody can say whether they were shot")
+        lines.append(f"Frames {_numbers(progress.doubtful)} may be missing: the camera did not confirm them")
     if progress.stopped:
-        lines.append(f"Frames {_numbers(progress.stopped)} were exposing when a STOP halted the axes: look at them")
+        lines.append(f"Frames {_numbers(progress.stopped)} were exposing when a STOP halted the axes: check them")
     if progress.late:
         lines.append(f"{progress.late} frames were late, by {progress.latest:.2f} s at most")
     if progress.refused:

@@ -36,13 +36,13 @@ def open_stop_inputs(stack: ExitStack, profile: Profile, clock: Clock) -> Sequen
         found = backend.enumerate()
     except (DeviceError, OSError) as error:
         if profile.inputs:
-            _warn(f"{error}, so no input can be read: their STOP does not count")
+            _warn(f"{error}, so no input can be read and none can STOP the run")
         return []
     absent = [each for each in sections if not wanted(each.device, found, None)]
     if absent and not profile.inputs:
         return []
     for each in absent:
-        _warn(f"{each.name or each.device}: not plugged in, so its STOP does not count")
+        _warn(f"{each.name or each.device}: not plugged in, so it cannot STOP the run")
     return stack.enter_context(open_inputs(sections, clock.now, backend, stop_only=True))
 
 

@@ -30,14 +30,14 @@ class TrimOptions:
     """`left` is the share of V, A and J that is left for the sequence."""
 
     trim: Annotated[
-        bool, Parameter(help="Sticks, dials and keys move the playing sequence aside.", negative=(), show_default=False)
+        bool, Parameter(help="Trim the playing sequence with sticks, dials and keys.", negative=(), show_default=False)
     ] = False
     trim_share: Annotated[
-        str, Parameter(metavar="PERCENT", help="Of velocity, acceleration and jerk, for the trim.")
+        str, Parameter(metavar="PERCENT", help="Share of velocity, acceleration and jerk for the trim.")
     ] = SHARE
     trim_out: Annotated[
         Path | None,
-        Parameter(metavar="FILE", help="Write the sequence with the trim in its keys: at w, or at the end."),
+        Parameter(metavar="FILE", help="Write the trimmed sequence to a new file: at key w, or at the end."),
     ] = None
 
     @property
@@ -45,7 +45,7 @@ class TrimOptions:
         """Raises UsageError for options that mean nothing."""
         if not self.trim:
             if self.trim_out or self.trim_share != SHARE:
-                raise UsageError(f"--trim-{'out' if self.trim_out else 'share'}: goes with --trim")
+                raise UsageError(f"--trim-{'out' if self.trim_out else 'share'}: needs --trim")
             return 1.0
         text = self.trim_share.strip().removesuffix("%")
         try:

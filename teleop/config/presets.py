@@ -160,9 +160,13 @@ def _preset(section: PresetSection) -> Preset:
 
 def _beyond(axis: Axis, position: float, limits: Mapping[Axis, Limits], rig: str) -> str:
     if axis not in limits:
-        return f"is left alone: {rig} has no {axis}"
+        return f"is not used: {rig} has no {axis}"
     low, high = limits[axis].minimum, limits[axis].maximum
-    return "" if low <= position <= high else f"lies beyond the soft limits ({low:g}..{high:g}), and ends there"
+    return (
+        ""
+        if low <= position <= high
+        else f"is outside the soft limits ({low:g}..{high:g}): a recall stops at the limit"
+    )
 
 
 def write_presets(file: Path, presets: Mapping[int, Preset]) -> None:

@@ -264,7 +264,7 @@ def sink_rules(data: Any) -> Iterator[Wrong]:
     for axis in STICKS:
         low, high = (number(mapping(axes, axis).get(end)) for end in ("min", "max"))
         if axis in axes and not (low is not None and high is not None and -1 <= low < 0 < high <= 1):
-            yield ("axes", axis), "is a stick: its min and max must be within -1 and 1, with its centre 0 between them"
+            yield ("axes", axis), "is a stick: its min and max must be within -1 and 1, with its center 0 between them"
 
 
 def _drone_rules(sink: Mapping[str, Any], kind: str, here: Location, data: Any) -> Iterator[Wrong]:

@@ -113,7 +113,7 @@ def test_a_take_of_a_flight_can_be_flown_again(sequence: str, tmp_path: Path) ->
 def test_a_flight_keeps_its_time(sequence: str) -> None:
     ran = teleop("play", sequence, *RIG, "--fast", "--i-understand", "--speed", "50%")
     assert ran.returncode == 2
-    assert ran.stderr == "--speed 50%: a drone's sticks held for longer or shorter fly it somewhere else\n"
+    assert ran.stderr == "--speed 50%: a drone's move has one speed: leave out --speed\n"
 
 
 def test_recorded_sticks_fly_it_and_its_end_gives_it_back(sticks: str) -> None:

@@ -72,7 +72,7 @@ def test_an_absent_one_is_a_warning_and_one_without_a_stop_is_not_opened(
     with ExitStack() as stack:
         (hand,) = opened(stack, profile_with(tmp_path, inputs), FakeBackend(), monkeypatch)
         assert hand.read(0.0).stop is None
-    assert capsys.readouterr().err == "teleop: warning: Left hand: not plugged in, so its STOP does not count\n"
+    assert capsys.readouterr().err == "teleop: warning: Left hand: not plugged in, so it cannot STOP the run\n"
 
 
 def test_without_inputs_and_without_a_joystick_nothing_is_opened_or_said(

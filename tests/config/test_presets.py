@@ -48,7 +48,7 @@ def test_a_name_and_an_axis_of_another_rig_survive_a_store(tmp_path: Path) -> No
     file.write_text('presets:\n  1: {pan: 1, roll: 5, name: "wide \\u00e9"}\n')
     shelf = read_presets(file, LIMITS, RIG)
     assert [said.removeprefix(f"{tmp_path}/") for said in shelf.heard()] == [
-        "presets.yaml:2:21: presets.1.roll is left alone: Test rig has no roll"
+        "presets.yaml:2:21: presets.1.roll is not used: Test rig has no roll"
     ]
     assert list(shelf.heard()) == []
     shelf.store(1, {Axis.PAN: 2.0})
@@ -60,7 +60,7 @@ def test_a_preset_beyond_the_soft_limits_is_said(tmp_path: Path) -> None:
     file = tmp_path / "presets.yaml"
     file.write_text("presets:\n  7: {pan: 200}\n")
     [said] = read_presets(file, LIMITS, RIG).heard()
-    assert said.endswith("2:12: presets.7.pan lies beyond the soft limits (-180..180), and ends there")
+    assert said.endswith("2:12: presets.7.pan is outside the soft limits (-180..180): a recall stops at the limit")
 
 
 @pytest.mark.parametrize(
