@@ -21,6 +21,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, cast
 
+from teleop.app.clocks import real_links
 from teleop.app.move import Move, Samples
 from teleop.app.planning import plan_content, plan_file
 from teleop.app.program import BusyError, EventJob, JogJob, MoveJob, StoppedError
@@ -84,8 +85,8 @@ def open(  # noqa: A001 - `teleop.open` reads well, and nothing here opens files
     Raises DocumentError for a bad profile, LinkError and DeviceError when a device does not answer.
     """
     profile = load_profile(str(rig), links)
-    if virtual:
-        _refuse_real_links(profile)
+    if virtual and (real := real_links(profile)):
+        raise UsageError(f"virtual=True: {', '.join(real)} runs in real time; only sim: links can be virtual")
     return Rig(Session(profile, virtual))
 
 
@@ -251,10 +252,3 @@ def _planned(sequence: Source, profile: Profile) -> Move:
     else:
         raise UsageError("sequence: must be a name, a file or a dict")
     return Move(plan.sequence, profile)
-
-
-def _refuse_real_links(profile: Profile) -> None:
-    from teleop.links import parse
-
-    if real := [f"{name}={url}" for name, url in profile.links.items() if parse(url).kind != "sim"]:
-        raise UsageError(f"virtual=True: {', '.join(real)} runs in real time; only sim: links can be virtual")

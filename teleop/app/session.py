@@ -15,10 +15,10 @@ import weakref
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 
+from teleop.app.clocks import clock_for
 from teleop.app.program import Job, ProgramSource
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, State
-from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import DeviceError, Interrupted, TeleopError, UsageError
 from teleop.core.events import Action
@@ -51,7 +51,7 @@ class Session:
         self._turning = threading.RLock()  # on the virtual clock, the thread that turns the loop
         self._closing = threading.Lock()
         self._stack = ExitStack()
-        self.clock = VirtualClock() if virtual else SystemClock()
+        self.clock = clock_for(virtual)
         self.is_virtual = virtual
         self._thread: threading.Thread | None = None
         self._closed = self._interrupted = False

@@ -13,7 +13,7 @@ import pytest
 from command import running, teleop
 from terminal import terminal
 
-from teleop.cli.drone_run import HOVER
+from teleop.app.drone_flight import HOVER
 from teleop.core.axes import Axis
 from teleop.recording.messages import Messages
 from teleop.recording.reader import read_take
