@@ -21,6 +21,7 @@ from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import InputSection, input_rules
 from teleop.config.operator_settings import PresetsSection, SticksSection
 from teleop.config.resources import find
+from teleop.config.sink_rules import sink_rules
 from teleop.config.sinks_section import (
     DRONES,
     MOVES,
@@ -29,7 +30,6 @@ from teleop.config.sinks_section import (
     Magnitude,
     SinkSection,
     VirtualRcSection,
-    sink_rules,
 )
 from teleop.config.yaml_loader import read_document
 from teleop.core.axes import Axis, Limits
