@@ -14,7 +14,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "export": ("teleop.cli.take.files:take_export", "Write a take as a table."),
     "keyframes": ("teleop.cli.take.keyframes:take_keyframes", "Fit sparse, editable keyframes to a take."),
     "report": ("teleop.cli.take.report:take_report", "Report how well a run went, axis by axis."),
-    "recover": ("teleop.cli.take.files:take_recover", "Save the complete part of a take that was never closed."),
+    "recover": ("teleop.cli.take.files:take_recover", "Save the whole part of a take that was cut off."),
 }
 
 app = App(name="take", help="List, report, export and repair recorded runs.", help_epilogue=examples("take"))

@@ -58,7 +58,7 @@ def take_recover(
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> int:
-    """Save the complete part of a take that was never closed, into a new file; the original stays as it is.
+    """Save the whole part of a take that was cut off into a new file; the original is not changed.
 
     After a crash, kill -9, a full disk or a power cut a take has no end and no index; other programs refuse it.
     """
@@ -73,7 +73,7 @@ def take_recover(
             if as_json:
                 print(json.dumps({"ok": True, "written": None, "messages": 0}))
             else:
-                tell(f"{file}: is complete; there is nothing to recover")
+                tell(f"{file}: is complete; nothing to recover")
             return 0
         with replacing(target) as stream:
             saved = recover(file, stream)
@@ -83,7 +83,7 @@ def take_recover(
         return 0
     tell(f"{target}: saved {saved.messages} messages, {length(saved.seconds)}")
     if saved.lost:
-        tell(f"lost: the last {saved.lost} of {saved.size} bytes, which are incomplete, and what was never written")
+        tell(f"lost: the last {saved.lost} of {saved.size} bytes, which are damaged, and what was never written")
     else:
         tell("lost: only what was never written")
     return 0

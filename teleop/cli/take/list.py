@@ -36,9 +36,9 @@ def take_list(
 
 
 def take_info(file: TakeFile, /, *, as_json: Json = False) -> int:
-    """Show what is in a take: the run, its axes and limits, how many messages of what, what was done, how it ended."""
-    with problems_said(as_json):
-        found = survey(file)
+    """Show what is in a take: the run, its axes and limits, messages by topic, actions, how it ended."""
+    with problems_as_json(as_json):
+        found = summarize(file)
     say(found.remark)
     links = {} if found.ending is None else found.ending.links
     if as_json:
