@@ -184,7 +184,7 @@ class Shooting:
         frame = self._journal.in_doubt
         if frame is None:
             return
-        said = f"frame {frame} is in doubt: its shutter was due just when the shoot stopped"
+        said = f"frame {frame} may be missing: the shoot stopped at its shutter"
         if self._in_doubt == "skip":
             self._journal.note(frame, Frame.DOUBTFUL)
             self._journal.catch_up()
