@@ -16,31 +16,23 @@ thread at a time moves a rig. Nothing is printed, and no terminal or signal hand
 from __future__ import annotations
 
 import math
-import tempfile
-from collections.abc import Generator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self, cast
+from typing import Any, Self, cast
 
-from teleop.app.program import BusyError, EventJob, JogJob, MoveJob, SourceJob, StoppedError
+from teleop.app.clocks import real_links
+from teleop.app.move import Move, Samples
+from teleop.app.planning import plan_content, plan_file
+from teleop.app.program import BusyError, EventJob, JogJob, MoveJob, StoppedError
 from teleop.app.session import Session, shortest_seconds
+from teleop.app.session_play import AxisReport, Report, play
 from teleop.config.document import DocumentError, UnplayableError
 from teleop.config.profile import Profile, load_profile
-from teleop.core.axes import Axis, State
+from teleop.core.axes import STICKS, Axis, State
 from teleop.core.errors import DeviceError, LinkError, TeleopError, UsageError
 from teleop.core.events import Action
-from teleop.core.run_state import Result
-from teleop.monitors.tracking_error import Score, TrackingErrorMonitor
-from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
-from teleop.sequence.compile import CompiledSequence, load_sequence
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from teleop.planner.trajectory import Peaks
 
 __all__ = [
     "AxisReport",
@@ -51,6 +43,7 @@ __all__ = [
     "Move",
     "Report",
     "Rig",
+    "Samples",
     "State",
     "StoppedError",
     "Take",
@@ -66,81 +59,6 @@ Source = str | Path | Mapping[str, Any]
 """A sequence: a shipped one's name, a file, or the content of one as a dict."""
 
 
-@dataclass(frozen=True, eq=False)
-class Move:
-    """A sequence compiled for a rig: what every axis does at every time, checked against the rig's limits."""
-
-    compiled: CompiledSequence
-    profile: Profile
-
-    @property
-    def title(self) -> str:
-        return self.compiled.title
-
-    @property
-    def axes(self) -> tuple[Axis, ...]:
-        return tuple(self.compiled.move.tracks)
-
-    @property
-    def duration(self) -> float:
-        """Seconds from 0 to the end of the motion."""
-        return self.compiled.move.duration
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """What the planner remarks on, a line each."""
-        return tuple(self.compiled.warnings)
-
-    def at(self, time: float) -> dict[Axis, State]:
-        """The state of each axis, `State(position, velocity, acceleration)`, `time` s after the start."""
-        return self.compiled.move.at(time)
-
-    def sample(self, times: Array) -> dict[Axis, Array]:
-        """For each axis an array (4, n): rows position, velocity, acceleration and jerk at `times` (n,), in s."""
-        import numpy as np
-
-        return self.compiled.move.sample(np.asarray(times, float))
-
-    def peaks(self) -> dict[Axis, Peaks]:
-        """The exact extremes of each axis: velocity, acceleration, jerk, and the range of positions."""
-        return self.compiled.move.peaks()
-
-    def plot(self) -> Figure:
-        """A matplotlib figure with a panel each for position, velocity, acceleration and jerk (extra `plot`)."""
-        from teleop.plots.drawing import figure
-
-        return figure(self.compiled, self.profile)
-
-    def _repr_html_(self) -> str:
-        """The interactive preview, for a notebook."""
-        from html import escape
-
-        from teleop.plots.page import page
-
-        text = escape(page(self.compiled, self.profile), quote=True)
-        return f'<iframe srcdoc="{text}" style="width: 100%; height: 720px; border: 0"></iframe>'
-
-
-@dataclass(frozen=True)
-class AxisReport:
-    """How far the readings of one axis were from what was commanded at their time, in units."""
-
-    readings: int
-    rms: float
-    peak: float
-
-
-@dataclass(frozen=True)
-class Report:
-    """How a run went. `ok` is True when it reached its end; else `reason` says what ended it."""
-
-    ok: bool
-    reason: str
-    seconds: float
-    axes: Mapping[str, AxisReport]
-    take: Path | None = None
-
-
 def plan(sequence: Source, rig: str | Path = "sim") -> Move:
     """The move that `sequence` makes on `rig` (a shipped profile's name, or a file); nothing is opened.
 
@@ -148,7 +66,7 @@ def plan(sequence: Source, rig: str | Path = "sim") -> Move:
     in the file, UnplayableError when the rig cannot make the move.
     """
     profile = load_profile(str(rig))
-    return Move(_compiled(sequence, profile), profile)
+    return _planned(sequence, profile)
 
 
 def read_take(file: str | Path) -> Take:
@@ -167,8 +85,8 @@ def open(  # noqa: A001 - `teleop.open` reads well, and nothing here opens files
     Raises DocumentError for a bad profile, LinkError and DeviceError when a device does not answer.
     """
     profile = load_profile(str(rig), links)
-    if virtual:
-        _refuse_real_links(profile)
+    if virtual and (real := real_links(profile)):
+        raise UsageError(f"virtual=True: {', '.join(real)} runs in real time; only sim: links can be virtual")
     return Rig(Session(profile, virtual))
 
 
@@ -225,18 +143,15 @@ class Rig:
         targets = self._known(axes, "move")
         for axis, target in targets.items():
             limits = self._session.profile.limits[axis]
-            if not (limits.minimum <= target <= limits.maximum and math.isfinite(target)):
+            if not limits.minimum <= target <= limits.maximum:
                 raise UsageError(
-                    f"move: {axis}={target:g} is beyond its soft limits, {limits.minimum:g} to {limits.maximum:g}"
+                    f"move: {axis}={target:g} is outside the soft limits, {limits.minimum:g} to {limits.maximum:g}"
                 )
         if seconds is not None:
-            if not 0 <= seconds < math.inf:
-                raise UsageError(f"move: seconds={seconds:g} must be a time, 0 or longer")
-            self._session.check()
-            least = shortest_seconds(self._session, targets)
-            if seconds < least - 1e-6:
-                least = math.ceil(least * 100) / 100  # what is named is long enough
-                raise UsageError(f"move: seconds={seconds:g} is too short: this move needs {least:.2f} s")
+            seconds = _number("move: seconds", seconds)
+            if seconds < 0:
+                raise UsageError(f"move: seconds={seconds:g} must be 0 or longer, or None for as soon as possible")
+            self._refuse_haste(targets, seconds)
         self._session.run(MoveJob(targets, seconds))
 
     def jog(self, *, seconds: float, **axes: float) -> None:
@@ -247,9 +162,9 @@ class Rig:
         velocities = self._known(axes, "jog")
         for axis, velocity in velocities.items():
             most = self._session.profile.limits[axis].velocity
-            if not abs(velocity) <= most:
-                raise UsageError(f"jog: {axis}={velocity:g} is faster than its limit, {most:g}")
-        if not 0 < seconds < math.inf:
+            if abs(velocity) > most:
+                raise UsageError(f"jog: {axis}={velocity:g} exceeds the velocity limit, {most:g}")
+        if (seconds := _number("jog: seconds", seconds)) <= 0:
             raise UsageError(f"jog: seconds={seconds:g} must be above 0")
         self._session.run(JogJob(velocities, seconds))
 
@@ -260,34 +175,11 @@ class Rig:
         (a fault, a STOP) is in the report: `ok` is False and `reason` says why. Raises DocumentError and
         UnplayableError for a sequence that this rig cannot play.
         """
-        from teleop.planner.keyframes.findings import PlanError
-        from teleop.sequence.source import SequenceSource
-
-        if not 0 < speed < math.inf:
+        if (speed := _number("play: speed", speed)) <= 0:
             raise UsageError(f"play: speed={speed:g} must be above 0")
         self._session.check()
-        compiled = sequence.compiled if isinstance(sequence, Move) else _compiled(sequence, self._session.profile)
-        self._refuse(compiled)
-        try:
-            source = SequenceSource(compiled, self._session.profile.limits, speed)
-        except PlanError as error:
-            raise UnplayableError([f"speed {speed:g}: {error}"]) from None
-        monitor = TrackingErrorMonitor(lambda: source.begin)
-        if self.stopped:
-            return _report(compiled, monitor, "STOPPED: call clear() first", None)
-        reason, result = "", Result.INTERRUPTED
-        with self._recorded(take, compiled.title) as recorder:
-            try:
-                self._session.run(SourceJob(source), (monitor,) if recorder is None else (monitor, recorder))
-                result = Result.DONE
-            except StoppedError as error:
-                reason = str(error)
-            except (DeviceError, LinkError) as error:
-                reason, result = str(error), Result.FAILED
-            finally:
-                if recorder is not None:
-                    recorder.finish(result, [reason] if reason else [])
-        return _report(compiled, monitor, reason, None if take is None else Path(take))
+        move = sequence if isinstance(sequence, Move) else _planned(sequence, self._session.profile)
+        return play(self._session, move, None if take is None else Path(take), speed)
 
     def record(self) -> None:
         """Start recording on the camera; returns once it has confirmed. Raises DeviceError when it refuses."""
@@ -313,90 +205,50 @@ class Rig:
         self._session.program.clear()
 
     def _camera(self, action: Action) -> None:
-        camera = self._session.rig.camera
-        if camera is None:
+        self._session.check()
+        if self._session.rig.camera is None:
             raise UsageError(f"{self.name} has no camera: add {{type: camera, link: ...}} to its sinks")
-        self._session.run(EventJob(action, lambda: camera.waiting))
+        self._session.run(EventJob(action, self._session.camera_waiting))
 
     def _known(self, axes: Mapping[str, float], call: str) -> dict[Axis, float]:
         if not axes:
             raise UsageError(f"{call}: name an axis: {', '.join(self._session.axes)}")
+        if flown := [name for name in axes if name in STICKS]:
+            raise UsageError(f"{call}: {flown[0]} flies a drone, which needs an operator: use `teleop live`")
         unknown = [name for name in axes if name not in self._session.axes]
         if unknown:
             raise UsageError(f"{call}: {self.name} has no axis {unknown[0]}; it has {', '.join(self._session.axes)}")
-        try:
-            return {Axis(name): float(value) for name, value in axes.items()}
-        except (TypeError, ValueError):
-            raise UsageError(f"{call}: every axis needs a number") from None
+        return {Axis(name): _number(f"{call}: {name}", value) for name, value in axes.items()}
 
-    def _refuse(self, compiled: CompiledSequence) -> None:
-        if flown := [axis for axis in compiled.move.tracks if axis.is_stick]:
-            raise UsageError(f"play: {', '.join(flown)} fly a drone, which needs an operator: use `teleop play`")
-        if missing := [axis for axis in compiled.move.tracks if axis not in self._session.axes]:
-            raise UnplayableError([f"{compiled.title}: {self.name} has no axis {', '.join(missing)}"])
+    def _refuse_haste(self, targets: Mapping[Axis, float], seconds: float) -> None:
+        """Raises UsageError where the limits do not allow the move in so short a time."""
+        self._session.check()
+        least = shortest_seconds(self._session, targets)
+        if seconds < least - 1e-6:
+            least = math.ceil(least * 100) / 100  # what is named is long enough
+            raise UsageError(f"move: seconds={seconds:g} is too short: this move needs {least:.2f} s")
 
-    @contextmanager
-    def _recorded(self, take: str | Path | None, title: str) -> Generator[Any]:
-        from teleop.recording.writer import recording
-
-        limits = {axis: self._session.profile.limits[axis] for axis in self._session.axes}
-        path = None if take is None else Path(take)
-        with recording(path, self.name, title, limits, patient=self._session.is_virtual) as recorder:
-            yield recorder
+    def __repr__(self) -> str:
+        return f"<Rig {self.name}: {', '.join(self._session.axes)}>"
 
 
-def _report(compiled: CompiledSequence, monitor: TrackingErrorMonitor, reason: str, take: Path | None) -> Report:
-    """Of a run that ended for `reason`, "" for its own end; it has every axis of the move, and no other."""
-    axes: dict[str, AxisReport] = {}
-    for axis in compiled.move.tracks:
-        score = monitor.scores.get(axis, Score())
-        axes[axis.value] = AxisReport(score.readings, score.rms, score.peak)
-    return Report(not reason, reason, monitor.seconds, axes, take)
+def _number(place: str, value: float) -> float:
+    """`value` as a float; raises UsageError for anything but a finite number."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise UsageError(f"{place}={value!r} must be a number") from None
+    if not math.isfinite(number):
+        raise UsageError(f"{place}={number:g} must be a finite number")
+    return number
 
 
-def _compiled(sequence: Source, profile: Profile) -> CompiledSequence:
+def _planned(sequence: Source, profile: Profile) -> Move:
     """The sequence for the rig of `profile`; of a timelapse its rehearsal."""
     if isinstance(sequence, Mapping):
-        return _compiled_content(sequence, profile)
-    from teleop.timelapse.compile import load_timelapse
-
-    if timelapse := load_timelapse(str(sequence), profile.limits, profile.name):
-        return timelapse.rehearsal()
-    devices = [sink.type for sink in profile.sinks]
-    return load_sequence(str(sequence), profile.limits, profile.name, devices)
-
-
-def _compiled_content(content: Mapping[str, Any], profile: Profile) -> CompiledSequence:
-    """A dict is written out as YAML and read as a file is, so that every check and every default is the same."""
-    import yaml
-
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "sequence.yaml"
-        try:
-            text = yaml.safe_dump(_plain(content), sort_keys=False)
-        except yaml.YAMLError as error:
-            raise UsageError(f"sequence: {' '.join(map(str, error.args))}") from None
-        file.write_text(text, encoding="utf-8")
-        try:
-            return _compiled(file, profile)
-        except DocumentError as error:
-            problems = [problem.replace(str(file), "sequence") for problem in error.problems]
-            raise type(error)(problems, error.more) from None
-
-
-def _plain(value: Any) -> Any:
-    """What YAML can hold, from mappings, sequences and numbers of any kind (numpy's included)."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(each) for key, each in cast("Mapping[Any, Any]", value).items()}
-    if isinstance(value, str | Path):
-        return str(value)
-    if isinstance(value, list | tuple):
-        return [_plain(each) for each in cast("list[Any]", value)]
-    return value.tolist() if hasattr(value, "tolist") else value
-
-
-def _refuse_real_links(profile: Profile) -> None:
-    from teleop.links import parse
-
-    if real := [f"{name}={url}" for name, url in profile.links.items() if parse(url).kind != "sim"]:
-        raise UsageError(f"virtual=True: {', '.join(real)} keeps its own time; only sim: links can be virtual")
+        plan = plan_content(sequence, profile)
+    elif isinstance(cast("object", sequence), str | Path):
+        plan = plan_file(str(sequence), profile)
+    else:
+        raise UsageError("sequence: must be a name, a file or a dict")
+    return Move(plan.sequence, profile)

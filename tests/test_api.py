@@ -186,8 +186,8 @@ def test_a_time_is_refused_only_when_the_limits_do_not_allow_it(rig):
         ({}, "name an axis"),
         ({"yaw": 3}, "no axis yaw"),
         ({"pan": 181}, "soft limits, -180 to 180"),
-        ({"pan": math.nan}, "soft limits"),
-        ({"pan": "left"}, "needs a number"),
+        ({"pan": math.nan}, "finite number"),
+        ({"pan": "left"}, "must be a number"),
         ({"pan": 1, "seconds": -1}, "seconds"),
         ({"pan": 1, "seconds": math.nan}, "seconds"),
     ],
@@ -576,3 +576,125 @@ def test_a_take_gives_its_columns_to_pandas(rig, tmp_path, monkeypatch):
     measured = columns["pan_measured"]
     assert measured[~np.isnan(measured)][-1] == pytest.approx(10, abs=0.5)
     assert {len(column) for column in columns.values()} == {len(index)}
+
+
+def test_a_take_becomes_a_real_data_frame(rig, tmp_path):
+    pandas = pytest.importorskip("pandas", reason="pandas is an extra of the tests")
+    rig.play(SHORT, take=tmp_path / "a.mcap")
+    take = teleop.read_take(tmp_path / "a.mcap")
+    frame = take.to_frame()
+    assert isinstance(frame, pandas.DataFrame)
+    assert frame.index.name == "time"
+    assert {"pan", "pan_velocity", "pan_acceleration", "pan_measured"} <= set(frame.columns)
+    assert np.array_equal(frame["pan"].to_numpy(), take.motion["pan"][0])
+    assert frame["pan"].iloc[-1] == pytest.approx(10, abs=1e-3)
+    assert frame["pan_measured"].dropna().iloc[-1] == pytest.approx(10, abs=0.5)
+
+
+# --- what users try
+
+
+def test_a_stop_before_a_move_is_latched_and_says_how_to_go_on(rig):
+    rig.stop()
+    rig.stop()
+    for call in (lambda: rig.move(pan=1), lambda: rig.jog(pan=1, seconds=1)):
+        with pytest.raises(teleop.StoppedError, match=r"STOPPED: call clear\(\) first, then move again"):
+            call()
+    rig.clear()
+    rig.clear()
+    rig.move(pan=1)
+
+
+def test_a_stopped_rig_can_still_stop_its_camera(rig):
+    rig.record()
+    rig.stop()
+    rig.stop_recording()
+    with pytest.raises(teleop.StoppedError):
+        rig.move(pan=1)
+
+
+def test_a_stop_during_a_jog_ends_it_at_rest(rig):
+    at_time(rig, 0.5, rig.stop)
+    with pytest.raises(teleop.StoppedError):
+        rig.jog(pan=20, seconds=5)
+    assert commanded(rig).velocity == 0
+
+
+def test_recording_twice_asks_the_camera_twice(rig):
+    tap = tapped(rig._session.rig)
+    rig.record()
+    rig.record()
+    assert len(tap.of(camera.Command)) == 2
+
+
+def test_a_camera_on_a_link_of_its_own_answers_too(tmp_path):
+    file = tmp_path / "two-links.yaml"
+    camera_sink = "  - {type: camera, link: camera}\n"
+    file.write_text(SPEED_RIG.replace('"sim:"}', '"sim:", camera: "sim:"}') + camera_sink)
+    with teleop.open(file, virtual=True) as rig:
+        rig.record()
+        rig._session.rig.simulated["camera"]._handlers[camera.Command] = lambda _message, _now: ReturnCode.FAILED
+        with pytest.raises(teleop.DeviceError, match="refused"):
+            rig.stop_recording()
+
+
+def test_a_closed_rig_says_so_in_every_call_and_closes_again():
+    rig = teleop.open("sim", virtual=True)
+    rig.close()
+    rig.close()
+    calls = (
+        rig.angles,
+        lambda: rig.move(pan=1),
+        lambda: rig.move(pan=1, seconds=9),
+        lambda: rig.jog(pan=1, seconds=1),
+        lambda: rig.play(SHORT),
+        rig.record,
+        rig.stop_recording,
+        rig.shutter,
+    )
+    for call in calls:
+        with pytest.raises(teleop.TeleopError, match="the rig is closed: open it again"):
+            call()
+    rig.stop()
+
+
+def test_a_drone_is_refused_with_the_way_to_fly_it():
+    with teleop.open("m100", links={"drone": "sim:", "gimbal": "sim:"}, virtual=True) as rig:
+        assert not any(axis.is_stick for axis in rig.axes)
+        with pytest.raises(teleop.UsageError, match="stick_roll flies a drone, which needs an operator"):
+            rig.jog(stick_roll=0.1, seconds=1)
+        flown = teleop.plan({"keyframes": [{"at": 0, "stick_roll": 0}, {"at": 2, "stick_roll": 0}]}, rig="m100")
+        with pytest.raises(teleop.UsageError, match="needs an operator: use `teleop play`"):
+            rig.play(flown)
+        rig.move(pan=1)
+
+
+def test_a_wrong_link_is_named_as_a_program_names_it():
+    with pytest.raises(teleop.DocumentError) as error:
+        teleop.open("sim", links={"camera": "sim:"}, virtual=True)
+    assert "--" not in str(error.value)
+    assert str(error.value).startswith("link camera:")
+
+
+def test_every_error_is_one_line_that_names_its_place(rig, tmp_path):
+    errors = []
+    for call in (
+        lambda: rig.move(),
+        lambda: rig.move(yaw=1),
+        lambda: rig.move(pan=999),
+        lambda: rig.move(pan=90, seconds=0),
+        lambda: rig.jog(yaw=1, seconds=1),
+        lambda: rig.jog(pan=1, seconds=math.nan),
+        lambda: rig.jog(pan=1, seconds="long"),
+        lambda: rig.play(SHORT, speed=0),
+        lambda: rig.play(tmp_path / "none.yaml"),
+        lambda: rig.play({}),
+        lambda: rig.play(SHORT, take=tmp_path / "no" / "a.mcap"),
+        lambda: teleop.read_take(tmp_path / "none.mcap"),
+        lambda: teleop.open(tmp_path / "none.yaml"),
+    ):
+        with pytest.raises(teleop.TeleopError) as error:
+            call()
+        errors.append(str(error.value))
+    assert all(text and "\n" not in text and "--" not in text for text in errors), errors
+    assert rig.angles()["pan"] == 0

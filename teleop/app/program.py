@@ -27,7 +27,9 @@ class StoppedError(TeleopError):
 
 
 class Job(Protocol):
-    """Something a program has asked for. All calls are made by the control thread."""
+    """Something a program has asked for; `moves` an axis or not. All calls are made by the control thread."""
+
+    moves: bool
 
     def start(self, now: float, motion: Motion) -> None: ...
 
@@ -40,6 +42,8 @@ class Job(Protocol):
 
 class MoveJob:
     """Every axis to its target (units) and at rest there, `seconds` from its start or as soon as the limits allow."""
+
+    moves = True
 
     def __init__(self, targets: Mapping[Axis, float], seconds: float | None) -> None:
         self._targets, self._seconds = targets, seconds
@@ -74,6 +78,8 @@ class MoveJob:
 class JogJob:
     """Every axis at its velocity (unit/s) for `seconds`, then the fastest legal stop."""
 
+    moves = True
+
     def __init__(self, velocities: Mapping[Axis, float], seconds: float) -> None:
         self._velocities, self._seconds = velocities, seconds
         self._end = 0.0
@@ -91,10 +97,12 @@ class JogJob:
 
 
 class SourceJob:
-    """A source of the pipeline, such as a sequence, until it has no more to say."""
+    """A source of the pipeline, such as a sequence, until it is over and no device still has to answer (`waiting`)."""
 
-    def __init__(self, source: Source) -> None:
-        self._source = source
+    moves = True
+
+    def __init__(self, source: Source, waiting: Callable[[], bool] = lambda: False) -> None:
+        self._source, self._waiting = source, waiting
         self._over = False
 
     def start(self, now: float, motion: Motion) -> None:
@@ -106,11 +114,14 @@ class SourceJob:
         return demand, events
 
     def done(self, tick: Tick) -> bool:
-        return self._over and all(not state.velocity for state in tick.motion.values())
+        rests = all(not state.velocity for state in tick.motion.values())
+        return self._over and rests and not self._waiting()
 
 
 class EventJob:
-    """One event for a device, complete once `waiting` says that the device has answered."""
+    """One event for a device, complete once `waiting` says that the device has answered; a STOP does not end it."""
+
+    moves = False
 
     def __init__(self, event: TickEvent, waiting: Callable[[], bool]) -> None:
         self._events: list[TickEvent] = [event]
@@ -154,15 +165,16 @@ class ProgramSource:
     def submit(self, job: Job, observers: Sequence[Observer] = ()) -> None:
         """Hand `job` over; `observers` see each tick until it ends.
 
-        Raises StoppedError after a STOP, BusyError while another job is in hand, DeviceError once the run has ended.
+        Raises StoppedError after a STOP for one that moves, BusyError while another job is in hand, DeviceError once
+        the run has ended.
         """
         with self._lock:
             if self._over:
-                raise DeviceError(f"the run has ended: {self._error or 'closed'}")
-            if self.stopped:
-                raise StoppedError("STOPPED: call clear() first")
+                raise DeviceError(f"the run has ended: {self._error or 'closed'}; open the rig again")
+            if self.stopped and job.moves:
+                raise StoppedError("STOPPED: call clear() first, then move again")
             if self._job is not None:
-                raise BusyError("the rig is busy: another thread moves it")
+                raise BusyError("the rig is busy: another thread moves it; wait until it has finished, or call stop()")
             self._finished.clear()
             self._error = self._ending = None
             self._job, self._observers, self._fresh = job, tuple(observers), True
@@ -181,16 +193,18 @@ class ProgramSource:
             raise self._error
 
     def stop(self) -> None:
-        """Latch a STOP, and end the job in hand with StoppedError."""
+        """Latch a STOP, and end a job that moves with StoppedError."""
         with self._lock:
             self.stopped = True
-            self.cancel(StoppedError("STOPPED"))
+            if self._job is not None and self._job.moves:
+                self.cancel(StoppedError("STOPPED"))
 
-    def cancel(self, error: TeleopError) -> None:
-        """End the job in hand with `error`, once every axis rests."""
+    def cancel(self, error: TeleopError) -> bool:
+        """End the job in hand with `error`, once every axis rests; whether there is one."""
         with self._lock:
             if self._job is not None and self._ending is None:
                 self._ending = error
+            return self._job is not None
 
     def clear(self) -> None:
         self.stopped = False
@@ -213,13 +227,16 @@ class ProgramSource:
         with self._lock:
             job, fresh, ending = self._job, self._fresh, self._ending
             self._fresh = False
-        if self.stopped or ending is not None:
-            return {axis: Stop() for axis in feedback.motion}, ()
+        stop: Demand = {axis: Stop() for axis in feedback.motion}
+        if ending is not None or (job is not None and job.moves and self.stopped):
+            return stop, ()
+        rest = stop if self.stopped else {}
         if job is None:
-            return {}, ()
+            return rest, ()
         if fresh:
             job.start(now, feedback.motion)
-        return job.read(now, feedback)
+        demand, events = job.read(now, feedback)
+        return {**rest, **demand}, events
 
     def next_change(self, now: float) -> float:
         return now

@@ -12,18 +12,19 @@ import logging
 import sys
 import threading
 import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 
+from teleop.app.clocks import clock_for
 from teleop.app.program import Job, ProgramSource
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, State
-from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import DeviceError, Interrupted, TeleopError, UsageError
 from teleop.core.events import Action
 from teleop.core.interfaces import Observer, Sink
 from teleop.core.run_state import Result, RunState
+from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.gimbal.commands import CommandSink
 from teleop.devices.rig import Rig, open_rig
 from teleop.planner.ruckig_solver import PositionSolver
@@ -43,19 +44,22 @@ class Session:
         self.profile = profile
         self.axes = [axis for axis in profile.axes if not axis.is_stick]
         if not self.axes:
-            raise UsageError(f"{profile.name} has no axis that a program can move: a drone needs an operator")
+            raise UsageError(
+                f"{profile.name} has no axis that a program can move: a drone needs an operator, with `teleop live`"
+            )
         self.program = ProgramSource()
         self._turning = threading.RLock()  # on the virtual clock, the thread that turns the loop
         self._closing = threading.Lock()
         self._stack = ExitStack()
-        self.clock = VirtualClock() if virtual else SystemClock()
+        self.clock = clock_for(virtual)
         self.is_virtual = virtual
         self._thread: threading.Thread | None = None
         self._closed = self._interrupted = False
         self._loop: ControlLoop | None = None
         try:
             self.rig: Rig = self._stack.enter_context(open_rig(profile.in_use(self.axes, [Action.RECORD]), self.clock))
-            self._loop = self.rig.loop(self.axes, [self.program], [self.program], self._commands())
+            observers = [self.program, self._camera()]
+            self._loop = self.rig.loop(self.axes, [self.program], observers, self._commands())
             self._supervisor = self._loop.supervisor
             _sessions.add(self)
             self._begin()
@@ -94,9 +98,13 @@ class Session:
     def check(self) -> None:
         """Raises TeleopError once the rig is closed, DeviceError once its run is over."""
         if self._closed:
-            raise TeleopError("the rig is closed")
+            raise TeleopError("the rig is closed: open it again with teleop.open()")
         if self._supervisor.state is not RunState.RUNNING:
-            raise DeviceError(f"the run has ended: {self.reason or 'closed'}")
+            raise DeviceError(f"the run has ended: {self.reason or 'closed'}; open the rig again")
+
+    def camera_waiting(self) -> bool:
+        """Whether an answer of the camera is still due."""
+        return self.rig.camera is not None and self.rig.camera.waiting
 
     def close(self) -> None:
         """Ramp to rest, release every device, close the links. May be called again, from any thread."""
@@ -113,6 +121,17 @@ class Session:
                 self._loop = None  # the planner's objects end here, not with the interpreter
                 _sessions.discard(self)
         self._raise_interrupt()
+
+    def _camera(self) -> Observer:
+        """What reads the camera's answers; an action that the camera refuses ends the job in hand, and not the run."""
+        answers = CameraAnswers(self.rig.camera, log.info)
+        if self.rig.camera is not None:
+            self.rig.camera.on_failed = lambda _action, reason: self._refused(reason)
+        return answers
+
+    def _refused(self, reason: str) -> None:
+        if not self.program.cancel(DeviceError(reason)):
+            log.warning(reason)
 
     def _commands(self) -> list[Sink]:
         """What gives the gimbal the commands that a sequence has for it."""
@@ -207,7 +226,7 @@ def _close_all() -> None:
         session.close()
 
 
-def shortest_seconds(session: Session, targets: dict[Axis, float]) -> float:
+def shortest_seconds(session: Session, targets: Mapping[Axis, float]) -> float:
     """The least time in which every axis can be at rest at its target together, by the jerk-limited planner."""
     tick = session.program.tick
     if tick is None:

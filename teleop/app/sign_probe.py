@@ -153,7 +153,7 @@ class SignProbe:
             there = yield from self._cruise(axis, SPEED)
             back = yield from self._cruise(axis, -SPEED)
             if there != back:
-                raise DeviceError(f"{axis} drifted while it was measured: hold the gimbal still and try again")
+                raise DeviceError(f"{axis} drifted while it was measured: keep the gimbal still and try again")
             self.signs[axis] = Signs(position, there)
             left = begin - (yield from self._place(axis))
             if abs(left) >= 0.1:

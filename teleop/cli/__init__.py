@@ -29,18 +29,18 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "live": ("teleop.cli.live:live", "Move a rig by joystick, dial and keys."),
     "check": ("teleop.cli.check:check", "Check a sequence against a rig."),
     "preview": ("teleop.cli.preview:preview", "Draw a sequence as a page, a picture or a table."),
-    "list": ("teleop.cli.shipped_files:list_shipped", "List the moves, rigs and pads that come with it."),
+    "list": ("teleop.cli.shipped_files:list_shipped", "List the shipped moves, rigs and pads."),
     "copy": ("teleop.cli.shipped_files:copy", "Copy a shipped move, rig or pad to a file of yours."),
-    "take": ("teleop.cli.take.commands:app", "List, judge, export and repair recorded runs."),
-    "calibrate": ("teleop.cli.calibrate:app", "Measure what a profile has to know about a gimbal."),
+    "take": ("teleop.cli.take.commands:app", "List, report, export and repair recorded runs."),
+    "calibrate": ("teleop.cli.calibrate:app", "Measure the delay and the signs of a gimbal for its profile."),
     "devices": ("teleop.cli.devices:devices", "List CAN interfaces, serial ports and HID devices."),
-    "doctor": ("teleop.cli.doctor.command:doctor", "Say what this machine can do, and what is in the way."),
+    "doctor": ("teleop.cli.doctor.command:doctor", "Check what this machine can do, and what it lacks."),
     "send": ("teleop.cli.send.gimbal:send", "Send one command to a gimbal, camera, focus motor or drone."),
-    "monitor": ("teleop.cli.monitor:monitor", "Show what host and device say to each other on a link."),
+    "monitor": ("teleop.cli.monitor:monitor", "Show the traffic between host and device on a link."),
     "sim": ("teleop.cli.sim:sim", "Simulate a rig's devices on a real bus."),
     "schema": ("teleop.cli.schema:schema", "Print the JSON Schema of a kind of file, for editors."),
-    "decode": ("teleop.cli.codec.decode:app", "Bytes of a protocol as JSON lines."),
-    "encode": ("teleop.cli.codec.encode:app", "JSON lines as bytes of a protocol."),
+    "decode": ("teleop.cli.codec.decode:app", "Decode bytes of a protocol to JSON lines."),
+    "encode": ("teleop.cli.codec.encode:app", "Encode JSON lines to bytes of a protocol."),
 }
 """Where each command is, imported when it is used, and its line of help; in the order in which people need them."""
 
@@ -105,7 +105,7 @@ def run(arguments: Sequence[str]) -> int:
         return BAD_USAGE if bad_usage else FAILED
     except LeaveAtOnce as signal:
         print(
-            f"teleop: {signal} received for the third time: left at once, every device asked once to release",
+            f"teleop: {signal} received for the third time: left at once; each device was asked once to release",
             file=sys.stderr,
         )
         return INTERRUPTED

@@ -5,21 +5,18 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Mapping
-from typing import Annotated, Any
+from dataclasses import asdict
+from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.drone_run import is_flown
-from teleop.cli.options import DEFAULTS, MOVES, Options, warn
+from teleop.app.check import MoveCheck
+from teleop.app.check import check as check_plan
+from teleop.app.planning import Plan
+from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
 from teleop.cli.screens.folded import tell
 from teleop.cli.shipped_files import named
 from teleop.cli.timelapse_summary import facts, summary
-from teleop.config.profile import Profile
-from teleop.core.axes import Limits
-from teleop.planner.trajectory import Peaks
-from teleop.sequence.compile import CompiledSequence
-from teleop.sequence.playback import fastest
 
 
 def check(
@@ -29,49 +26,47 @@ def check(
     options: Options = DEFAULTS,
 ) -> int:
     """Check a sequence against a rig: every error with its line, or what the move asks of each axis."""
-    profile, performance, timelapse = options.compiled(named("check", file, options.json))
-    if timelapse is not None:
-        warn(performance)
-    most = 1.0 if is_flown(performance.move.tracks) else fastest(performance.move, profile.limits)
-    asked = {axis.value: _share(peaks, profile.limits[axis]) for axis, peaks in performance.move.peaks().items()}
+    plan = options.plan(named("check", file, options.json))
+    if plan.timelapse is not None:
+        print_warnings(plan.sequence.warnings)
+    found = check_plan(plan)
     if options.json:
-        found = {"ok": True, "title": performance.title, "duration": performance.duration, "axes": asked}
-        cues = [{"at": cue.at, "name": cue.name} for cue in performance.cues]
-        found |= {"cues": cues, "speed_at_most": most, "warnings": list(performance.warnings)}
-        print(json.dumps(found if timelapse is None else {**found, "timelapse": facts(timelapse)}))
+        print(json.dumps(_facts(plan, found)))
+        return 0
+    _print_table(plan, found)
+    if plan.timelapse is not None:
+        tell(f"{summary(plan.timelapse)}. The table is of its rehearsal.")
+    if counted := Counter(cue.name for cue in plan.sequence.cues):
+        tell(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
+    if plan.is_flown:
+        tell("A drone's move is played at its own speed only.")
     else:
-        _print(performance, profile, asked)
-        if timelapse is not None:
-            tell(f"{summary(timelapse)}. The table is of its rehearsal.")
-        if performance.cues:
-            counted = Counter(cue.name for cue in performance.cues)
-            tell(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
-        if is_flown(performance.move.tracks):
-            tell("A drone's move plays only at its own speed.")
-        else:
-            tell(f"Maximum playback speed: {math.floor(100 * most)} %.")
+        tell(f"Maximum playback speed: {math.floor(100 * found.fastest)} %.")
     return 0
 
 
-def _share(peaks: Peaks, limits: Limits) -> Mapping[str, float | None]:
-    """Peak shares of the axis's limits, and the least room to a soft limit in units, None where there is none."""
-    room = min(peaks.minimum - limits.minimum, limits.maximum - peaks.maximum)
+def _facts(plan: Plan, found: MoveCheck) -> dict[str, object]:
+    sequence = plan.sequence
     return {
-        "velocity": peaks.velocity / limits.velocity,
-        "acceleration": peaks.acceleration / limits.acceleration,
-        "jerk": peaks.jerk / limits.jerk,
-        "room": None if limits.continuous else room,
+        "ok": True,
+        "title": sequence.title,
+        "duration": sequence.duration,
+        "axes": {axis.value: asdict(use) for axis, use in found.axes.items()},
+        "cues": [{"at": cue.at, "name": cue.name} for cue in sequence.cues],
+        "speed_at_most": found.fastest,
+        "warnings": list(sequence.warnings),
+        **({} if plan.timelapse is None else {"timelapse": facts(plan.timelapse)}),
     }
 
 
-def _print(performance: CompiledSequence, profile: Profile, asked: Mapping[str, Mapping[str, Any]]) -> None:
+def _print_table(plan: Plan, found: MoveCheck) -> None:
     from teleop.cli.screens.tables import print_table
 
     rows = []
-    for axis, shares in asked.items():
-        used = [f"{shares[name]:.0%}" for name in ("velocity", "acceleration", "jerk")]
-        rows.append([axis, *used, "continuous" if shares["room"] is None else f"{shares['room']:.3g}"])
-    title = f"{performance.title}: {performance.duration:.2f} s on {profile.name}"
+    for axis, use in found.axes.items():
+        shares = [f"{share:.0%}" for share in (use.velocity, use.acceleration, use.jerk)]
+        rows.append([axis.value, *shares, "continuous" if use.room is None else f"{use.room:.3g}"])
+    title = f"{plan.sequence.title}: {plan.sequence.duration:.2f} s on {plan.profile.name}"
     print_table(
         title, ("Axis", "Velocity", "Acceleration", "Jerk", "Room"), rows, words=("Axis",), drop=("Room", "Jerk")
     )

@@ -67,10 +67,10 @@ def monitor(
     model: Model = "m100",
     options: Options = DEFAULTS,
 ) -> int:
-    """Show what host and device say to each other on a link of the rig. Transmits nothing.
+    """Show the traffic between host and device on a link of the rig. Transmits nothing.
 
-    A CAN bus is heard in both directions. A serial line is heard in one, what the device sends, and by one program at a
-    time; there, an acknowledgement cannot say what it answers.
+    A CAN bus shows both directions. A serial line shows only what the device sends, to one program at a time; an
+    acknowledgement there does not name its command.
     """
     tapped = tap(options.profile(), place, model)
     clock, stop = SystemClock(), threading.Event()
@@ -111,7 +111,7 @@ class Tap:
     def __str__(self) -> str:
         if self.is_bus:
             return f"{self.url}: time in s, -> to the {self.device}, <- from it"
-        return f"{self.url}: time in s, <- from the {self.device}; what it is told cannot be heard on a serial line"
+        return f"{self.url}: time in s, <- from the {self.device}; a serial line does not show what is sent to it"
 
 
 def tap(profile: Profile, link: str, model: str) -> Tap:

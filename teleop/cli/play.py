@@ -3,42 +3,55 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.drone_run import Understood, ask_to_fly, is_flown
-from teleop.cli.operator_check import attended
-from teleop.cli.options import DEFAULTS, MOVES, Options, is_take, warn
-from teleop.cli.sequence_run import SequenceRun
+from teleop.app.clocks import clock_for, real_links
+from teleop.app.planning import Plan, is_take
+from teleop.app.play import attended, devices_in_use, following, source_of
+from teleop.app.sequence_run import SequenceRun
+from teleop.cli.drone_run import Understood, ask_to_fly
+from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
+from teleop.cli.running import EXIT_CODES, Extra, print_report
+from teleop.cli.screens.folded import after_the_run, warn
+from teleop.cli.screens.repeatability_table import PassesReport
+from teleop.cli.screens.run_rows import NO_KEYS, RUN_HINTS
+from teleop.cli.screens.run_view import RunView
+from teleop.cli.screens.take_summary import take_words
 from teleop.cli.shipped_files import named
 from teleop.cli.shoot_options import NOTHING_ASKED, ShootOptions
+from teleop.cli.signals import signals_to
 from teleop.cli.staging_options import NO_STAGING, StagingOptions
-from teleop.cli.trim_options import NO_TRIM, TrimOptions
+from teleop.cli.trim_options import NO_TRIM, TrimOptions, TrimReport
 from teleop.config.document import DocumentError
 from teleop.config.profile import Profile
-from teleop.core.axes import Axis
+from teleop.core.axes import Axis, Limits
 from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.errors import UsageError
-from teleop.core.events import Action
+from teleop.core.run_state import Result
+from teleop.core.run_status import RunStatus
 from teleop.inputs.keyboard import Keyboard, terminal
 from teleop.inputs.playback_keymap import FLOWN_KEYS, KEYS, TRIM_KEYS, PlayKeys
-from teleop.links import parse
 from teleop.planner.keyframes.findings import PlanError
-from teleop.planner.offset_limits import sequence_limits
 from teleop.planner.time_scaling import NoRunUp
+from teleop.recording.writer import Recorder
+from teleop.sequence.compile import CompiledSequence
+from teleop.sequence.cycle import Cycle
 from teleop.sequence.source import SequenceSource
 from teleop.sequence.trim_export import TrimmedFile
 
 Fast = Annotated[
     bool,
-    Parameter(help="Do not wait: simulated time, only on sim: links.", negative=(), show_default=False),
+    Parameter(
+        help="Run on simulated time, as fast as possible; only with sim: links.", negative=(), show_default=False
+    ),
 ]
-Take = Annotated[
-    Path | None, Parameter(name="--take", metavar="FILE", help="Record everything the run does to a new .mcap file.")
-]
+Take = Annotated[Path | None, Parameter(name="--take", metavar="FILE", help="Record the run to a new .mcap file.")]
 
 
 def play(
@@ -49,9 +62,7 @@ def play(
     *,
     speed: Annotated[
         str,
-        Parameter(
-            metavar="PERCENT", help="How fast, as a percentage: up to 200, as far as teleop check says the move allows."
-        ),
+        Parameter(metavar="PERCENT", help="Playback speed, up to 200; teleop check shows the move's maximum."),
     ] = "100%",
     staging: StagingOptions = NO_STAGING,
     shooting: ShootOptions = NOTHING_ASKED,
@@ -61,65 +72,112 @@ def play(
     i_understand: Understood = False,
     options: Options = DEFAULTS,
 ) -> int:
-    """Play a sequence: ease to its first keyframe, then the move, then say how well the rig followed.
+    """Play a sequence: ease to its first keyframe, then the move, then report how well the rig followed.
 
-    A timelapse is shot, frame by frame; its journal in this folder knows where it was left.
+    A timelapse is shot, frame by frame; its journal in this folder has the frames that were shot.
     """
-    left, file = trim.left, named("play", file, options.json)
-    profile, performance, timelapse = options.compiled(file, left)
-    shooting.check(file, timelapse is not None)
-    axes = list(performance.move.tracks)
-    shot = timelapse is not None and not shooting.rehearse
-    profile = profile.in_use(axes, [*(cue.action for cue in performance.cues), *([Action.SHUTTER] if shot else [])])
-    flown = is_flown(axes)
-    if timelapse is not None and flown:
-        raise DocumentError([f"{file}: a timelapse has no drone: it would fly on from frame to frame"])
-    if timelapse is not None and not shooting.rehearse:
-        from teleop.cli.shoot import shoot
+    file = named("play", file, options.json)
+    plan = options.plan(file, trim.left)
+    shooting.check(file, plan.timelapse is not None)
+    if plan.timelapse is not None and plan.is_flown:
+        raise DocumentError([f"{file}: a timelapse cannot fly a drone: leave out the stick axes"])
+    if plan.timelapse is not None and not shooting.rehearse:
+        return _shoot(file, plan, Ordered(speed, staging, trim), shooting, fast, take, options)
+    if plan.timelapse is not None:
+        print_warnings(plan.sequence.warnings)
+    return _play(file, plan, Ordered(speed, staging, trim), fast, take, i_understand, options)
 
-        if staging != NO_STAGING or trim != NO_TRIM or speed != "100%":
-            raise DocumentError([f"{file} is shot, not played: --speed and its kin go with --rehearse only"])
-        return shoot(file, timelapse, profile, the_clock(fast, profile), shooting, take, options)
-    if timelapse is not None:
-        warn(performance)
+
+@dataclass(frozen=True)
+class Ordered:
+    """The options that change how a move is played."""
+
+    speed: str
+    staging: StagingOptions
+    trim: TrimOptions
+
+
+AS_WRITTEN = Ordered("100%", NO_STAGING, NO_TRIM)
+
+
+def _shoot(
+    file: str, plan: Plan, ordered: Ordered, shooting: ShootOptions, fast: bool, take: Path | None, options: Options
+) -> int:
+    from teleop.cli.shoot import shoot
+
+    if ordered != AS_WRITTEN:
+        raise DocumentError([f"{file} is a timelapse: --speed, --trim and the options of passes need --rehearse"])
+    assert plan.timelapse is not None
+    profile = devices_in_use(plan, shoots=True)
+    return shoot(file, plan.timelapse, profile, the_clock(fast, profile), shooting, take, options)
+
+
+def _play(
+    file: str, plan: Plan, ordered: Ordered, fast: bool, take: Path | None, understood: bool, options: Options
+) -> int:
+    staging, trim = ordered.staging, ordered.trim
+    profile = devices_in_use(plan, shoots=False)
     descriptor = None if fast else terminal()
-    waits = descriptor is not None and not flown  # a drone does not stand still while a move waits
-    performance = attended(file, performance, waits, fast)
-    trimmed = None if trim.trim_out is None else _trimmed(file, trim.trim_out, axes, profile)
-    if is_take(file):
-        from teleop.recording.replay import followable
-
-        profile = followable(profile)
+    has_keys = descriptor is not None and not plan.is_flown  # a drone does not stand still while a move waits
+    sequence = attended(file, plan.sequence, has_keys, fast)
+    if len(sequence.cues) < len(plan.sequence.cues):
+        print("--fast: waits for the operator are skipped", file=sys.stderr)
+    trimmed = None if trim.trim_out is None else _trimmed(file, trim.trim_out, plan.axes, profile)
+    profile = following(profile) if is_take(file) else profile
     clock = the_clock(fast, profile)
     if trim.trim and fast:
-        raise UsageError("--trim: a hand keeps its own time; leave out --fast")
-    if flown:
-        _refuse_to_fly(speed, staging, trim)
-    ask_to_fly(performance.title, axes, i_understand)
-    rate, stage = percentage("--speed", speed), staging.staging(performance, clock, waits)
+        raise UsageError("--trim: an operator works in real time; leave out --fast")
+    if plan.is_flown:
+        _refuse_to_fly(ordered.speed, staging, trim)
+    ask_to_fly(sequence.title, plan.axes, understood)
+    cycle = staging.staging(sequence, clock, has_keys)
+    source = _source(sequence, profile, ordered, cycle)
+    keymap = FLOWN_KEYS if plan.is_flown else TRIM_KEYS if trim.trim else KEYS
+    keys = None if descriptor is None else Keyboard(descriptor, PlayKeys(keymap))
+    with after_the_run() as notify:
+        run = SequenceRun(profile, sequence, source, clock, keys, notify, warn, trim.left, trimmed, take, patient=fast)
+        return _performed(run, options)
+
+
+def _source(sequence: CompiledSequence, profile: Profile, ordered: Ordered, cycle: Cycle) -> SequenceSource:
+    """Raises DocumentError for a speed or a start that the limits do not allow."""
+    rate = percentage("--speed", ordered.speed)
     try:
-        source = SequenceSource(performance, sequence_limits(profile.limits, left), rate, cycle=stage)
+        return source_of(sequence, profile, ordered.trim.left, rate, cycle)
     except NoRunUp as error:
-        raise DocumentError([f"--start-at {staging.start_at}: {error}"]) from None
+        raise DocumentError([f"--start-at {ordered.staging.start_at}: {error}"]) from None
     except PlanError as error:
-        raise DocumentError([f"--speed {speed}: {error}"]) from None
-    keys = (
-        None
-        if descriptor is None
-        else Keyboard(descriptor, PlayKeys(FLOWN_KEYS if flown else TRIM_KEYS if trim.trim else KEYS))
-    )
-    run = SequenceRun(profile, performance, source, clock, keys, left, trimmed, take, options.json, patient=fast)
-    return run.perform()
+        raise DocumentError([f"--speed {ordered.speed}: {error}"]) from None
+
+
+def _performed(run: SequenceRun, options: Options) -> int:
+    """Run it with a view, and print the report; the exit code."""
+
+    def view(limits: Mapping[Axis, Limits], status: Callable[[float], RunStatus], recorder: Recorder | None) -> RunView:
+        hints = NO_KEYS if run.keys is None else RUN_HINTS
+        return RunView(run.performance.title, limits, status, options.json, take_words(recorder), hints=hints)
+
+    report = run.perform(view, signals_to)
+    extras: list[Extra] = []
+    if report.repeatability is not None:
+        extras.append(PassesReport(report.repeatability))
+    if report.trim is not None:
+        extras.append(TrimReport(report.trim))
+    code = print_report(report.run, options.json, extras)
+    lost = report.trim is not None and report.trim.failure
+    return code or (EXIT_CODES[Result.FAILED] if lost else code)
 
 
 def _refuse_to_fly(speed: str, staging: StagingOptions, trim: TrimOptions) -> None:
     """Raises DocumentError for what makes a move of a drone's sticks another one."""
     if percentage("--speed", speed) != 1:
-        raise DocumentError([f"--speed {speed}: a drone's sticks held for longer or shorter fly it somewhere else"])
+        raise DocumentError([f"--speed {speed}: a drone's move has one speed: leave out --speed"])
     if staging.start_at is not None:
-        raise DocumentError([f"--start-at {staging.start_at}: a drone flies its moves from their beginning"])
+        raise DocumentError(
+            [f"--start-at {staging.start_at}: a drone's move starts at its first key: leave out --start-at"]
+        )
     if trim.trim:
-        raise DocumentError(["--trim: a drone's sticks are not moved aside; fly it by hand in teleop live"])
+        raise DocumentError(["--trim: a drone's move cannot be trimmed: use teleop live"])
 
 
 def _trimmed(file: str, target: Path, axes: Sequence[Axis], profile: Profile) -> TrimmedFile:
@@ -140,10 +198,7 @@ def percentage(option: str, text: str) -> float:
 
 
 def the_clock(fast: bool, profile: Profile) -> SystemClock | VirtualClock:
-    """The machine's clock, or a virtual one where nothing real is at the end of a link; raises DocumentError."""
-    if not fast:
-        return SystemClock()
-    real = [f"{name}={url}" for name, url in profile.links.items() if parse(url).kind != "sim"]
-    if real:
-        raise DocumentError([f"--fast: {', '.join(real)} keeps its own time; only sim: links can be played fast"])
-    return VirtualClock()
+    """The machine's clock, or with --fast a virtual one; raises DocumentError where a real device is on a link."""
+    if fast and (real := real_links(profile)):
+        raise DocumentError([f"--fast: {', '.join(real)} runs in real time; only sim: links can be played fast"])
+    return clock_for(fast)

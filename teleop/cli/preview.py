@@ -14,7 +14,7 @@ from typing import Annotated, BinaryIO
 
 from cyclopts import Parameter
 
-from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json, warn
+from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json, print_warnings
 from teleop.cli.shipped_files import named
 from teleop.config.files import replacing
 from teleop.config.frame_rates import exact_rate
@@ -39,9 +39,10 @@ def preview(
 ) -> int:
     """Draw a sequence as a rig would play it: an interactive page, a drawing or a table."""
     file, writes = named("preview", file, options.json), _writes(output, csv, rate)
-    profile, performance, timelapse = options.compiled(file)
-    if timelapse is not None:
-        warn(performance)
+    plan = options.plan(file)
+    profile, performance = plan.profile, plan.sequence
+    if plan.timelapse is not None:
+        print_warnings(performance.warnings)
     written = []
     for path, write in writes.items():
         with replacing(path) as stream:

@@ -39,7 +39,7 @@ def list_shipped(
     *,
     as_json: Json = False,
 ) -> None:
-    """List the moves, rigs and pads that come with the program, a line each.
+    """List the shipped moves, rigs and pads, a line each.
 
     Pads are joysticks and dials that have a mapping; a live run finds the mapping of a device by itself.
     """
@@ -48,7 +48,7 @@ def list_shipped(
         print(json.dumps({each: entries(each) for each in kinds}))
         return
     print("\n\n".join("\n".join(_lines(each)) for each in kinds))
-    print("\nteleop copy NAME FILE.yaml makes one yours.")
+    print("\nCopy one to edit it: teleop copy NAME FILE.yaml")
 
 
 def copy(
@@ -65,7 +65,7 @@ def copy(
         with file.open("xb") as target:  # exclusive: never over a file that somebody made meanwhile
             target.write(source.read_bytes())
     except FileExistsError:
-        raise UsageError(f"{file}: exists already and is not overwritten") from None
+        raise UsageError(f"{file}: already exists; choose another name") from None
     except OSError as error:
         raise DeviceError(f"{file}: cannot be written: {error.strerror or error}") from None
     if as_json:
@@ -117,7 +117,7 @@ def _refuse(file: Path) -> None:
     if file.is_dir():
         raise UsageError(f"{file}: is a folder; name the file too, as in {file / 'mine.yaml'}")
     if file.exists() or file.is_symlink():
-        raise UsageError(f"{file}: exists already and is not overwritten")
+        raise UsageError(f"{file}: already exists; choose another name")
     if file.suffix.lower() not in (".yaml", ".yml"):
         raise UsageError(f"{file}: a file needs its ending, {file.name}.yaml")
     if not file.parent.is_dir():

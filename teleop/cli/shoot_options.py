@@ -17,15 +17,20 @@ class ShootOptions:
 
     rehearse: Annotated[
         bool,
-        Parameter(help="A timelapse's move at its clip's speed, no shutter.", negative=(), show_default=False),
+        Parameter(
+            help="Play a timelapse's move at its clip's speed, without shutter.", negative=(), show_default=False
+        ),
     ] = False
     resume: Annotated[
         bool, Parameter(help="Continue a timelapse where it stopped.", negative=(), show_default=False)
     ] = False
-    restart: Annotated[bool, Parameter(help="Start a timelapse over.", negative=(), show_default=False)] = False
+    restart: Annotated[
+        bool,
+        Parameter(help="Start a timelapse again at frame 1, and discard its journal.", negative=(), show_default=False),
+    ] = False
     in_doubt: Annotated[
         Literal["shoot", "skip"],
-        Parameter(help="With --resume: shoot a frame that may be missing again, or skip it."),
+        Parameter(help="With --resume, a frame that may be missing: shoot it again, or skip it."),
     ] = "shoot"
 
     def check(self, file: str, timelapse: bool) -> None:

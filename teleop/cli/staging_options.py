@@ -31,7 +31,8 @@ class StagingOptions:
     """What stands around the move; where nothing is said, the sequence's own."""
 
     preroll: Annotated[
-        str | None, Parameter(metavar="TIME", help="The rest in place before the start, as in 3s.", show_default=False)
+        str | None,
+        Parameter(metavar="TIME", help="Wait at the start position before the move, as in 3s.", show_default=False),
     ] = None
     back_to_one: Annotated[
         bool | None, Parameter(help="At the end, go back to the first keyframe.", show_default=False)
@@ -40,16 +41,16 @@ class StagingOptions:
         str | None,
         Parameter(
             metavar="TIME|KEY",
-            help="Begin in mid move, at a time or a key (key1 is the first), with a run-up.",
+            help="Start at a time or a key (key1 is the first), with a run-up.",
             show_default=False,
         ),
     ] = None
-    loop: Annotated[bool, Parameter(help="Over and over, until stopped.", negative=(), show_default=False)] = False
+    loop: Annotated[bool, Parameter(help="Repeat until stopped.", negative=(), show_default=False)] = False
     passes: Annotated[
         int | None,
         Parameter(
             metavar="N",
-            help="So often, and say how far each pass lay from the first.",
+            help="Play N times and report repeatability against the first pass.",
             converter=whole,
             show_default=False,
         ),
@@ -59,7 +60,8 @@ class StagingOptions:
         str | None,
         Parameter(
             metavar="TRIGGER",
-            help="What starts it in place: key, osc:9000/go, mtc, timecode:01:00:00:00, time:18:30:00.",
+            help="Wait at the start position for a trigger:"
+            " key, osc:9000/go, mtc, timecode:01:00:00:00, time:18:30:00.",
         ),
     ] = None
 
@@ -71,7 +73,7 @@ class StagingOptions:
         from teleop.sequence.cycle import Cycle
 
         if self.passes is not None and (self.loop or self.passes < 1):
-            raise UsageError("--passes: goes without --loop" if self.loop else "--passes: must be at least 1")
+            raise UsageError("--passes: leave out --loop" if self.loop else "--passes: must be at least 1")
         back = performance.back_to_one if self.back_to_one is None else self.back_to_one
         preroll = performance.preroll if self.preroll is None else _time("preroll", self.preroll, performance.fps)
         passes = math.inf if self.loop else self.passes or 1
@@ -84,7 +86,7 @@ class StagingOptions:
             return 0.0
         time = _key(text, performance.key_times) if text.startswith(KEY) else _time("start-at", text, performance.fps)
         if time >= performance.duration:
-            raise UsageError(f"--start-at {text}: the move is over at {performance.duration:g} s")
+            raise UsageError(f"--start-at {text}: the move ends at {performance.duration:g} s")
         return time
 
 
@@ -92,7 +94,7 @@ def _trigger(text: str, clock: Clock, keys: bool) -> Trigger:
     from teleop.sequence.triggers.table import KeyTrigger, read_trigger
 
     if isinstance(clock, VirtualClock):
-        raise UsageError(f"--trigger {text}: comes in real time; leave out --fast")
+        raise UsageError(f"--trigger {text}: needs real time; leave out --fast")
     trigger = read_trigger(text, clock.now)
     if isinstance(trigger, KeyTrigger) and not keys:
         raise UsageError("--trigger key: there is no terminal to press it on")

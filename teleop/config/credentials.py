@@ -8,13 +8,14 @@ refuses.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Final
 
 from teleop.config.document import Document, DocumentError
+from teleop.config.folders import config_folder
 from teleop.config.yaml_loader import read_document
 from teleop.dji.drone.encryption import Cipher, CipherError, key_from_hex
 from teleop.dji.drone.messages import Activate
@@ -38,7 +39,7 @@ class Credentials:
         """The message that activates the drone. Raises DocumentError without an app id."""
         if self.app_id is None:
             raise DocumentError(
-                [f"the drone wants the app id that DJI gave you: in {APP_ID}, or app_id in {self.place}"]
+                [f"the drone needs the app id that DJI gave you: in {APP_ID}, or app_id in {self.place}"]
             )
         return Activate(self.app_id)
 
@@ -48,27 +49,25 @@ class Credentials:
         return None if self.key is None else Cipher(self.key)
 
 
-def default_file(environment: Mapping[str, str] = os.environ) -> Path:
-    """Where the credentials are kept, unless they are in the environment."""
-    config = environment.get("XDG_CONFIG_HOME", "")
-    base = Path(config) if os.path.isabs(config) else Path("~/.config").expanduser()
-    return base / "teleop" / "dji.yaml"
+def default_file() -> Path:
+    """Where the credentials are kept, unless they are in the environment. Raises UsageError without a home."""
+    return config_folder(f"give the app id in {APP_ID}, or set XDG_CONFIG_HOME") / "dji.yaml"
 
 
-def load_credentials(file: Path | None = None, environment: Mapping[str, str] = os.environ) -> Credentials:
+def load_credentials(file: Path | None = None) -> Credentials:
     """Those in `file` if it is given; else of the environment and, for what is not there, of the default file.
 
     Raises DocumentError for what cannot be used, without saying what it was.
     """
     if file is not None:
         return _read(file)
-    home = default_file(environment)
+    home = default_file()
     kept = _read(home) if home.is_file() else Credentials(str(home))
-    return Credentials(str(home), _environment_id(environment, kept.app_id), _environment_key(environment, kept.key))
+    return Credentials(str(home), _environment_id(kept.app_id), _environment_key(kept.key))
 
 
-def _environment_id(environment: Mapping[str, str], otherwise: int | None) -> int | None:
-    text = environment.get(APP_ID, "").strip()
+def _environment_id(otherwise: int | None) -> int | None:
+    text = os.environ.get(APP_ID, "").strip()
     if not text:
         return otherwise
     if not (text.isascii() and text.isdigit() and len(text) <= 10 and int(text) <= _LARGEST):
@@ -76,8 +75,8 @@ def _environment_id(environment: Mapping[str, str], otherwise: int | None) -> in
     return int(text)
 
 
-def _environment_key(environment: Mapping[str, str], otherwise: bytes | None) -> bytes | None:
-    text = environment.get(APP_KEY, "").strip()
+def _environment_key(otherwise: bytes | None) -> bytes | None:
+    text = os.environ.get(APP_KEY, "").strip()
     if not text:
         return otherwise
     try:

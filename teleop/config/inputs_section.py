@@ -207,7 +207,7 @@ def control_rules(controls: Mapping[str, Any], here: Location, axes: Mapping[str
 def _stick_rules(control: Mapping[str, Any], here: Location) -> Iterator[Wrong]:
     """A drone's stick may only be held, and is let go with the control: what stays where it was left is no stick."""
     if control.get("axis") in STICKS and (control.get("by") == "position" or control.get("rest") == "high"):
-        yield here, "must be let go with the hand: a drone's stick is moved by a stick or a button, not by a slider"
+        yield here, "must return to its center when released: use a stick or a button for a drone, not a slider"
 
 
 def _action_rules(action: Mapping[str, Any], here: Location, axes: Mapping[str, Any] | None) -> Iterator[Wrong]:
@@ -222,7 +222,10 @@ def _action_rules(action: Mapping[str, Any], here: Location, axes: Mapping[str, 
     command = action.get("command")
     to_drone = isinstance(command, str) and command.split()[:1] == [DRONE]
     if press == "engage" or (press == "tell" and to_drone):
-        yield here, "must be held: a drone is engaged, and told, by hold, with a press beside it (press: disengage)"
+        yield (
+            here,
+            "must be held: use `hold` to engage a drone or command it, with a `press` beside it (press: disengage)",
+        )
     if press == "tell" and not action.get("command"):
         yield here, "needs a command: gimbal follow lock"
     if "command" in action and "tell" not in asked:
@@ -230,7 +233,7 @@ def _action_rules(action: Mapping[str, Any], here: Location, axes: Mapping[str, 
     elif isinstance(command, str) and command and (wrong := _command_error(command)):
         yield (*here, "command"), wrong
     if "hold" in action and press is None:
-        yield (*here, "hold"), "needs a press beside it, for when it is let go sooner"
+        yield (*here, "hold"), "needs a press beside it, for a short press"
 
 
 def _command_error(command: str) -> str:

@@ -10,7 +10,6 @@ which it then replaces. A disk that is full costs the file and not the run, and 
 from __future__ import annotations
 
 import json
-import os
 import re
 import threading
 from collections import deque
@@ -24,9 +23,9 @@ from pydantic import Field
 from teleop.config.base_model import PositionsSection, Section
 from teleop.config.document import Wrong, mapping, number
 from teleop.config.files import OutputError, write_text
+from teleop.config.folders import state_folder
 from teleop.config.yaml_loader import read_document
 from teleop.core.axes import Axis, Limits
-from teleop.core.errors import UsageError
 
 DIGITS = 4  # behind the point: finer than any gimbal measures
 PATIENCE = 5.0  # s to wait at the end for a disk that does not answer
@@ -51,16 +50,10 @@ class Preset:
     name: str = ""
 
 
-def default_file(profile: str, environment: Mapping[str, str] = os.environ) -> Path:
+def default_file(profile: str) -> Path:
     """Where the presets of the profile called so are kept; raises UsageError when there is no home for them."""
-    state = environment.get("XDG_STATE_HOME", "")
-    if not os.path.isabs(state):  # the XDG base directory specification says to ignore a relative one
-        try:
-            state = str(Path.home() / ".local" / "state")
-        except RuntimeError:
-            raise UsageError("there is no home directory to keep presets in: say where with --presets FILE") from None
     name = re.sub(r"\W+", "-", profile.casefold()).strip("-_") or "rig"
-    return Path(state) / "teleop" / f"presets-{name}.yaml"
+    return state_folder("say where to keep presets with --presets FILE") / f"presets-{name}.yaml"
 
 
 class Presets:
@@ -167,9 +160,13 @@ def _preset(section: PresetSection) -> Preset:
 
 def _beyond(axis: Axis, position: float, limits: Mapping[Axis, Limits], rig: str) -> str:
     if axis not in limits:
-        return f"is left alone: {rig} has no {axis}"
+        return f"is not used: {rig} has no {axis}"
     low, high = limits[axis].minimum, limits[axis].maximum
-    return "" if low <= position <= high else f"lies beyond the soft limits ({low:g}..{high:g}), and ends there"
+    return (
+        ""
+        if low <= position <= high
+        else f"is outside the soft limits ({low:g}..{high:g}): a recall stops at the limit"
+    )
 
 
 def write_presets(file: Path, presets: Mapping[int, Preset]) -> None:

@@ -22,6 +22,7 @@ from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import InputSection, input_rules
 from teleop.config.operator_settings import PresetsSection, SticksSection
 from teleop.config.resources import find
+from teleop.config.sink_rules import sink_rules
 from teleop.config.sinks_section import (
     DRONES,
     MOVES,
@@ -30,7 +31,6 @@ from teleop.config.sinks_section import (
     Magnitude,
     SinkSection,
     VirtualRcSection,
-    sink_rules,
 )
 from teleop.config.yaml_loader import read_document
 from teleop.core.axes import Axis, Limits
@@ -135,15 +135,15 @@ def _is_used(section: SinkSection, axes: Collection[Axis], acts: Iterable[object
     return False
 
 
-def load_profile(name: str, links: Mapping[str, str] | None = None) -> Profile:
+def load_profile(name: str, links: Mapping[str, str] | None = None, option: str = "link ") -> Profile:
     """The profile called `name`, shipped or at a path, with the URLs of some of its `links` replaced.
 
-    Raises DocumentError with a line for everything wrong with it.
+    Raises DocumentError with a line for each mistake; one about a replaced link begins with `option`.
     """
     document = read_document(*find(name, "profiles", "rig"))
     refuse_other_kind(document, "profile")
     profile = document.check(Profile, _rules(document.data))
-    return _with_links(profile, document, links or {})
+    return _with_links(profile, document, links or {}, option)
 
 
 def _rules(data: Any) -> Iterator[Wrong]:
@@ -174,13 +174,13 @@ def _url_error(url: str) -> str:
     return ""
 
 
-def _with_links(profile: Profile, document: Document, links: Mapping[str, str]) -> Profile:
+def _with_links(profile: Profile, document: Document, links: Mapping[str, str], option: str) -> Profile:
     problems = []
     for name, url in links.items():
         if name not in profile.links:
-            problems.append(f"--link {name}: {document.name} has no such link; it has {', '.join(profile.links)}")
+            problems.append(f"{option}{name}: {document.name} has no such link; it has {', '.join(profile.links)}")
         elif wrong := _url_error(url):
-            problems.append(f"--link {name}: {wrong}")
+            problems.append(f"{option}{name}: {wrong}")
     if problems:
         raise DocumentError(problems)
     return profile.model_copy(update={"links": {**profile.links, **links}})

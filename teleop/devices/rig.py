@@ -284,7 +284,7 @@ def _cipher(encrypted: bool) -> Cipher | None:
         return None
     credentials = load_credentials()
     if credentials.cipher is None:
-        raise DocumentError([f"encrypted: true wants the app's key: in {APP_KEY}, or key in {credentials.place}"])
+        raise DocumentError([f"encrypted: true needs the app's key: in {APP_KEY}, or key in {credentials.place}"])
     return credentials.cipher
 
 

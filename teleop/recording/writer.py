@@ -177,17 +177,18 @@ def recording(
     status: Status | None = None,
     *,
     patient: bool = False,
+    option: str = "",
 ) -> Iterator[Recorder | None]:
     """A recorder into a new file, None for no path; `limits` are those of the axes in use.
 
-    Raises UsageError when the file cannot be made, or is there already. The caller that runs the loop calls `finish`; a
-    block that is left without has failed, and leaves no file when nothing had begun.
+    Raises UsageError, which begins with `option`, when the file cannot be made or already exists. Whoever runs the loop
+    calls `finish`; a block that is left without has failed, and leaves no file when nothing had begun.
     """
     if path is None:
         yield None
         return
     about = About(rig, title, date(), limits, version("rs-teleop"))
-    with _created(path) as stream:
+    with _created(path, option) as stream:
         recorder = Recorder(stream, about, str(path), status, patient)
         try:
             yield recorder
@@ -198,12 +199,12 @@ def recording(
             raise
 
 
-def _created(path: Path) -> IO[bytes]:
+def _created(path: Path, option: str) -> IO[bytes]:
     if path.suffix.lower() != ENDING:
-        raise UsageError(f"--take {path}: its ending must be {ENDING}")
+        raise UsageError(f"{option}{path}: its ending must be {ENDING}")
     try:
         return path.open("xb", buffering=0)
     except FileExistsError:
-        raise UsageError(f"--take {path}: is there already; takes are never overwritten") from None
+        raise UsageError(f"{option}{path}: already exists; choose another name, a take is never overwritten") from None
     except OSError as error:
-        raise UsageError(f"--take {path}: cannot be written: {error.strerror or error}") from None
+        raise UsageError(f"{option}{path}: cannot be written: {error.strerror or error}") from None

@@ -36,13 +36,13 @@ class Number(NamedTuple):
 class TrimmedFile:
     """The sequence called `name`, to be written to `target` with its keys moved by offsets within `limits`.
 
-    Raises DocumentError where the keys cannot be rewritten, UsageError where `target` is there already, OutputError
+    Raises DocumentError where the keys cannot be rewritten, UsageError where `target` already exists, OutputError
     where it cannot be written.
     """
 
     def __init__(self, name: str, target: Path, axes: Sequence[Axis], limits: Mapping[Axis, Limits]) -> None:
         if target.exists() and not is_stream(target):
-            raise UsageError(f"--trim-out {target}: exists already and is not overwritten")
+            raise UsageError(f"--trim-out {target}: already exists; choose another name")
         check_place(target)
         file, called = find(name, "sequences", "sequence")
         document = read_document(file, called)

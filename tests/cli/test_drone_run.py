@@ -13,7 +13,7 @@ import pytest
 from command import running, teleop
 from terminal import terminal
 
-from teleop.cli.drone_run import HOVER
+from teleop.app.drone_flight import HOVER
 from teleop.core.axes import Axis
 from teleop.recording.messages import Messages
 from teleop.recording.reader import read_take
@@ -113,7 +113,7 @@ def test_a_take_of_a_flight_can_be_flown_again(sequence: str, tmp_path: Path) ->
 def test_a_flight_keeps_its_time(sequence: str) -> None:
     ran = teleop("play", sequence, *RIG, "--fast", "--i-understand", "--speed", "50%")
     assert ran.returncode == 2
-    assert ran.stderr == "--speed 50%: a drone's sticks held for longer or shorter fly it somewhere else\n"
+    assert ran.stderr == "--speed 50%: a drone's move has one speed: leave out --speed\n"
 
 
 def test_recorded_sticks_fly_it_and_its_end_gives_it_back(sticks: str) -> None:
@@ -200,7 +200,7 @@ def test_a_drone_on_a_real_line_wants_an_app_id(tmp_path: Path, monkeypatch: pyt
         links = ["--link", f"drone={line.split()[-1]}", "--link", "gimbal=sim:"]
         ran = teleop(*arguments, *links)
         assert ran.returncode == 2
-        assert "the drone wants the app id that DJI gave you: in TELEOP_DJI_APP_ID" in ran.stderr
+        assert "the drone needs the app id that DJI gave you: in TELEOP_DJI_APP_ID" in ran.stderr
         monkeypatch.setenv("TELEOP_DJI_APP_ID", "123456")
         ran = teleop(*arguments, *links)
         assert ran.returncode == 0, ran.stderr

@@ -124,8 +124,8 @@ def test_recorded_sticks_on_a_terminal_end_by_themselves_and_keys_can_stop_them(
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["live"], "there is no joystick, and no terminal for its keys: plug one in"),
-        (["live", "--fast"], "--fast: a hand keeps its own time; only --sticks can be replayed fast"),
+        (["live"], "no joystick and no terminal: plug in a joystick"),
+        (["live", "--fast"], "--fast: an operator works in real time; only --sticks can be replayed fast"),
         (["live", "--learn"], "--learn asks questions: run it on a terminal"),
     ],
 )

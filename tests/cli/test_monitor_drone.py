@@ -36,7 +36,7 @@ def test_a_drone_is_heard_on_its_serial_line_in_one_direction(
     assert any(record["fields"].get("status") == "standby" for record in records)
     listening, summary = printed.err.splitlines()
     assert listening == (
-        f"listening on {url}: time in s, <- from the drone; what it is told cannot be heard on a serial line"
+        f"listening on {url}: time in s, <- from the drone; a serial line does not show what is sent to it"
     )
     assert summary.startswith(f"{len(records)} frames from the drone, 0 damaged")
 

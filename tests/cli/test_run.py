@@ -74,7 +74,7 @@ def test_check_promises_no_speed_that_play_refuses(tmp_path: Path) -> None:
     assert teleop("play", "hard.yaml", "--fast", "--speed", f"{most}%", cwd=tmp_path).returncode == 0
     refused = teleop("play", "hard.yaml", "--fast", "--speed", f"{most + 1}%", cwd=tmp_path)
     assert refused.stderr == f"--speed {most + 1}%: maximum playback speed: {most} %, not {most + 1} %\n"
-    assert "A drone's move plays only at its own speed." in teleop("check", "fly-by", "--rig", "sim-drone").stdout
+    assert "A drone's move is played at its own speed only." in teleop("check", "fly-by", "--rig", "sim-drone").stdout
 
 
 def test_sticks_are_replayed(tmp_path: Path) -> None:
@@ -110,15 +110,15 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
         (["play", "reveal", "--start-at", "96f"], 2, "--start-at 96f: is 96f, in frames, which needs fps"),
         (["play", "reveal", "--trigger", "now"], 2, "--trigger now: must be key, osc:9000/go, mtc"),
         (["play", "reveal", "--trigger", "key"], 2, "--trigger key: there is no terminal"),
-        (["play", "reveal", "--trigger", "time", "18:30", "--fast"], 2, "comes in real time; leave out --fast"),
+        (["play", "reveal", "--trigger", "time", "18:30", "--fast"], 2, "needs real time; leave out --fast"),
         (["play", "reveal", "--trim", "--fast"], 2, "--trim: a hand keeps its own time"),
-        (["play", "reveal", "--trim-out", "x.yaml"], 2, "--trim-out: goes with --trim"),
+        (["play", "reveal", "--trim-out", "x.yaml"], 2, "--trim-out: needs --trim"),
         (["play", "reveal", "--trim", "--trim-share", "100%"], 2, "must be a percentage between 0 and 100"),
         (["play", "reveal", "--preroll", "soon"], 2, "--preroll soon: must be a time"),
         (["play", "reveal", "--passes", "0"], 2, "--passes: must be at least 1"),
         (["play", "reveal", "--passes", "1.5"], 2, "--passes: It must be a whole number"),
         (["send", "angles", "--retries", "0.5"], 2, "--retries: It must be a whole number"),
-        (["play", "reveal", "--passes", "3", "--loop"], 2, "--passes: goes without --loop"),
+        (["play", "reveal", "--passes", "3", "--loop"], 2, "--passes: leave out --loop"),
         (["play", "./nothing.yaml"], 2, "no such file"),
         (["play", "reveal", "--rig", "smi"], 2, "did you mean sim?"),
         (["play", "reveal", "--link", "gimbal"], 2, "write it as NAME=URL"),
@@ -199,10 +199,10 @@ def test_a_sequence_that_waits_for_somebody_needs_somebody(tmp_path: Path) -> No
     )
     alone = teleop("play", "wait.yaml", cwd=tmp_path)
     assert alone.returncode == 2
-    assert "wait.yaml waits for the operator at 2 s: there is no terminal on which to say go on" in alone.stderr
+    assert "wait.yaml waits for the operator at 2 s: run it on a terminal" in alone.stderr
     fast = teleop("play", "wait.yaml", "--fast", cwd=tmp_path)
     assert fast.returncode == 0
-    assert "--fast: nobody is waited for" in fast.stderr
+    assert "--fast: waits for the operator are skipped" in fast.stderr
 
 
 def test_a_move_waits_in_place_for_its_trigger_and_starts_at_once(tmp_path: Path) -> None:

@@ -77,8 +77,8 @@ def test_a_copy_is_refused_in_one_line_and_nothing_is_written_over(
     Path("dangling.yaml").symlink_to("nowhere.yaml")
     Path("folder").mkdir()
     rows = {
-        ("reveal", "there.yaml"): "teleop: there.yaml: exists already and is not overwritten",
-        ("reveal", "dangling.yaml"): "teleop: dangling.yaml: exists already and is not overwritten",
+        ("reveal", "there.yaml"): "teleop: there.yaml: already exists; choose another name",
+        ("reveal", "dangling.yaml"): "teleop: dangling.yaml: already exists; choose another name",
         ("revael", "new.yaml"): "revael: no move, rig or pad of that name is shipped; did you mean reveal?",
         ("./reveal.yaml", "new.yaml"): "./reveal.yaml: only shipped files are copied, by their bare names; teleop list"
         " names them",

@@ -80,7 +80,7 @@ def test_a_shoot_goes_on_where_a_signal_left_it_and_only_the_same_shoot_does(
 ) -> None:
     said = left_at(folder, 2, number)
     if number is signal.SIGINT:
-        assert "continue with --resume: frame " in said
+        assert "Continue with --resume: frame " in said
     again = teleop("play", "dusk.yaml", "--fast", cwd=folder)
     assert again.returncode == 2
     assert "of 12: continue with --resume, or start over with --restart" in again.stderr
@@ -134,7 +134,10 @@ def test_a_take_of_a_shoot_says_what_its_link_counted(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["dusk.yaml", "--speed", "50%"], "dusk.yaml is shot, not played: --speed and its kin go with --rehearse only"),
+        (
+            ["dusk.yaml", "--speed", "50%"],
+            "dusk.yaml is a timelapse: --speed, --trim and the options of passes need --rehearse",
+        ),
         (["dusk.yaml", "--resume", "--restart"], "--resume and --restart do not go together"),
         (["reveal", "--resume"], "--resume: reveal is not a timelapse"),
         (["reveal", "--in-doubt", "skip"], "--in-doubt: reveal is not a timelapse"),

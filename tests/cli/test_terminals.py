@@ -172,6 +172,25 @@ def test_what_takes_time_and_what_prints_a_table(
         assert "Traceback" not in "\n".join(term.everything)
 
 
+def test_the_spinner_of_a_fit_is_shown_and_taken_away(folder: Path) -> None:
+    assert teleop("play", "short.yaml", "--fast", "--take", "a.mcap", cwd=folder).returncode == 0
+    with screen("take", "keyframes", "a.mcap", "-o", "keys.yaml", folder=folder, size=(80, 24), cwd=folder) as term:
+        assert term.end() == 0, term.text
+        term.look()
+        assert b"Fitting" in term.raw
+        assert "Fitting" not in "\n".join(term.everything)
+        assert "keys.yaml: " in term.text
+
+
+def test_the_status_line_of_monitor_is_one_row_and_becomes_the_summary(folder: Path) -> None:
+    link = "gimbal=udp_multicast:239.74.163.77"
+    with screen("monitor", "--link", link, "--seconds", "2", folder=folder, size=(80, 24), cwd=folder) as term:
+        term.look(term.wait_for("0 of other ids"))
+        assert term.end() == 0, term.text
+        term.look()
+        assert term.text.count("0 frames to the gimbal") == 1
+
+
 ODD = {
     "dumb": ((80, 24), {"TERM": "dumb"}),
     "no colour": ((80, 24), {"NO_COLOR": "1"}),

@@ -7,6 +7,7 @@ from threading import Event
 
 import pytest
 
+from teleop.app.trim_writer import TrimWriter
 from teleop.cli.trim_options import TrimReport
 from teleop.config.files import OutputError
 from teleop.core.axes import Axis, State
@@ -16,7 +17,7 @@ TICK = Tick(0.0, {}, {}, (), {})
 
 
 class Hands:
-    """What a TrimReport needs of `Trimming`."""
+    """What a TrimWriter needs of `Trimming`."""
 
     def __init__(self) -> None:
         self.offsets = {Axis.PAN: State(1.5)}
@@ -47,44 +48,44 @@ def test_a_write_that_failed_is_never_followed_by_written_to_file(
     error: Exception, key: bool, capsys: pytest.CaptureFixture[str]
 ) -> None:
     hands = Hands()
-    report = TrimReport(hands, File(error))  # type: ignore[arg-type]  # stand-ins
+    writer = TrimWriter(hands, File(error))  # type: ignore[arg-type]  # stand-ins
     if key:
-        assert report.keep
-        assert report.keep() == "writing the trim to out.yaml"
-    report.print()
-    report.observe(TICK)
+        assert writer.keep
+        assert writer.keep() == "writing the trim to out.yaml"
+    TrimReport(writer).print()
+    writer.observe(TICK)
     printed = capsys.readouterr()
     reason = "out.yaml: cannot be written: "
     assert printed.out == "trim: pan +1.500 deg\n"
     assert printed.err.startswith(f"teleop: {reason}")
-    assert dict(report.facts())["trim"] == {
+    assert dict(TrimReport(writer).facts())["trim"] == {
         "offsets": {"pan": 1.5},
         "file": None,
         "trouble": printed.err.removeprefix("teleop: ").strip(),
     }
-    assert report.failure.startswith(reason)
+    assert writer.failure.startswith(reason)
     assert all(line.startswith(reason) for line in hands.lines)
 
 
 def test_a_file_that_was_written_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     hands = Hands()
-    report = TrimReport(hands, File())  # type: ignore[arg-type]  # stand-ins
-    report.print()
-    report.observe(TICK)
+    writer = TrimWriter(hands, File())  # type: ignore[arg-type]  # stand-ins
+    TrimReport(writer).print()
+    writer.observe(TICK)
     assert capsys.readouterr().out == "trim: pan +1.500 deg; written to out.yaml\n"
     assert hands.lines == ["the trim is written to out.yaml"]
-    assert (report.failure, dict(report.facts())["trim"]["file"]) == ("", "out.yaml")  # type: ignore[index]  # a dict
+    assert (writer.failure, dict(TrimReport(writer).facts())["trim"]["file"]) == ("", "out.yaml")  # type: ignore[index]  # a dict
 
 
 def test_a_disk_that_hangs_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("teleop.cli.trim_options.PATIENCE", 0.01)
+    monkeypatch.setattr("teleop.app.trim_writer.PATIENCE", 0.01)
     never = Event()
 
     class Hung(File):
         def write(self, offsets: object) -> None:
             never.wait()
 
-    report = TrimReport(Hands(), Hung())  # type: ignore[arg-type]  # stand-ins
-    assert dict(report.facts())["trim"]["file"] is None  # type: ignore[index]  # a dict
-    assert report.failure == "out.yaml: cannot be written: the disk does not answer"
+    writer = TrimWriter(Hands(), Hung())  # type: ignore[arg-type]  # stand-ins
+    assert dict(TrimReport(writer).facts())["trim"]["file"] is None  # type: ignore[index]  # a dict
+    assert writer.failure == "out.yaml: cannot be written: the disk does not answer"
     never.set()

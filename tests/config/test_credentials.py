@@ -14,44 +14,51 @@ from teleop.dji.drone.messages import Activate
 ID, KEY = 1030093, "00112233445566778899aabbccddeeff0123456789abcdeffedcba9876543210"
 
 
-def kept(folder: Path, text: str) -> dict[str, str]:
-    """An environment whose credentials file has `text`."""
-    (folder / "teleop").mkdir()
-    (folder / "teleop" / "dji.yaml").write_text(text)
-    return {"XDG_CONFIG_HOME": str(folder)}
+@pytest.fixture(autouse=True)
+def _own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    for name in ("TELEOP_DJI_APP_ID", "TELEOP_DJI_APP_KEY"):
+        monkeypatch.delenv(name, raising=False)
 
 
-def test_nobody_said(tmp_path: Path) -> None:
-    found = load_credentials(environment={"XDG_CONFIG_HOME": str(tmp_path)})
+def test_without_credentials_the_error_names_both_places(tmp_path: Path) -> None:
+    found = load_credentials()
     assert (found.app_id, found.key, found.cipher) == (None, None, None)
     with pytest.raises(DocumentError) as raised:
         found.activation()
     assert str(raised.value) == (
-        f"the drone wants the app id that DJI gave you: in TELEOP_DJI_APP_ID, or app_id in {tmp_path}/teleop/dji.yaml"
+        f"the drone needs the app id that DJI gave you: in TELEOP_DJI_APP_ID, or app_id in {tmp_path}/teleop/dji.yaml"
     )
 
 
-def test_the_environment_goes_before_the_file(tmp_path: Path) -> None:
-    environment = kept(tmp_path, f'app_id: 7\nkey: "{KEY}"\n')
-    assert load_credentials(environment=environment).app_id == 7
-    found = load_credentials(environment=environment | {"TELEOP_DJI_APP_ID": str(ID)})
+def test_the_environment_goes_before_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "teleop").mkdir()
+    (tmp_path / "teleop" / "dji.yaml").write_text(f'app_id: 7\nkey: "{KEY}"\n')
+    assert load_credentials().app_id == 7
+    monkeypatch.setenv("TELEOP_DJI_APP_ID", str(ID))
+    found = load_credentials()
     assert (found.app_id, found.key) == (ID, bytes.fromhex(KEY))
     assert found.activation() == Activate(ID)
     assert found.cipher is not None
-    assert load_credentials(environment=environment | {"TELEOP_DJI_APP_KEY": "ff" * 32}).key == b"\xff" * 32
+    monkeypatch.setenv("TELEOP_DJI_APP_KEY", "ff" * 32)
+    assert load_credentials().key == b"\xff" * 32
 
 
-def test_a_file_that_is_given_is_the_only_place(tmp_path: Path) -> None:
+def test_a_file_that_is_given_is_the_only_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "mine.yaml"
     file.write_text(f"app_id: {ID}\n")
-    found = load_credentials(file, {"TELEOP_DJI_APP_KEY": KEY, "TELEOP_DJI_APP_ID": "7"})
+    monkeypatch.setenv("TELEOP_DJI_APP_KEY", KEY)
+    monkeypatch.setenv("TELEOP_DJI_APP_ID", "7")
+    found = load_credentials(file)
     assert (found.app_id, found.key) == (ID, None)
 
 
 def test_where_it_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HOME", "/home/somebody")
-    assert default_file({}) == Path("/home/somebody/.config/teleop/dji.yaml")
-    assert default_file({"XDG_CONFIG_HOME": "relative"}) == Path("/home/somebody/.config/teleop/dji.yaml")
+    monkeypatch.delenv("XDG_CONFIG_HOME")
+    assert default_file() == Path("/home/somebody/.config/teleop/dji.yaml")
+    monkeypatch.setenv("XDG_CONFIG_HOME", "relative")
+    assert default_file() == Path("/home/somebody/.config/teleop/dji.yaml")
 
 
 @pytest.mark.parametrize(
@@ -92,9 +99,10 @@ def test_errors_of_the_file_say_where_and_not_what(text: str, problems: list[str
         ("TELEOP_DJI_APP_KEY", "5ec2e7", "TELEOP_DJI_APP_KEY: a key is 64 hexadecimal digits"),
     ],
 )
-def test_errors_of_the_environment(name: str, text: str, error: str, tmp_path: Path) -> None:
+def test_errors_of_the_environment(name: str, text: str, error: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(name, text)
     with pytest.raises(DocumentError) as raised:
-        load_credentials(environment={"XDG_CONFIG_HOME": str(tmp_path), name: text})
+        load_credentials()
     assert str(raised.value) == error
     assert text not in "".join(traceback.format_exception(raised.value))
 

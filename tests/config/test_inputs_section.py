@@ -134,7 +134,7 @@ def test_a_rig_without_inputs_has_none(tmp_path: Path) -> None:
         (
             "{controls: {X: {axis: pan, hold: stop}}}",
             38,
-            "controls.X.hold needs a press beside it, for when it is let go sooner",
+            "controls.X.hold needs a press beside it, for a short press",
         ),
         (
             "{controls: {X: {axis: pan, dead_zone: 0.5}}}",
@@ -209,10 +209,10 @@ sinks:
 @pytest.mark.parametrize(
     ("control", "problem"),
     [
-        ("{press: engage}", "controls.X must be held: a drone is engaged, and told, by hold"),
+        ("{press: engage}", "controls.X must be held: use `hold` to engage a drone or command it"),
         ("{press: tell, command: drone arm}", "controls.X must be held"),
-        ("{axis: stick_pitch, by: position}", "controls.X must be let go with the hand"),
-        ("{axis: stick_pitch, rest: high}", "controls.X must be let go with the hand"),
+        ("{axis: stick_pitch, by: position}", "controls.X must return to its center when released"),
+        ("{axis: stick_pitch, rest: high}", "controls.X must return to its center when released"),
         ("{press: disengage, hold: engage}", ""),
         ("{press: disengage, hold: tell, command: drone arm}", ""),
         ("{axis: stick_pitch}", ""),

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import platformdirs
 import pytest
 from hands import LIMITS
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teleop.config import presets as module
 from teleop.config.document import DocumentError
 from teleop.config.presets import Preset, Presets, default_file, read_presets, write_presets
 from teleop.core.axes import Axis
@@ -48,7 +48,7 @@ def test_a_name_and_an_axis_of_another_rig_survive_a_store(tmp_path: Path) -> No
     file.write_text('presets:\n  1: {pan: 1, roll: 5, name: "wide \\u00e9"}\n')
     shelf = read_presets(file, LIMITS, RIG)
     assert [said.removeprefix(f"{tmp_path}/") for said in shelf.heard()] == [
-        "presets.yaml:2:21: presets.1.roll is left alone: Test rig has no roll"
+        "presets.yaml:2:21: presets.1.roll is not used: Test rig has no roll"
     ]
     assert list(shelf.heard()) == []
     shelf.store(1, {Axis.PAN: 2.0})
@@ -60,7 +60,7 @@ def test_a_preset_beyond_the_soft_limits_is_said(tmp_path: Path) -> None:
     file = tmp_path / "presets.yaml"
     file.write_text("presets:\n  7: {pan: 200}\n")
     [said] = read_presets(file, LIMITS, RIG).heard()
-    assert said.endswith("2:12: presets.7.pan lies beyond the soft limits (-180..180), and ends there")
+    assert said.endswith("2:12: presets.7.pan is outside the soft limits (-180..180): a recall stops at the limit")
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_a_disk_that_fails_is_said_and_costs_nothing_else(tmp_path: Path, monkey
     def full(_descriptor: int) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(module.os, "fsync", full)
+    monkeypatch.setattr(os, "fsync", full)
     shelf = read_presets(file, LIMITS, RIG)
     shelf.store(2, {Axis.PAN: 2.0})
     shelf.close()
@@ -115,20 +115,18 @@ def test_a_place_that_cannot_be_made_is_said(tmp_path: Path) -> None:
     assert "presets are not saved" in next(shelf.heard())
 
 
-def test_each_rig_has_a_file_of_its_own(tmp_path: Path) -> None:
-    state = {"XDG_STATE_HOME": str(tmp_path)}
-    assert default_file("Simulated rig", state) == tmp_path / "teleop" / "presets-simulated-rig.yaml"
-    assert default_file("../..", state) == tmp_path / "teleop" / "presets-rig.yaml"
-    assert default_file("x", {"XDG_STATE_HOME": "relative"}) == Path.home() / ".local/state/teleop/presets-x.yaml"
+def test_each_rig_has_a_file_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    assert default_file("Simulated rig") == tmp_path / "teleop" / "presets-simulated-rig.yaml"
+    assert default_file("../..") == tmp_path / "teleop" / "presets-rig.yaml"
+    monkeypatch.setenv("XDG_STATE_HOME", "relative")
+    assert default_file("x") == Path.home() / ".local/state/teleop/presets-x.yaml"
 
 
-def test_no_home_is_said_with_the_way_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    def homeless() -> Path:
-        raise RuntimeError
-
-    monkeypatch.setattr(module.Path, "home", homeless)
+def test_no_home_is_reported_with_the_way_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(platformdirs, "user_state_path", lambda *_args, **_options: Path("~/.local/state/teleop"))
     with pytest.raises(UsageError, match="--presets FILE"):
-        default_file("x", {})
+        default_file("x")
 
 
 @given(

@@ -139,8 +139,8 @@ def test_links_can_be_replaced_by_other_urls() -> None:
     assert load_profile("rs2", {"gimbal": "virtual:x"}).links == {"gimbal": "virtual:x"}
     with pytest.raises(DocumentError) as caught:
         load_profile("rs2", {"gimbal": "nonsense", "drone": "sim:"})
-    assert "--link drone: rs2.yaml has no such link; it has gimbal" in caught.value.problems
-    assert any(problem.startswith("--link gimbal: link 'nonsense'") for problem in caught.value.problems)
+    assert "link drone: rs2.yaml has no such link; it has gimbal" in caught.value.problems
+    assert any(problem.startswith("link gimbal: link 'nonsense'") for problem in caught.value.problems)
 
 
 DRONE = """

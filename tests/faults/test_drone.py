@@ -376,7 +376,7 @@ def test_it_is_flown_encrypted_by_the_apps_key(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
     encrypted = VIRTUAL_RC.replace("link", "encrypted: true, link")
     with (
-        pytest.raises(DocumentError, match="encrypted: true wants the app's key: in TELEOP_DJI_APP_KEY"),
+        pytest.raises(DocumentError, match="encrypted: true needs the app's key: in TELEOP_DJI_APP_KEY"),
         drone_fault_bench(tmp_path, encrypted),
     ):
         pass

@@ -91,6 +91,6 @@ def test_the_command_draws_what_the_ending_says(
     assert run(["take", "report", "t.mcap", "-o", name]) == 0
     assert Path(name).read_bytes().startswith(begins)
     assert run(["take", "report", "t.mcap", "-o", name]) == 2
-    assert capsys.readouterr().err == f"teleop: -o {name}: is there already; --overwrite replaces it\n"
+    assert capsys.readouterr().err == f"teleop: -o {name}: already exists; give --overwrite to replace it\n"
     assert run(["take", "report", "t.mcap", "-o", "r.pdf"]) == 2
     assert "its ending must be one of .html, .svg, .png" in capsys.readouterr().err

@@ -122,8 +122,8 @@ def test_a_file_cut_anywhere_or_damaged_anywhere_is_saved_or_refused_and_never_c
     ("arguments", "said"),
     [
         (["whole.mcap"], ""),
-        (["cut.mcap", "-o", "cut.mcap"], "teleop: -o cut.mcap: is the take itself; takes are never overwritten"),
-        (["cut.mcap", "-o", "there.mcap"], "teleop: -o there.mcap: is there already; --overwrite replaces it"),
+        (["cut.mcap", "-o", "cut.mcap"], "teleop: -o cut.mcap: is the take itself; choose another file"),
+        (["cut.mcap", "-o", "there.mcap"], "teleop: -o there.mcap: already exists; give --overwrite to replace it"),
         (["cut.mcap", "-o", "new.txt"], "teleop: -o new.txt: its ending must be .mcap"),
         (["text.mcap"], "text.mcap: not a take (.mcap), or cut off before anything was recorded"),
         (["begun.mcap"], "begun.mcap: nothing to recover: it was cut off before its first second was written"),

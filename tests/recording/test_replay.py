@@ -93,7 +93,7 @@ def test_a_rig_that_cannot_do_it_is_told_where_and_by_how_much(take: Path) -> No
 def test_a_take_is_never_written_over_another_and_what_is_no_take_is_refused(take: Path) -> None:
     again = teleop("play", "shoot.yaml", "--fast", "--take", take.name, cwd=take.parent)
     assert again.returncode == 2
-    assert again.stderr == "teleop: --take one.mcap: is there already; takes are never overwritten\n"
+    assert again.stderr == "teleop: --take one.mcap: already exists; choose another name, a take is never overwritten\n"
     (take.parent / "not.mcap").write_text("keyframes: []\n")
     with pytest.raises(DocumentError) as refusal:
         read_take(take.parent / "not.mcap")

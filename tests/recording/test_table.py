@@ -90,8 +90,8 @@ def test_the_command_and_what_it_refuses(
     assert (done.returncode, done.stdout) == (0, "t.csv: 51 rows\n")
     assert done.stderr.startswith("t.mcap: the recording was cut off")
     for arguments, line in [
-        (["t.mcap", "--csv", "t.csv"], "teleop: --csv t.csv: is there already; --overwrite replaces it\n"),
-        (["t.mcap", "--csv", "t.mcap"], "teleop: --csv t.mcap: is the take itself; takes are never overwritten\n"),
+        (["t.mcap", "--csv", "t.csv"], "teleop: --csv t.csv: already exists; give --overwrite to replace it\n"),
+        (["t.mcap", "--csv", "t.mcap"], "teleop: --csv t.mcap: is the take itself; choose another file\n"),
         (["text.mcap", "--csv", "u.csv"], "text.mcap: not a take (.mcap), or cut off before anything was recorded\n"),
     ]:
         assert run(["take", "export", *arguments]) == 2

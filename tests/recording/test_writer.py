@@ -43,7 +43,7 @@ class HalfWrites(io.RawIOBase):
 def test_a_full_disk_is_a_sentence_and_a_count() -> None:
     recorder = Recorder(FullDisk(), ABOUT, "t.mcap")  # type: ignore[arg-type]
     for number in range(3):
-        recorder.write(tick(number))
+        recorder.observe(tick(number))
     recorder.finish(Result.DONE, [])
     assert recorder.trouble == "t.mcap: No space left on device: 3 ticks not recorded"
     assert recorder.missing == 3
@@ -53,7 +53,7 @@ def test_a_write_of_a_part_goes_on_with_the_rest(tmp_path: Path) -> None:
     stream = HalfWrites()
     recorder = Recorder(stream, ABOUT, "t.mcap", patient=True)  # type: ignore[arg-type]
     for number in range(200):
-        recorder.write(tick(number))
+        recorder.observe(tick(number))
     recorder.finish(Result.DONE, [])
     assert recorder.trouble == ""
     (tmp_path / "t.mcap").write_bytes(stream.data)
@@ -73,7 +73,7 @@ def test_a_run_that_fails_later_leaves_its_reason_in_the_file(tmp_path: Path) ->
     def failing_run() -> None:
         with recording(path, "Bench", "t", LIMITS) as recorder:
             assert recorder is not None
-            recorder.write(tick(0))
+            recorder.observe(tick(0))
             raise RuntimeError("the cable fell out")
 
     with pytest.raises(RuntimeError):

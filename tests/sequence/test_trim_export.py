@@ -73,7 +73,7 @@ def test_what_is_no_plain_number_is_refused_beforehand_and_all_of_it(tmp_path: P
 
 def test_nothing_is_written_over_and_what_cannot_be_written_is_said(tmp_path: Path):
     (tmp_path / "out.yaml").write_text("precious")
-    with pytest.raises(UsageError, match="exists already"):
+    with pytest.raises(UsageError, match="already exists"):
         trimmed(tmp_path, TEXT)
     (tmp_path / "out.yaml").unlink()
     with pytest.raises(OutputError, match=r"out\.yaml: cannot be written: No such file or directory"):

@@ -25,7 +25,7 @@ CHECKS: Sequence[Callable[[], Findings]] = (
 
 
 def doctor(*, as_json: Annotated[bool, Parameter(name="--json", negative="", show_default=False)] = False) -> int:
-    """Say what this machine can do: packages, permissions, adapters, timing, room for takes.
+    """Check what this machine can do: packages, permissions, adapters, timing, room for takes.
 
     Parameters
     ----------

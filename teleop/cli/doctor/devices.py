@@ -26,7 +26,7 @@ def hid() -> Findings:
         names = ", ".join(f"/dev/{device.name}" for device in shut if hid_rule(device))
         yield Finding("hid", State.PROBLEM, f"no permission to open {names}", _write_rules(), rules)
     elif devices and len(shut) == len(devices):
-        yield Finding("hid", State.NOTE, "only keyboards and mice here, which nobody need open", _PLUG)
+        yield Finding("hid", State.NOTE, "only keyboards and mice here: they need no permission", _PLUG)
     elif devices:
         yield Finding("hid", State.OK, f"{len(devices) - len(shut)} of {len(devices)} hidraw devices may be opened")
     else:

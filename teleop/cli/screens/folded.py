@@ -5,6 +5,8 @@ from __future__ import annotations
 import shutil
 import sys
 import textwrap
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TextIO
 
 INDENT = "  "  # of what is left of a line in the next one
@@ -30,6 +32,21 @@ def folded(text: str, stream: TextIO) -> str:
 def tell(text: str) -> None:
     """A line of the result, on stdout."""
     print(folded(text, sys.stdout))
+
+
+def warn(text: str) -> None:
+    """A warning on stderr."""
+    complain(f"teleop: warning: {text}")
+
+
+@contextmanager
+def after_the_run() -> Iterator[Callable[[str], object]]:
+    """Takes lines while a view is on the terminal, and prints them on stderr when the block is left."""
+    lines: list[str] = []
+    try:
+        yield lines.append
+    finally:
+        print(*lines, sep="\n", end="\n" if lines else "", file=sys.stderr)
 
 
 def complain(text: str) -> None:

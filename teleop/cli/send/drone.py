@@ -75,7 +75,7 @@ def send_drone(words: Sequence[str], options: Options, understood: bool) -> int:
 def asked_for(words: Sequence[str], understood: bool) -> Message:
     """The message that the words ask for, fit to be sent. Raises DocumentError."""
     if len(words) < 2:
-        raise DocumentError(["say what to send to the drone; teleop send drone --help lists everything"])
+        raise DocumentError(["name a command for the drone; teleop send drone --help lists all"])
     try:
         message = DRONE.find(words)
         message.check()
@@ -84,7 +84,7 @@ def asked_for(words: Sequence[str], understood: bool) -> Message:
     if reason := never(message):
         raise DocumentError([f"{message.name} is not sent by itself: {reason}"])
     if (reason := hazard(message)) and not understood:
-        raise DocumentError([f"{message.name}: {reason}; if that is what you want, say --i-understand"])
+        raise DocumentError([f"{message.name}: {reason}; to send it all the same, give --i-understand"])
     return message
 
 
@@ -171,7 +171,7 @@ def refusal(message: Message, record: Record) -> str:
     """Why the drone did not do what it was told; nothing when it did, or was asked for its version only."""
     if not record["reply"] or isinstance(message, drone.Version):
         return ""
-    code = record["fields"].get("code", "an acknowledgement that nothing is known of")
+    code = record["fields"].get("code", "an acknowledgement of unknown meaning")
     match message:
         case drone.Control(order=ControlOrder.OBTAIN):
             done = code == "obtained"

@@ -56,7 +56,7 @@ NOT_DONE: Mapping[tuple[str, str], str] = {
 """Fields of a reply that say no although the return code is ok."""
 
 TAKEN_OVER = (
-    "speed control stays taken over; to give it back: teleop send gimbal speed yaw=0 roll=0 pitch=0 take_over=false"
+    "speed control stays taken over; to release it: teleop send gimbal speed yaw=0 roll=0 pitch=0 take_over=false"
 )
 
 
@@ -72,7 +72,7 @@ def send(
         int | None,
         Parameter(
             metavar="N",
-            help="How often to ask again without a reply: 2, and 0 for what must not be done twice.",
+            help="Retries without a reply: 2, and 0 for what must not be done twice.",
             validator=Number(gte=0),
             converter=whole,
             show_default=False,
@@ -82,7 +82,7 @@ def send(
         bool,
         Parameter(
             name=("--help", "-h"),
-            help="List every command, or those that the words begin.",
+            help="List every command, or those that begin with the words.",
             negative=(),
             show_default=False,
         ),
@@ -99,7 +99,7 @@ def send(
         return 0
     if words and words[0].lower() == "drone":
         if retries is not None:
-            raise DocumentError(["--retries is for the gimbal: how often a drone is asked is the protocol's affair"])
+            raise DocumentError(["--retries is for the gimbal only: the drone's protocol sets its own"])
         return send_drone(words, options, i_understand)
     if i_understand:
         raise DocumentError(["--i-understand is for what makes a drone fly: teleop send drone ..."])
@@ -121,7 +121,7 @@ def send(
 def asked_for(words: Sequence[str]) -> Message:
     """The message that the words ask for, fit to be sent. Raises DocumentError."""
     if not words:
-        raise DocumentError(["say what to send; teleop send --help lists everything"])
+        raise DocumentError(["name a command; teleop send --help lists all"])
     try:
         message = find(words)
         message.check()

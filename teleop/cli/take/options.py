@@ -20,7 +20,7 @@ from teleop.recording.messages import Ending
 Json = Annotated[bool, Parameter(name="--json", help="Print JSON, for programs.", negative=(), show_default=False)]
 Overwrite = Annotated[
     bool,
-    Parameter(help="Replace a file that is there already.", negative=(), show_default=False),
+    Parameter(help="Replace an existing file.", negative=(), show_default=False),
 ]
 TakeFile = Annotated[Path, Parameter(help="A recorded run (.mcap).")]
 
@@ -42,9 +42,9 @@ def place(option: str, path: Path, overwrite: bool, original: Path) -> None:
     Raises OutputError where nothing can be.
     """
     if path.resolve() == original.resolve():
-        raise UsageError(f"{option} {path}: is the take itself; takes are never overwritten")
+        raise UsageError(f"{option} {path}: is the take itself; choose another file")
     if path.exists() and not (overwrite or is_stream(path)):
-        raise UsageError(f"{option} {path}: is there already; --overwrite replaces it")
+        raise UsageError(f"{option} {path}: already exists; give --overwrite to replace it")
     check_place(path)
 
 

@@ -8,24 +8,14 @@ that takes longer than 2 s. The file is a few bytes and is not synced: a crash o
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Mapping
 from pathlib import Path
 
-from teleop.core.errors import UsageError
+from teleop.config.folders import state_folder
 
 
-def default_file(environment: Mapping[str, str] = os.environ) -> Path:
+def default_file() -> Path:
     """Where it is kept. Raises UsageError where there is no home directory."""
-    state = environment.get("XDG_STATE_HOME", "")
-    if not os.path.isabs(state):
-        try:
-            state = str(Path.home() / ".local" / "state")
-        except RuntimeError:
-            raise UsageError(
-                "there is no home directory to note an enable of virtual RC in: set XDG_STATE_HOME"
-            ) from None
-    return Path(state) / "teleop" / "virtual-rc-enabled"
+    return state_folder("set XDG_STATE_HOME, to note when virtual RC was enabled") / "virtual-rc-enabled"
 
 
 class LastEnable:

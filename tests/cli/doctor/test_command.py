@@ -75,7 +75,7 @@ def test_a_keyboard_that_may_not_be_opened_is_no_pad_that_may(tmp_path: Path, mo
     monkeypatch.setattr(doctor_devices, "HIDRAW", tmp_path)
     forbid(monkeypatch, "/dev/hidraw1")
     [finding] = doctor_devices.hid()
-    assert (finding.state, finding.found) == (State.NOTE, "only keyboards and mice here, which nobody need open")
+    assert (finding.state, finding.found) == (State.NOTE, "only keyboards and mice here: they need no permission")
     assert "udev rule" in finding.todo
 
 

@@ -77,9 +77,9 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("arm", "drone.arm: it starts the motors; if that is what you want, say --i-understand"),
-        ("arm order=disarm", "drone.arm: it stops the motors; if that is what you want, say --i-understand"),
-        ("take off", "drone.task: the drone flies without an operator; if that is what you want, say --"),
+        ("arm", "drone.arm: it starts the motors; to send it all the same, give --i-understand"),
+        ("arm order=disarm", "drone.arm: it stops the motors; to send it all the same, give --i-understand"),
+        ("take off", "drone.task: the drone flies without an operator; to send it all the same, give --"),
         ("return home", "drone.task: the drone flies"),
         ("land", "drone.task: the drone flies"),
         (MOVE, "drone.move: the drone flies"),
@@ -89,8 +89,8 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
         ("sticks --i-understand", "drone.sticks is not sent by itself: sticks fly on for 1 s without an operator"),
         ("sticks throttle=1684 --i-understand", "drone.sticks is not sent by itself"),
         ("activate app_id=5", "drone activate takes no fields"),
-        ("activate", "the drone wants the app id that DJI gave you: in TELEOP_DJI_APP_ID, or app_id in "),
-        ("", "say what to send to the drone; teleop send drone --help lists everything"),
+        ("activate", "the drone needs the app id that DJI gave you: in TELEOP_DJI_APP_ID, or app_id in "),
+        ("", "name a command for the drone; teleop send drone --help lists all"),
         ("tkae off", "unknown command drone tkae off; did you mean drone take off?"),
         ("event event=control_lost", "unknown command drone event"),
         ("broadcast", "unknown command drone broadcast"),
@@ -290,4 +290,4 @@ def test_an_encrypted_rig_without_a_key_sends_nothing(tmp_path: Path, capsys: py
 
 def test_an_acknowledgement_of_nothing_known_is_a_refusal() -> None:
     record = {"message": "drone.task", "reply": True, "fields": {"value": "00"}}
-    assert refusal(drone.Task(TaskKind.LAND), record) == "an acknowledgement that nothing is known of"
+    assert refusal(drone.Task(TaskKind.LAND), record) == "an acknowledgement of unknown meaning"

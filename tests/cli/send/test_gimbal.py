@@ -154,7 +154,7 @@ def test_json_is_the_line_of_decode(capsys: pytest.CaptureFixture[str]) -> None:
 def test_speed_control_that_was_taken_over_is_said_to_be(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["send", "speed", "yaw=1", "roll=0", "pitch=0"]) == 0
     hint = capsys.readouterr().err
-    assert hint.startswith("speed control stays taken over; to give it back: teleop send gimbal speed")
+    assert hint.startswith("speed control stays taken over; to release it: teleop send gimbal speed")
     assert run(hint.split("teleop ")[1].split()) == 0
     assert capsys.readouterr().err == ""
 
@@ -270,7 +270,7 @@ def test_a_question_that_was_lost_is_asked_again_after_100_ms() -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ([], "say what to send; teleop send --help lists everything"),
+        ([], "name a command; teleop send --help lists all"),
         (["recentre"], "unknown command recentre; did you mean recenter?"),
         (["gimbal", "position", "yaw=400", "roll=0", "pitch=0"], "gimbal.position: yaw must be -180..180 deg, not 400"),
         (["focus", "set", "position=x"], "focus.set: position must be 0..4095, not 'x'"),

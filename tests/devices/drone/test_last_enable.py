@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import pytest
+
 from teleop.devices.drone.last_enable import LastEnable, default_file
 
 
@@ -29,6 +31,8 @@ def test_what_cannot_be_noted_is_said(tmp_path: Path) -> None:
     assert "wait before engaging" in trouble
 
 
-def test_it_is_kept_with_the_state_of_the_program(tmp_path: Path) -> None:
-    assert default_file({"XDG_STATE_HOME": str(tmp_path)}) == tmp_path / "teleop" / "virtual-rc-enabled"
-    assert default_file({"XDG_STATE_HOME": "relative"}) == Path.home() / ".local/state/teleop/virtual-rc-enabled"
+def test_it_is_kept_with_the_state_of_the_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    assert default_file() == tmp_path / "teleop" / "virtual-rc-enabled"
+    monkeypatch.setenv("XDG_STATE_HOME", "relative")
+    assert default_file() == Path.home() / ".local/state/teleop/virtual-rc-enabled"

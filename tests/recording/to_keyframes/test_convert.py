@@ -188,7 +188,7 @@ def test_the_command_writes_a_file_that_check_accepts_and_says_how_far_off_it_is
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        (["-o", "n.yaml"], "teleop: -o n.yaml: is there already; --overwrite replaces it\n"),
+        (["-o", "n.yaml"], "teleop: -o n.yaml: already exists; give --overwrite to replace it\n"),
         (["-o", "n.txt"], "teleop: -o n.txt: its ending must be .yaml or .yml\n"),
         (["-o", "m.yaml", "--tolerance", "0"], "teleop: --tolerance 0: must be more than 0 degrees\n"),
         (["-o", "m.yaml", "--speed", "fast"], "--speed fast: must be a percentage above 0, as in 50%\n"),

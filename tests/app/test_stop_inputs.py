@@ -11,7 +11,8 @@ import pytest
 from fake_hid import FakeBackend, FakeDevice, real
 from waiting import wait_until
 
-from teleop.cli import stop_inputs
+from teleop.app import stop_inputs
+from teleop.cli.screens.folded import warn
 from teleop.config.profile import Profile, load_profile
 from teleop.config.resources import folder
 from teleop.core.clock import SystemClock
@@ -34,7 +35,7 @@ def profile_with(tmp_path: Path, inputs: str) -> Profile:
 
 def opened(stack: ExitStack, profile: Profile, backend: FakeBackend, monkeypatch: pytest.MonkeyPatch) -> list:
     monkeypatch.setattr(stop_inputs, "Hidapi", lambda: backend)
-    return list(stop_inputs.open_stop_inputs(stack, profile, SystemClock()))
+    return list(stop_inputs.open_stop_inputs(stack, profile, SystemClock(), warn))
 
 
 @pytest.mark.parametrize("inputs", ["", "inputs: [{device: any}]\n", "inputs: [{pad: logitech-gamepad}]\n"])
@@ -72,7 +73,7 @@ def test_an_absent_one_is_a_warning_and_one_without_a_stop_is_not_opened(
     with ExitStack() as stack:
         (hand,) = opened(stack, profile_with(tmp_path, inputs), FakeBackend(), monkeypatch)
         assert hand.read(0.0).stop is None
-    assert capsys.readouterr().err == "teleop: warning: Left hand: not plugged in, so its STOP does not count\n"
+    assert capsys.readouterr().err == "teleop: warning: Left hand: not plugged in, so it cannot STOP the run\n"
 
 
 def test_without_inputs_and_without_a_joystick_nothing_is_opened_or_said(
@@ -92,8 +93,8 @@ def test_a_system_that_reads_no_devices_blocks_nothing(
 
     monkeypatch.setattr(stop_inputs, "Hidapi", refuse)
     with ExitStack() as stack:
-        assert stop_inputs.open_stop_inputs(stack, profile_with(tmp_path, ""), SystemClock()) == []
+        assert stop_inputs.open_stop_inputs(stack, profile_with(tmp_path, ""), SystemClock(), warn) == []
         assert capsys.readouterr().err == ""
         named = profile_with(tmp_path, "inputs: [{device: any}]\n")
-        assert stop_inputs.open_stop_inputs(stack, named, SystemClock()) == []
+        assert stop_inputs.open_stop_inputs(stack, named, SystemClock(), warn) == []
     assert "hidapi is not there, so no input can be read" in capsys.readouterr().err

@@ -16,12 +16,12 @@ from teleop.inputs.hid.reader import wanted
 
 
 def open_devices(
-    stack: ExitStack, profile: Profile, clock: Clock, keys: bool, nobody: str
+    stack: ExitStack, profile: Profile, clock: Clock, keys: bool, without: str
 ) -> tuple[Sequence[Input], str]:
     """The joysticks and dials of the profile, open until the stack is left, and what is to be said of them.
 
-    Without `keys` something else has to be there that could move anything: raises UsageError, saying `nobody`, when
-    nothing is, and DeviceError when no device can be read.
+    Without `keys` a device has to be there: raises UsageError, whose text is `without`, when none is, and DeviceError
+    when no device can be read.
     """
     try:
         backend = Hidapi()
@@ -30,7 +30,7 @@ def open_devices(
             raise
         return [], str(error)
     if not keys and not profile.inputs and not wanted(DeviceSection(), backend.enumerate(), None):
-        raise UsageError(nobody)
+        raise UsageError(without)
     shaping = profile.sticks
     opened = open_inputs(profile.inputs, clock.now, backend, dead_zone=shaping.dead_zone, expo=shaping.expo)
     return stack.enter_context(opened), ""

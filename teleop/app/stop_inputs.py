@@ -6,10 +6,9 @@ absent is a warning and no more; plugged in later, it counts from then on.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 
-from teleop.cli.screens.folded import complain
 from teleop.config.inputs_section import InputSection
 from teleop.config.profile import Profile
 from teleop.core.errors import DeviceError
@@ -23,10 +22,12 @@ from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
 from teleop.manual.stop_guard import Relay, Resumable, StopGuard
 
 
-def open_stop_inputs(stack: ExitStack, profile: Profile, clock: Clock) -> Sequence[HidInput]:
+def open_stop_inputs(
+    stack: ExitStack, profile: Profile, clock: Clock, warn: Callable[[str], object]
+) -> Sequence[HidInput]:
     """The profile's devices that have a STOP, open until the stack is left; without any, the joystick that is there.
 
-    A profile's device that is absent is named on stderr. Raises DocumentError for a pad that cannot be used.
+    `warn` gets a line for each device of the profile that is absent. Raises DocumentError for a pad that is unusable.
     """
     sections = [each for each in profile.inputs or [InputSection()] if may_stop(each)]
     if not sections:
@@ -36,25 +37,26 @@ def open_stop_inputs(stack: ExitStack, profile: Profile, clock: Clock) -> Sequen
         found = backend.enumerate()
     except (DeviceError, OSError) as error:
         if profile.inputs:
-            _warn(f"{error}, so no input can be read: their STOP does not count")
+            warn(f"{error}, so no input can be read and none can STOP the run")
         return []
     absent = [each for each in sections if not wanted(each.device, found, None)]
     if absent and not profile.inputs:
         return []
     for each in absent:
-        _warn(f"{each.name or each.device}: not plugged in, so its STOP does not count")
+        warn(f"{each.name or each.device}: not plugged in, so it cannot STOP the run")
     return stack.enter_context(open_inputs(sections, clock.now, backend, stop_only=True))
 
 
 def guarded(
-    stack: ExitStack, source: Resumable, profile: Profile, clock: Clock, fast: bool
+    stack: ExitStack,
+    source: Resumable,
+    profile: Profile,
+    clock: Clock,
+    fast: bool,
+    warn: Callable[[str], object],
 ) -> tuple[StopGuard, Sequence[Keyboard]]:
     """`source` under every STOP that there is, and the keys of the terminal, which are to be entered."""
     descriptor = None if fast else terminal()
     keys = [] if descriptor is None else [Keyboard(descriptor, PlayKeys(RUN_KEYS))]
-    devices = [] if fast else open_stop_inputs(stack, profile, clock)
+    devices = [] if fast else open_stop_inputs(stack, profile, clock, warn)
     return StopGuard(source, [Relay(each) for each in (*devices, *keys)]), keys
-
-
-def _warn(text: str) -> None:
-    complain(f"teleop: warning: {text}")

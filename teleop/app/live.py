@@ -1,0 +1,136 @@
+"""A rig in an operator's hands, or moved by recorded sticks.
+
+Recorded sticks alone need neither a joystick nor a terminal: then only the STOP of what is plugged in counts.
+Everything else goes through the `Operator`; what is recorded then drives the axes that no input does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+from teleop.app.absent_devices import open_present
+from teleop.app.drone_flight import Aboard, is_flown
+from teleop.app.operator_inputs import open_devices
+from teleop.app.run import RunReport, Screen, Signals, commands, run
+from teleop.app.stop_inputs import open_stop_inputs
+from teleop.config.presets import default_file, read_presets
+from teleop.config.profile import Profile
+from teleop.core.axes import Axis, Limits
+from teleop.core.interfaces import Clock, Observer, Sink
+from teleop.core.run_status import RunStatus
+from teleop.devices.camera_answers import CameraAnswers
+from teleop.devices.connection import Connection
+from teleop.devices.drone.state import DroneState
+from teleop.devices.rig import Rig, open_rig
+from teleop.inputs.keyboard import Keyboard
+from teleop.inputs.recorded_sticks import Sticks, SticksSource
+from teleop.inputs.stick_shaping import shape
+from teleop.manual.operator import Operator
+from teleop.manual.stop_guard import Relay, StopGuard
+from teleop.monitors.tracking_error import TrackingErrorMonitor
+from teleop.recording.writer import Recorder, recording
+
+NO_INPUT = "live: no joystick and no terminal: plug in a joystick, run it on a terminal, or give --sticks"
+
+
+@dataclass(frozen=True)
+class LiveParts:
+    """What the screen of a run by hand shows."""
+
+    limits: Mapping[Axis, Limits]
+    operator: Operator
+    connections: Mapping[str, Connection]
+    recorder: Recorder | None
+    drone: Callable[[], DroneState | None]
+
+
+MakeReplayScreen = Callable[[Mapping[Axis, Limits], Callable[[float], RunStatus], Recorder | None], Screen]
+
+
+@dataclass(frozen=True)
+class LiveRun:
+    """`recorded` sticks drive beside the inputs; `keyboard` is None without a terminal, `virtual` without real time."""
+
+    profile: Profile
+    title: str
+    clock: Clock
+    keyboard: Keyboard | None
+    recorded: Sticks | None = None
+    presets: Path | None = None
+    take: Path | None = None
+    virtual: bool = False
+
+    def by_hand(self, make_screen: Callable[[LiveParts], Screen], signals: Signals) -> RunReport:
+        """Until the operator ends it. Raises TeleopError for what keeps it from beginning."""
+        profile, keyboard = self.profile, self.keyboard
+        replay, aboard = None if self.recorded is None else self.replay(self.recorded), Aboard()
+        with ExitStack() as stack:
+            inputs, note = open_devices(stack, profile, self.clock, keyboard is not None, NO_INPUT)
+            rig, axes, left_out = self._opened(stack)
+            limits = {axis: profile.limits[axis] for axis in axes}
+            shelf = read_presets(self.presets or default_file(profile.name), limits, profile.name)
+            stack.callback(shelf.close)
+            own = [*inputs, *([] if keyboard is None else [keyboard])]
+            operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, replay)
+            for line in (*left_out, *([note] if note else [])):
+                operator.say(line)
+            recorder = self._recorder(stack, limits, lambda: aboard.status(operator.status), patient=False)
+            aboard.board(rig, axes, operator.say, by_script=False)
+            screen = make_screen(LiveParts(limits, operator, rig.connections, recorder, aboard.state))
+            observers, sinks = self._watched(rig, axes, operator, lenient=replay is None)
+            tracking, stopped = TrackingErrorMonitor(lambda: operator.begin), (lambda: operator.reason)
+            return run(rig, axes, [operator], tracking, screen, signals, recorder, observers, sinks, stopped)
+
+    def unattended(
+        self,
+        status: Callable[[SticksSource], Callable[[float], RunStatus]],
+        make_screen: MakeReplayScreen,
+        signals: Signals,
+        warn: Callable[[str], object],
+    ) -> RunReport:
+        """The recorded sticks alone, to their last row."""
+        assert self.recorded is not None
+        replay, axes, aboard = self.replay(self.recorded), list(self.recorded.axes), Aboard()
+        limits = {axis: self.profile.limits[axis] for axis in axes}
+        with ExitStack() as stack:
+            devices = [] if self.virtual else open_stop_inputs(stack, self.profile, self.clock, warn)
+            guard, shown = StopGuard(replay, [Relay(each) for each in devices]), status(replay)
+            recorder = self._recorder(stack, limits, aboard.status if is_flown(axes) else None, patient=self.virtual)
+            screen = make_screen(limits, lambda now: guard.over(shown(now)), recorder)
+            guard.say = screen.say
+            rig = stack.enter_context(open_rig(self.profile, self.clock))
+            aboard.board(rig, axes, screen.say, by_script=True)
+            tracking = TrackingErrorMonitor(lambda: replay.begin)
+            return run(*(rig, axes, [guard], tracking, screen, signals, recorder), stopped=lambda: guard.reason)
+
+    def replay(self, recorded: Sticks) -> SticksSource:
+        """Recorded sticks, with the dead zone and expo of the profile where it has them."""
+        shaping = self.profile.sticks
+
+        def velocity(axis: Axis, deflection: float) -> float:
+            share = shaping.speed * shape(deflection, shaping.dead_zone or 0.0, shaping.expo or 0.0)
+            return share * self.profile.axes[axis].velocity
+
+        return SticksSource(recorded, velocity)
+
+    def _opened(self, stack: ExitStack) -> tuple[Rig, Sequence[Axis], Sequence[str]]:
+        """The rig, its axes, and a line for each that is absent; recorded sticks need all of theirs."""
+        if self.recorded is None:
+            return open_present(stack, self.profile, self.clock)
+        return stack.enter_context(open_rig(self.profile, self.clock)), self.recorded.axes, ()
+
+    def _recorder(
+        self, stack: ExitStack, limits: Mapping[Axis, Limits], status: Callable[[], object] | None, patient: bool
+    ) -> Recorder | None:
+        context = recording(self.take, self.profile.name, self.title, limits, status, patient=patient, option="--take ")
+        return stack.enter_context(context)
+
+    def _watched(
+        self, rig: Rig, axes: Sequence[Axis], operator: Operator, lenient: bool
+    ) -> tuple[Sequence[Observer], Sequence[Sink]]:
+        observers, sinks = commands(rig, axes, operator.say, operator.confirmed)
+        camera = CameraAnswers(rig.camera, operator.say, operator.camera_answered, lenient=lenient)
+        return [*observers, camera, *([] if self.keyboard is None else [self.keyboard])], sinks

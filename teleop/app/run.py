@@ -1,0 +1,118 @@
+"""One run on an open rig: watched, recorded, ended by signals, and reported as a value."""
+
+from __future__ import annotations
+
+import gc
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Protocol, Self
+
+from teleop.core.axes import Axis
+from teleop.core.events import DeviceCommand
+from teleop.core.interfaces import Observer, Sink, Source
+from teleop.core.run_state import Result
+from teleop.devices.drone.state import DroneState
+from teleop.devices.gimbal.commands import CommandSink, Unheard
+from teleop.devices.link_notes import LinkNotes
+from teleop.devices.rig import Rig
+from teleop.monitors.tracking_error import TrackingErrorMonitor
+from teleop.recording.writer import Recorder
+
+SWITCH_INTERVAL = 0.0005  # s: how long the display's thread may hold up the control thread
+
+Signals = Callable[
+    [Callable[[str], object], Callable[[], object], Callable[[str], object]], AbstractContextManager[None]
+]
+"""Has signals call the first (interrupt, with a reason) and the second (release at once); the third gets lines."""
+
+
+class Screen(Observer, Protocol):
+    """Shows a run while it is entered; `say` adds a line."""
+
+    def say(self, text: str) -> None: ...
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+
+@dataclass(frozen=True)
+class RunReport:
+    """How a run ended. `tracking` has how well each axis followed; `links` counts by link; `take` what was recorded."""
+
+    result: Result
+    reasons: Sequence[str]
+    tracking: TrackingErrorMonitor
+    links: Mapping[str, Mapping[str, int]]
+    drone: DroneState | None = None
+    take: Recorder | None = None
+
+
+def run(
+    rig: Rig,
+    axes: Sequence[Axis],
+    sources: Sequence[Source],
+    tracking: TrackingErrorMonitor,
+    screen: Screen,
+    signals: Signals,
+    take: Recorder | None = None,
+    observers: Sequence[Observer] = (),
+    sinks: Sequence[Sink] = (),
+    stopped: Callable[[], str] = lambda: "",
+) -> RunReport:
+    """Run the sources on the rig until they end, a device fails or a signal comes.
+
+    `stopped` is asked at the end for a STOP that was not cleared, which then is among the reasons.
+    """
+    watching = [tracking, *observers, *([] if take is None else [take]), screen]
+    loop = rig.loop(axes, sources, watching, sinks)
+    with undisturbed(), signals(loop.interrupt, loop.release_at_once, screen.say), screen:
+        ended = loop.run()
+    ended.reasons += [reason] if (reason := stopped()) else []
+    links = {name: dict(connection.counts) for name, connection in rig.connections.items()}
+    if take is not None:
+        take.finish(ended.result, ended.reasons, links)
+    drone = rig.drone(axes)
+    state = None if drone is None else drone.state(rig.clock.now())
+    return RunReport(ended.result, ended.reasons, tracking, links, state, take)
+
+
+def commands(
+    rig: Rig,
+    axes: Sequence[Axis],
+    say: Callable[[str], object],
+    done: Callable[[DeviceCommand], object] = lambda _command: None,
+) -> tuple[list[Observer], list[Sink]]:
+    """The observers of the links, and the sink of a gimbal's own commands where the rig has one; `say` is for both.
+
+    `done` is called with each command that the gimbal has confirmed.
+    """
+    links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
+    sinks = [CommandSink(rig.connections[link], say, done) for link in links[:1]]
+    unheard = Unheard(gimbal=bool(sinks), drone=rig.drone(axes) is not None, say=say)
+    return [unheard, LinkNotes(rig.connections.values(), say)], [*sinks]
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Threads give way to the control thread soon, and the collector passes over what is loaded by now.
+
+    Afterwards the process is as it was found, whatever was raised.
+    """
+    interval = sys.getswitchinterval()
+    gc.collect()
+    thaw = gc.get_freeze_count() == 0  # what somebody else has frozen stays so, and there is no thawing a part
+    if thaw:
+        gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
+    sys.setswitchinterval(SWITCH_INTERVAL)
+    try:
+        yield
+    finally:
+        sys.setswitchinterval(interval)
+        if thaw:
+            gc.unfreeze()

@@ -1,0 +1,127 @@
+"""A planned sequence on a rig: under the keys and inputs that there are, observed, recorded and reported."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from teleop.app.drone_flight import Aboard, is_flown
+from teleop.app.operator_inputs import open_devices
+from teleop.app.run import RunReport, Screen, Signals, commands, run
+from teleop.app.stop_inputs import open_stop_inputs
+from teleop.app.trim_writer import TrimWriter
+from teleop.config.profile import Profile
+from teleop.core.axes import Axis, Limits
+from teleop.core.interfaces import Clock
+from teleop.core.run_status import RunStatus
+from teleop.devices.rig import open_rig
+from teleop.inputs.keyboard import Keyboard
+from teleop.manual.live_offset import LiveOffset
+from teleop.manual.stop_guard import Relay, StopGuard, Together
+from teleop.monitors.repeatability import Repeatability
+from teleop.monitors.tracking_error import TrackingErrorMonitor
+from teleop.planner.offset_limits import trim_limits
+from teleop.recording.writer import Recorder, recording
+from teleop.sequence.compile import CompiledSequence
+from teleop.sequence.playback_controls import PlaybackControls
+from teleop.sequence.progress import run_status
+from teleop.sequence.source import SequenceSource
+from teleop.sequence.trim_export import TrimmedFile
+
+NO_INPUT = "play --trim: no joystick and no terminal: plug in a joystick, or run it on a terminal"
+
+MakeScreen = Callable[[Mapping[Axis, Limits], Callable[[float], RunStatus], Recorder | None], Screen]
+"""Makes the screen of a run from its limits, its status at a time of the loop's, and what records it."""
+
+
+@dataclass(frozen=True)
+class SequenceReport:
+    """How the run went; the trim that an operator gave it, and how its passes compare, where there were any."""
+
+    run: RunReport
+    trim: TrimWriter | None = None
+    repeatability: Repeatability | None = None
+
+
+@dataclass(frozen=True)
+class SequenceRun:
+    """`share` is that of the rig's limits that the source keeps to: less than 1 leaves the rest to a trim.
+
+    `notify` gets a line for what the gimbal answers and what the links report, `warn` for an input
+    that is absent.
+    """
+
+    profile: Profile
+    performance: CompiledSequence
+    source: SequenceSource
+    clock: Clock
+    keys: Keyboard | None
+    notify: Callable[[str], object]
+    warn: Callable[[str], object]
+    share: float = 1.0
+    trimmed: TrimmedFile | None = None
+    take: Path | None = None
+    patient: bool = False
+
+    @property
+    def axes(self) -> list[Axis]:
+        return list(self.performance.move.tracks)
+
+    @property
+    def limits(self) -> dict[Axis, Limits]:
+        return {axis: self.profile.limits[axis] for axis in self.axes}
+
+    def perform(self, make_screen: MakeScreen, signals: Signals) -> SequenceReport:
+        """Play it to its end. Raises TeleopError for what keeps it from beginning."""
+        source, axes, aboard = self.source, self.axes, Aboard()
+        with ExitStack() as stack:
+            controls, guard, trim = self._controls(stack)
+            recorder = stack.enter_context(self._recording(aboard))
+            if source.cycle.trigger is not None:
+                source.cycle.trigger.open(stack)
+            rig = stack.enter_context(open_rig(self.profile, self.clock))
+            repeatability = Repeatability(source.place) if source.cycle.compared else None
+            observers, sinks = commands(rig, axes, self.notify)
+            keys = None if self.keys is None else stack.enter_context(self.keys)
+            observers += [each for each in (keys, trim, repeatability) if each is not None]
+            status_of = partial(run_status, source) if controls is None else controls.status
+            shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
+            screen = make_screen(self.limits, shown, recorder)
+            aboard.board(rig, axes, screen.say, by_script=True)
+            if guard:
+                guard.say = screen.say
+            tracking, stopped = TrackingErrorMonitor(lambda: source.begin), (lambda: guard.reason if guard else "")
+            sources = [guard or source]
+            report = run(rig, axes, sources, tracking, screen, signals, recorder, observers, sinks, stopped)
+            return SequenceReport(report, trim, repeatability)
+
+    def _recording(self, aboard: Aboard):
+        status = aboard.status if is_flown(self.axes) else None
+        title, options = self.performance.title, {"patient": self.patient, "option": "--take "}
+        return recording(self.take, self.profile.name, title, self.limits, status, **options)
+
+    def _controls(self, stack: ExitStack) -> tuple[PlaybackControls | None, StopGuard | None, TrimWriter | None]:
+        """What its inputs do to it, if there are any, and their STOP; with a trim also what writes that."""
+        if self.share < 1:
+            return self._trim_controls(stack)
+        opened = [] if self.patient else open_stop_inputs(stack, self.profile, self.clock, self.warn)
+        relays = [Relay(each) for each in (*opened, *([] if self.keys is None else [self.keys]))]
+        if not relays:
+            return None, None, None
+        controls = PlaybackControls(self.source, Together(relays))
+        return controls, StopGuard(controls, relays), None
+
+    def _trim_controls(self, stack: ExitStack) -> tuple[PlaybackControls, StopGuard, TrimWriter]:
+        devices, note = open_devices(stack, self.profile, self.clock, self.keys is not None, NO_INPUT)
+        keys = None if self.keys is None else Relay(self.keys)
+        relays = [*map(Relay, devices), *([] if keys is None else [keys])]
+        limits = trim_limits(self.performance.move, self.limits, self.share)
+        trimming = LiveOffset(limits, relays, self.profile.sticks)
+        if note:
+            trimming.say(note)
+        trim = TrimWriter(trimming, self.trimmed)
+        controls = PlaybackControls(self.source, keys, trimming, trim.keep)
+        return controls, StopGuard(controls, relays), trim
