@@ -86,7 +86,7 @@ def test_a_session_from_the_shell(capsys: pytest.CaptureFixture[str], monkeypatc
         ("obtain control", "drone.control: it takes the drone from its pilot"),
         ("virtual rc off", "drone.virtual_rc: it takes the drone from whatever flies it by virtual RC"),
         ("virtual_rc on=true --i-understand", "drone.virtual_rc is not sent by itself: virtual RC without a stream"),
-        ("sticks --i-understand", "drone.sticks is not sent by itself: sticks that nobody holds fly on"),
+        ("sticks --i-understand", "drone.sticks is not sent by itself: sticks fly on for 1 s without an operator"),
         ("sticks throttle=1684 --i-understand", "drone.sticks is not sent by itself"),
         ("activate app_id=5", "drone activate takes no fields"),
         ("activate", "the drone needs the app id that DJI gave you: in TELEOP_DJI_APP_ID, or app_id in "),
