@@ -10,8 +10,10 @@ import pytest
 from teleop.app.calibration_move import REST, SHARE, CalibrationMove
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.errors import DeviceError, UsageError
+from teleop.core.interfaces import Feedback
 
 LIMITS = Limits(-90, 90, 60, 120, 600)
+AT_REST = Feedback({Axis.PAN: State(0)}, {})
 
 
 def started(at=0.0, limits=LIMITS):
@@ -22,7 +24,7 @@ def started(at=0.0, limits=LIMITS):
 
 def states(move):
     times = [10 + 0.01 * tick for tick in range(round(100 * (2 * REST + move.duration)))]
-    return [move.read(time)[0][Axis.PAN] for time in times]
+    return [move.read(time, AT_REST)[0][Axis.PAN] for time in times]
 
 
 def test_it_swings_to_one_side_and_back_to_rest():

@@ -8,7 +8,10 @@ from teleop.app.program import BusyError, EventJob, JogJob, MoveJob, ProgramSour
 from teleop.core.axes import Axis, Reading, State
 from teleop.core.errors import DeviceError, TeleopError
 from teleop.core.events import Action, Tick
+from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import PositionTarget, Stop, VelocityTarget
+
+AT_REST = Feedback({Axis.PAN: State(0)}, {})
 
 
 def tick(time, state, reading=None):
@@ -26,28 +29,28 @@ def program():
 
 def test_a_move_asks_for_its_target_and_ends_when_the_readings_are_there(program):
     program.submit(MoveJob({Axis.PAN: 10}, None))
-    demand, _ = program.read(1.0)
+    demand, _ = program.read(1.0, AT_REST)
     assert demand == {Axis.PAN: PositionTarget(10, None)}
-    program.write(tick(1.0, State(10), reading=7))
+    program.observe(tick(1.0, State(10), reading=7))
     assert not program.finished
-    program.write(tick(1.1, State(10), reading=9.9))
+    program.observe(tick(1.1, State(10), reading=9.9))
     assert program.finished
     program.result()
 
 
 def test_a_move_that_does_not_arrive_is_a_device_error(program):
     program.submit(MoveJob({Axis.PAN: 10}, None))
-    program.read(1.0)
+    program.read(1.0, AT_REST)
     for time in (1.0, 2.0, 3.5):
-        program.write(tick(time, State(10), reading=5))
+        program.observe(tick(time, State(10), reading=5))
     with pytest.raises(DeviceError, match="pan rests at 5, not 10"):
         program.result()
 
 
 def test_a_jog_ends_with_a_stop(program):
     program.submit(JogJob({Axis.PAN: 4}, 1))
-    assert program.read(0.0)[0] == {Axis.PAN: VelocityTarget(4)}
-    assert program.read(1.0)[0] == {Axis.PAN: Stop()}
+    assert program.read(0.0, AT_REST)[0] == {Axis.PAN: VelocityTarget(4)}
+    assert program.read(1.0, AT_REST)[0] == {Axis.PAN: Stop()}
 
 
 def test_one_job_at_a_time(program):
@@ -58,12 +61,12 @@ def test_one_job_at_a_time(program):
 
 def test_a_stop_ends_the_job_once_every_axis_rests_and_latches(program):
     program.submit(JogJob({Axis.PAN: 4}, 1))
-    program.read(0.0)
+    program.read(0.0, AT_REST)
     program.stop()
-    assert program.read(0.1)[0] == {Axis.PAN: Stop()}
-    program.write(tick(0.1, State(0, 4)))
+    assert program.read(0.1, AT_REST)[0] == {Axis.PAN: Stop()}
+    program.observe(tick(0.1, State(0, 4)))
     assert not program.finished
-    program.write(tick(0.2, State(0.4)))
+    program.observe(tick(0.2, State(0.4)))
     with pytest.raises(StoppedError):
         program.result()
     with pytest.raises(StoppedError, match=r"clear\(\)"):
@@ -76,13 +79,13 @@ def test_an_event_passes_a_stop_and_waits_for_its_answer(program):
     waiting = [True]
     program.stop()
     program.submit(EventJob(Action.STOP, lambda: waiting[0]))
-    demand, events = program.read(0.0)
+    demand, events = program.read(0.0, AT_REST)
     assert (demand, list(events)) == ({Axis.PAN: Stop()}, [Action.STOP])
-    program.write(tick(0.0, State(0)))
+    program.observe(tick(0.0, State(0)))
     assert not program.finished
     waiting.clear()
     waiting.append(False)
-    program.write(tick(0.1, State(0)))
+    program.observe(tick(0.1, State(0)))
     assert program.finished
 
 

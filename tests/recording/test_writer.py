@@ -81,16 +81,17 @@ def test_a_run_that_fails_later_leaves_its_reason_in_the_file(tmp_path: Path) ->
     assert read_take(path).ended == "failed: the cable fell out"
 
 
+@pytest.mark.parametrize("option", ["", "--take "], ids=["a program", "the command line"])
 @pytest.mark.parametrize(
     ("name", "text"),
     [
         ("t.bag", "its ending must be .mcap"),
-        ("there.mcap", "is there already; takes are never overwritten"),
+        ("there.mcap", "already exists; choose another name, a take is never overwritten"),
         ("no/folder/t.mcap", "cannot be written: No such file or directory"),
     ],
 )
-def test_where_no_take_can_be_is_refused_with_its_path(tmp_path: Path, name: str, text: str) -> None:
+def test_where_no_take_can_be_is_refused_with_its_path(tmp_path: Path, name: str, text: str, option: str) -> None:
     (tmp_path / "there.mcap").touch()
-    with pytest.raises(UsageError) as refusal, recording(tmp_path / name, "Bench", "t", LIMITS):
+    with pytest.raises(UsageError) as refusal, recording(tmp_path / name, "Bench", "t", LIMITS, option=option):
         pass
-    assert str(refusal.value) == f"--take {tmp_path / name}: {text}"
+    assert str(refusal.value) == f"{option}{tmp_path / name}: {text}"
