@@ -106,12 +106,12 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
         (["play", "reveal", "--speed", "fast"], 2, "--speed fast: must be a percentage above 0"),
         (["play", "revel"], 2, "did you mean reveal?"),
         (["play", "reveal", "--start-at", "key9"], 2, "--start-at key9: there is key1..key5"),
-        (["play", "reveal", "--start-at", "20s"], 2, "--start-at 20s: the move is over at 15 s"),
+        (["play", "reveal", "--start-at", "20s"], 2, "--start-at 20s: the move ends at 15 s"),
         (["play", "reveal", "--start-at", "96f"], 2, "--start-at 96f: is 96f, in frames, which needs fps"),
         (["play", "reveal", "--trigger", "now"], 2, "--trigger now: must be key, osc:9000/go, mtc"),
         (["play", "reveal", "--trigger", "key"], 2, "--trigger key: there is no terminal"),
         (["play", "reveal", "--trigger", "time", "18:30", "--fast"], 2, "needs real time; leave out --fast"),
-        (["play", "reveal", "--trim", "--fast"], 2, "--trim: a hand keeps its own time"),
+        (["play", "reveal", "--trim", "--fast"], 2, "--trim: an operator works in real time"),
         (["play", "reveal", "--trim-out", "x.yaml"], 2, "--trim-out: needs --trim"),
         (["play", "reveal", "--trim", "--trim-share", "100%"], 2, "must be a percentage between 0 and 100"),
         (["play", "reveal", "--preroll", "soon"], 2, "--preroll soon: must be a time"),
@@ -150,7 +150,7 @@ def test_a_bad_file_says_everything_at_once_and_a_hard_move_is_another_failure(t
     for command in ("check", "play"):
         hard = teleop(command, "hard.yaml", cwd=tmp_path)
         assert hard.returncode == 1
-        assert hard.stderr.startswith("hard.yaml:3:5: pan, key 1 to key 2: ")
+        assert hard.stderr.startswith("hard.yaml:3:5: pan needs ")
     assert json.loads(teleop("check", "hard.yaml", "--json", cwd=tmp_path).stdout)["ok"] is False
 
 
