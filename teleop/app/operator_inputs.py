@@ -18,7 +18,7 @@ from teleop.inputs.hid.reader import wanted
 def open_devices(
     stack: ExitStack, profile: Profile, clock: Clock, keys: bool, without: str
 ) -> tuple[Sequence[Input], str]:
-    """The joysticks and dials of the profile, open until the stack is left, and what is to be said of them.
+    """The joysticks and dials of the profile, open until the stack is left, and a line about what is absent.
 
     Without `keys` a device has to be there: raises UsageError, whose text is `without`, when none is, and DeviceError
     when no device can be read.
