@@ -1,11 +1,22 @@
 """The guard stop against a simulation of its own phases and against brute force."""
 
+import math
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teleop.core.axes import State
-from teleop.core.guard_stop import brake_reach, brake_state, inevitable_velocity, stop_phases, stop_reach, stop_state
+from teleop.core.axes import Axis, Limits, State
+from teleop.core.guard_stop import (
+    brake_reach,
+    brake_state,
+    braked,
+    inevitable_velocity,
+    longest_stop,
+    stop_phases,
+    stop_reach,
+    stop_state,
+)
 
 A, J = 120.0, 600.0
 velocities = st.floats(-60, 60)
@@ -86,3 +97,19 @@ def test_no_braking_goes_less_far_than_the_hardest(velocity, acceleration):
         assert max(state.position for state in on_the_way) == pytest.approx(reach, abs=(60 + A) / 400)
         assert max(state.position for state in on_the_way) <= reach + 1e-9
         assert min(state.acceleration for state in on_the_way) >= -A - 1e-9
+
+
+def test_every_axis_brakes_by_its_own_limits_and_the_slowest_sets_the_time():
+    limits = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-50, 50, 60, 30, 150)}
+    motion = {Axis.PAN: State(0.0, 30.0), Axis.TILT: State(0.0, 30.0)}
+    longest = longest_stop(motion, limits)
+    assert longest == pytest.approx(sum(seconds for seconds, _ in stop_phases(30.0, 0.0, 30, 150)))
+    before = braked(motion, limits, 0.9 * longest)
+    assert before[Axis.PAN].velocity == 0
+    assert before[Axis.TILT].velocity > 0
+    assert all(state[1:] == (0, 0) for state in braked(motion, limits, longest + 1e-6).values())
+
+
+def test_an_axis_in_a_state_without_numbers_does_not_count_for_the_time():
+    limits = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-50, 50, 60, 30, 150)}
+    assert longest_stop({Axis.PAN: State(0.0, 0.0), Axis.TILT: State(math.nan, math.nan)}, limits) == 0.0
