@@ -40,7 +40,7 @@ def test_a_call_that_returns_is_passed_through():
         (DeviceError("no reply"), Result.FAILED, "no reply"),
         (ValueError("odd"), Result.FAILED, "ValueError: odd"),
         (SystemExit(3), Result.FAILED, "SystemExit: 3"),
-        (WordlessError(), Result.FAILED, "Wordless"),
+        (WordlessError(), Result.FAILED, "WordlessError"),
         (Interrupted("stopped by keys"), Result.INTERRUPTED, "stopped by keys"),
     ],
 )
