@@ -69,6 +69,7 @@ class ControlLoop:
         self._clock, self._planner, self._limits = clock, planner, limits
         self._sources, self._sinks, self._reporters = sources, sinks, reporters
         self._observers, self._timing = observers, timing
+        self._rate = timing.rate  # kept: it is asked for several times a tick
         self._origin = clock.now()
         self._ticks = 0
         self._resting = True
@@ -141,11 +142,11 @@ class ControlLoop:
         running = self.supervisor.state is RunState.RUNNING
         if self._resting and running:
             wake = min(self._wake, self._time(self._ticks) + self._timing.keep_alive)
-            due = max(due, math.ceil((wake - self._origin) * self._timing.rate - ON_GRID))
+            due = max(due, math.ceil((wake - self._origin) * self._rate - ON_GRID))
         early = self._time(due) - LEAD
         self._clock.sleep_until(early)
         late = self._clock.now() - early
-        elapsed = due - self._ticks + max(0, math.floor(late * self._timing.rate + ON_GRID))
+        elapsed = due - self._ticks + max(0, math.floor(late * self._rate + ON_GRID))
         self._ticks += elapsed
         if late > STALL and self.supervisor.state in (RunState.RUNNING, RunState.STOPPING):
             self._calls.fault(StallError(f"the computer stalled for {late:.2f} s"))
@@ -155,7 +156,7 @@ class ControlLoop:
         return self._time(self._ticks), 1 if self._resting else elapsed
 
     def _time(self, ticks: int) -> float:
-        return self._origin + ticks / self._timing.rate
+        return self._origin + ticks / self._rate
 
     def _wait(self, now: float, _steps: int) -> None:
         self._report(now)
