@@ -53,7 +53,7 @@ def test_recorded_sticks_move_the_rig_to_their_last_row(tmp_path: Path):
 
 
 def test_the_profile_s_share_of_speed_scales_recorded_sticks():
-    velocity = load_profile("sim").axes["pan"].velocity
+    velocity = load_profile("sim").axes[Axis.PAN].velocity
     for share in (0.2, 0.8):
         run = live(speed=share)
         source = run.replay(STICKS)

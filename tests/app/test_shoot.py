@@ -13,7 +13,7 @@ from teleop.core.clock import VirtualClock
 from teleop.core.errors import TeleopError, UsageError
 from teleop.core.run_state import Result
 from teleop.recording.reader import read_take
-from teleop.timelapse.journal import Frame
+from teleop.timelapse.journal import FrameState
 
 
 @pytest.fixture
@@ -44,8 +44,8 @@ def test_every_frame_is_shot_and_journaled_beside_the_command(stage: Stage, tmp_
 
 def test_the_journal_of_a_shoot_that_was_cut_off_is_kept_until_a_user_decides(stage: Stage):
     with stage.journal() as journal:
-        journal.note(0, Frame.DONE)
-    with pytest.raises(UsageError, match=r"left at frame 1 of 3: go on with --resume"):
+        journal.note(0, FrameState.DONE)
+    with pytest.raises(UsageError, match=r"stopped at frame 1 of 3: continue with --resume"):
         shoot(stage, SilentScreen(), [])
     assert stage.shots == []
     assert shoot(stage, SilentScreen(), [], resume=True).ended.result is Result.DONE

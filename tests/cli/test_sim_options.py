@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
-from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, DroneSim, GimbalSim, _signs
+from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, GimbalSim, _signs
 from teleop.core.errors import UsageError
 from teleop.sim.drone.device import SimulatedDrone
 from teleop.sim.gimbal.device import SimulatedGimbal
@@ -37,8 +39,8 @@ def test_a_gimbal_that_cannot_be_is_refused_by_the_option_s_name(options: dict, 
 @pytest.mark.parametrize("seconds", [-0.1, 60.0])
 def test_a_time_of_the_drone_is_0_to_60_s(name: str, seconds: float):
     with pytest.raises(UsageError, match=f"--{name.replace('_', '-')} must be"):
-        DroneSim(**{name: seconds}).made(0.0)
-    DroneSim(**{name: 59.0}).made(0.0)
+        replace(DRONE_DEFAULTS, **{name: seconds}).made(0.0)
+    replace(DRONE_DEFAULTS, **{name: 59.0}).made(0.0)
 
 
 @pytest.mark.parametrize(

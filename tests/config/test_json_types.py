@@ -11,7 +11,7 @@ from pydantic import TypeAdapter
 from teleop.config.json_types import Ease, Interval, Overlap, Percentage, Settle, Time
 
 
-def accepts(kind: Any, value: object) -> bool:
+def accepts(kind: Any, value: Any) -> bool:
     return Draft202012Validator(TypeAdapter(kind).json_schema()).is_valid(value)
 
 

@@ -1,1 +1,1 @@
-"""What a run shows on the terminal."""
+"""What the commands show on the terminal: views of runs, tables, folded lines."""

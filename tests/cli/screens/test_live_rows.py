@@ -17,11 +17,11 @@ REST = {Axis.PAN: State(0.0)}
 
 
 def test_a_stop_comes_before_manual_control_and_that_before_a_recall():
-    status = replace(STATUS, stopped=True, hands_on=False, recall="preset 1", recall_end=9.0)
+    status = replace(STATUS, stopped=True, manual_control=False, recall="preset 1", recall_end=9.0)
     assert "STOP" in banner(status, REST, 5.0, 60).plain
     status = replace(status, stopped=False)
     assert "MANUAL CONTROL OFF" in banner(status, REST, 5.0, 60).plain
-    status = replace(status, hands_on=True)
+    status = replace(status, manual_control=True)
     assert "preset 1 in 4.0 s" in banner(status, REST, 5.0, 60).plain
     assert "preset 1 in 0.0 s" in banner(status, REST, 9.5, 60).plain
     assert not banner(replace(status, recall="", stopped=False), REST, 5.0, 60).plain
@@ -57,7 +57,7 @@ def test_the_rate_of_a_link_is_that_of_the_last_whole_second():
     ],
 )
 def test_an_input_shows_why_it_moves_nothing_before_what_it_moves(hand: InputStatus, shown: str):
-    rows = [row.plain for row in state_rows(replace(STATUS, hands=[hand]), [])]
+    rows = [row.plain for row in state_rows(replace(STATUS, inputs=[hand]), [])]
     assert next(row for row in rows if "inputs" in row).endswith(shown)
 
 
