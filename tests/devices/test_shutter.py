@@ -68,6 +68,10 @@ def test_a_press_without_success_is_reported_and_never_repeated(code: int | None
     assert bench.results == [ShutterResult(7, code)]
 
 
+def test_a_lost_answer_to_focusing_repeats_nothing() -> None:
+    assert Bench(None).shoot(ShutterStep.FOCUS) == [C.CENTER_FOCUS]
+
+
 def test_letting_go_is_repeated_three_times_at_most() -> None:
     bench = Bench(None)
     assert bench.shoot(ShutterStep.RELEASE) == [C.STOP_SHUTTER] * 3

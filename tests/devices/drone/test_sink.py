@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from fake_drone_link import FakeTelemetry
@@ -12,6 +12,7 @@ from teleop.core.axes import STICKS, State
 from teleop.core.errors import DeviceError, LinkError
 from teleop.core.events import DeviceCommand, Tick
 from teleop.core.setpoints import Stop, VelocityTarget
+from teleop.devices.drone.control_mode import ControlMode
 from teleop.devices.drone.sink import DroneSink
 from teleop.dji.drone.broadcast_parts import Rc
 from teleop.dji.drone.enums import FlightStatus, RcGear, RcMode
@@ -79,7 +80,7 @@ class Bench:
         self.seen = FakeTelemetry(
             status=FlightStatus.STANDBY, battery=80, rc=Rc(0, 0, 0, 0, RcMode.F, RcGear.DOWN), control=None
         )
-        self.sink = DroneSink(self.mode, self.seen.real, 0.0, 20)
+        self.sink = DroneSink(cast(ControlMode, self.mode), self.seen.real, 0.0, 20)
         self.sink.by_script = by_script
         self.messages: list[str] = []
         self.sink.say = self.messages.append

@@ -7,13 +7,14 @@ from typing import Any, cast
 import pytest
 
 from teleop.core.axes import STICKS
+from teleop.devices.drone.control_mode import Deflections
 from teleop.devices.drone.tasks import TaskWatch, take_off_refusal
 from teleop.devices.drone.telemetry import Telemetry
 from teleop.dji.drone.broadcast_parts import Velocity
 from teleop.dji.drone.enums import FlightStatus, TaskCode, TaskKind
 
-CENTERED = dict.fromkeys(STICKS, 0.0)
-PUSHED = CENTERED | {STICKS[0]: 0.5}
+CENTERED: Deflections = dict.fromkeys(STICKS, 0.0)
+PUSHED: Deflections = {**CENTERED, STICKS[0]: 0.5}
 
 
 class Bench:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
+from typing import TypeVar
 
 import pytest
 
@@ -11,8 +12,10 @@ from teleop.dji.drone import broadcast_parts as parts
 from teleop.dji.drone.enums import ControlDevice, CurrentMode, RcGear, RcMode
 from teleop.dji.message import FieldError, Message
 
+Kind = TypeVar("Kind", bound=Message)
 
-def decoded(kind: type[Message], value: bytes) -> Message:
+
+def decoded(kind: type[Kind], value: bytes) -> Kind:
     message = kind.decode(value)
     assert isinstance(message, kind)
     assert message.encode() == value

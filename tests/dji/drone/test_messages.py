@@ -37,9 +37,9 @@ def test_a_code_of_control_has_two_bytes(value: str) -> None:
 
 
 def test_arming_may_be_answered_by_one_byte() -> None:
-    assert drone.ArmAck.decode(b"\3\0").code == ArmCode.IN_THE_AIR
+    assert drone.ArmAck.decode(b"\3\0") == drone.ArmAck(ArmCode.IN_THE_AIR)
     assert isinstance(drone.ArmAck.decode(b"\3"), Opaque)
-    assert drone.ShortArmAck.decode(b"\3").code == ShortArmCode.IN_THE_AIR
+    assert drone.ShortArmAck.decode(b"\3") == drone.ShortArmAck(ShortArmCode.IN_THE_AIR)
 
 
 def test_the_gimbal_turns_at_the_named_speeds_and_not_about_the_other_axes() -> None:

@@ -98,6 +98,16 @@ def test_control_is_given_in_f_mode_only() -> None:
     assert not bench.autopilot.obtained
 
 
+def test_an_order_that_was_refused_begins_anew() -> None:
+    bench = Bench()
+    obtain = drone.Control(ControlOrder.OBTAIN)
+    codes = []
+    for switch in (Switch.F, Switch.P, Switch.F, Switch.F):
+        bench.autopilot.turn_switch(switch)
+        codes.append(bench.code(obtain))
+    assert codes == [3, 0, 3, 2]
+
+
 def test_arming_needs_control_and_motors_are_not_stopped_in_the_air() -> None:
     bench = Bench()
     arm, disarm = drone.Arm(ArmOrder.ARM), drone.Arm(ArmOrder.DISARM)

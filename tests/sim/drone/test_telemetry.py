@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
+from typing import Any
 
 import pytest
 
@@ -18,6 +20,11 @@ def airborne(yaw: float = 0.0) -> Autopilot:
     autopilot = Autopilot(0.0, yaw)
     autopilot.flight.hover(10.0)
     return autopilot
+
+
+def said_by(sender: TelemetrySender, autopilot: Autopilot, parts: Collection[str]) -> Any:
+    """These parts of the broadcast."""
+    return sender.say(autopilot, Payload(), parts)
 
 
 def times(sender: TelemetrySender, part: str, now: float) -> list[float]:
@@ -71,7 +78,7 @@ def test_vertical_velocity_is_up_and_height_is_above_the_ground() -> None:
     autopilot = airborne()
     autopilot.flight.climb(2.0)
     autopilot.pass_to(10.0)
-    said = TelemetrySender(False, 4).say(autopilot, Payload(), ["velocity", "position", "battery"])
+    said = said_by(TelemetrySender(False, 4), autopilot, ["velocity", "position", "battery"])
     assert said.velocity.z == pytest.approx(2.0)
     assert said.position.height == pytest.approx(autopilot.pose.height)
     assert said.position.height > 20
@@ -82,10 +89,10 @@ def test_vertical_velocity_is_up_and_height_is_above_the_ground() -> None:
 def test_a_metre_north_is_so_many_radians_of_latitude() -> None:
     autopilot = airborne()
     sender = TelemetrySender(False, 5)
-    before = sender.say(autopilot, Payload(), ["position"]).position
+    before = said_by(sender, autopilot, ["position"]).position
     autopilot.flight.fly(10 + 10j, to_north=True)
     autopilot.pass_to(10.0)
-    after = sender.say(autopilot, Payload(), ["position"]).position
+    after = said_by(sender, autopilot, ["position"]).position
     earth = 40_007_863 / math.tau  # m: a meridian
     assert (after.latitude - before.latitude) * earth == pytest.approx(autopilot.pose.north, rel=0.01)
     east = (after.longitude - before.longitude) * earth * math.cos(before.latitude)
@@ -112,7 +119,7 @@ def test_the_rc_is_the_real_one_unless_it_mirrors_the_virtual_one(mirrors: bool,
     autopilot = airborne()
     autopilot.enable_virtual(back_to_rc=True)
     autopilot.virtual_sticks(Controls(roll=0.5, switch=Switch.F))
-    said = TelemetrySender(mirrors, 5).say(autopilot, Payload(), ["rc", "control"])
+    said = said_by(TelemetrySender(mirrors, 5), autopilot, ["rc", "control"])
     assert (said.rc.roll, said.rc.mode, said.rc.gear) == (roll, RcMode.F, RcGear.DOWN)
     assert (said.control.virtual_rc, said.control.device) == (True, ControlDevice.REMOTE_CONTROLLER)
 
@@ -120,5 +127,5 @@ def test_the_rc_is_the_real_one_unless_it_mirrors_the_virtual_one(mirrors: bool,
 def test_the_control_part_names_the_onboard_computer_while_that_flies() -> None:
     autopilot = airborne()
     autopilot.obtain()
-    said = TelemetrySender(False, 5).say(autopilot, Payload(), ["control"])
+    said = said_by(TelemetrySender(False, 5), autopilot, ["control"])
     assert (said.control.device, said.control.virtual_rc) == (ControlDevice.ONBOARD_DEVICE, False)
