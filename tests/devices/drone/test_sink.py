@@ -93,7 +93,7 @@ class Bench:
             self.now = round(self.now + 0.01, 6)
             self.seen.since = self.now
             motion = {axis: State(position, 0.0, 0.0) for axis, position in self.motion.items()}
-            actions = [DeviceCommand(f"drone {command}") for command in commands]
+            actions = [DeviceCommand("drone", command) for command in commands]
             self.sink.write(Tick(self.now, motion, self.hands, actions, {}))
 
     def engaged(self) -> Bench:

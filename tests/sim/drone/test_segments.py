@@ -62,3 +62,8 @@ def test_a_descent_that_turns_into_a_climb_touches_down_only_if_it_comes_that_lo
 
 def test_a_drone_that_leaves_the_ground_has_not_touched_it() -> None:
     assert Climb(0.0, 0.0, 0.0, 2.0).touchdown(10.0) == math.inf
+
+
+@pytest.mark.parametrize("turn", [5e-324, 1e-16, 1e-12])
+def test_a_turn_that_is_next_to_nothing_is_straight_on(turn: float) -> None:
+    assert Level(first=2 + 0j, last=2 + 0j, turn=turn).at(3.0) == pytest.approx(6 + 0j, abs=1e-9)
