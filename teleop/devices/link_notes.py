@@ -9,10 +9,10 @@ from teleop.devices.connection import Connection
 
 
 class LinkNotes:
-    """An observer; `say` gets each warning as it comes up."""
+    """An observer; `notify` gets each warning as it comes up."""
 
-    def __init__(self, connections: Collection[Connection], say: Callable[[str], object]) -> None:
-        self._connections, self._say = connections, say
+    def __init__(self, connections: Collection[Connection], notify: Callable[[str], object]) -> None:
+        self._connections, self._notify = connections, notify
         self._known: set[str] = set()
 
     def observe(self, tick: Tick) -> None:  # noqa: ARG002 - only that time has passed
@@ -20,4 +20,4 @@ class LinkNotes:
             for warning in connection.warnings:
                 if warning not in self._known:
                     self._known.add(warning)
-                    self._say(warning)
+                    self._notify(warning)

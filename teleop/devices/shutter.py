@@ -25,10 +25,10 @@ LISTEN = 0.02  # s between looks for an answer on leaving
 
 
 class ShutterSink:
-    """Shoots with the camera on a connection; `told` is called with the outcome of each press."""
+    """Shoots with the camera on a connection; `on_result` is called with the outcome of each press."""
 
-    def __init__(self, connection: Connection, told: Callable[[ShutterResult], object]) -> None:
-        self._connection, self._told = connection, told
+    def __init__(self, connection: Connection, on_result: Callable[[ShutterResult], object]) -> None:
+        self._connection, self._on_result = connection, on_result
         self._pending: dict[int, tuple[int, CameraCommand, int]] = {}  # sequence -> frame, command, which try
         self._held: set[CameraCommand] = set()  # what has to be let go
         self._again: list[tuple[int, CameraCommand, int]] = []
@@ -69,7 +69,7 @@ class ShutterSink:
         frame, command, attempt = self._pending.pop(answer.sequence)
         if command is CameraCommand.SHUTTER:
             code = answer.reply.return_code if isinstance(answer.reply, Result) else None
-            self._told(ShutterResult(frame, None if answer.reply is None else code or 0))
+            self._on_result(ShutterResult(frame, None if answer.reply is None else code or 0))
         elif answer.reply is None and command not in LET_GO and attempt < TRIES:
             self._again.append((frame, command, attempt + 1))
 

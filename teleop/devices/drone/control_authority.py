@@ -26,10 +26,10 @@ IN_PROGRESS = (ControlCode.OBTAINING, ControlCode.RELEASING)
 
 
 class ControlAuthority:
-    """Control over one connection. `say` is for what the operator has to know."""
+    """Control over one connection. `notify` is for what the operator has to know."""
 
-    def __init__(self, connection: Connection, say: Callable[[str], object]) -> None:
-        self._connection, self._say = connection, say
+    def __init__(self, connection: Connection, notify: Callable[[str], object]) -> None:
+        self._connection, self._notify = connection, notify
         self._order: ControlOrder | None = None  # the newest one
         self._sequence = -1  # of its last request
         self._since = self._ask_at = math.inf  # s: first sent, to be sent
@@ -108,14 +108,14 @@ class ControlAuthority:
             self._pause = AGAIN
         elif code == _settles(self._order):
             self._answer = ControlCode(code)
-        elif self._order == ControlOrder.RELEASE:  # whether it is confirmed is said by the engagement
+        elif self._order == ControlOrder.RELEASE:  # the engagement reports whether it is confirmed
             self._pause = REPEAT
         elif code is None:
             self._pause = REPEAT
-            self._say("the drone did not answer when asked about control")
+            self._notify("the drone did not answer when asked about control")
         else:
             self._refused = True
-            self._say(f"the drone refuses control: {word_of(code)}")
+            self._notify(f"the drone refuses control: {word_of(code)}")
 
 
 def _settles(order: ControlOrder) -> ControlCode:

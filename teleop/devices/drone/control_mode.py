@@ -1,6 +1,6 @@
 """What the two ways to hold a drone have in common: the virtual RC (`virtual_rc`), and movement commands (`movement`).
 
-A grip is what is sent, and nothing of when. Both take the same four sticks, -1..1, with the same sense: roll right,
+A control mode decides what is sent, not when. Both take the same four sticks, -1..1, with the same sense: roll right,
 pitch forward, throttle up, yaw right.
 """
 
@@ -75,12 +75,12 @@ class ControlMode(Protocol):
         ...
 
     def tell(self, word: str, seen: Telemetry, now: float) -> str:
-        """Do as an operator's word says; what is to be said of it. Raises KeyError for a word that means nothing."""
+        """Carry out an operator's command; what to tell the operator of it. Raises KeyError for an unknown one."""
         ...
 
 
 def not_in_standby(seen: Telemetry, now: float) -> str:
-    """Why motors must not be started or stopped now, "" when they may: the drone has to say standby, now."""
+    """Why motors must not be started or stopped now, "" when they may: the drone has to report standby, now."""
     status = seen.get("status", now, STANDBY_WITHIN)
     if status == FlightStatus.STANDBY:
         return ""

@@ -29,11 +29,11 @@ def mode_refusals(combination: Combination, site: Site, health: int | None) -> I
     """Why a movement mode would not work with a GPS of this `health`, None for one that says nothing."""
     if health is not None and health >= GPS_HEALTH:
         return
-    said = "the GPS reports nothing" if health is None else f"GPS health is {health} of 5"
+    found = "the GPS reports nothing" if health is None else f"GPS health is {health} of 5"
     if combination.horizontal == Horizontal.POSITION:
-        yield f"{said}: horizontal positions need {GPS_HEALTH}"
+        yield f"{found}: horizontal positions need {GPS_HEALTH}"
     elif combination.horizontal == Horizontal.VELOCITY and not site.guidance:
-        yield f"{said}: horizontal velocities need {GPS_HEALTH}, or Guidance declared in the profile"
+        yield f"{found}: horizontal velocities need {GPS_HEALTH}, or Guidance declared in the profile"
 
 
 def mode_warnings(combination: Combination, site: Site, height: float | None) -> Iterator[str]:

@@ -36,27 +36,27 @@ log = logging.getLogger(__name__)
 class DroneSink:
     """Sink and reporter of one drone, reached at `opened` (s).
 
-    `say` is for what the operator is to know; whoever has a better place for it than the log puts it there. With
+    `say` is for what the operator is to know: the log, unless a screen takes its place. With
     `by_script` it is engaged at the first tick, and what ends that ends the run.
     """
 
-    def __init__(self, grip: ControlMode, telemetry: Telemetry, opened: float, low_battery: int) -> None:
+    def __init__(self, mode: ControlMode, telemetry: Telemetry, opened: float, low_battery: int) -> None:
         self.say: Callable[[str], object] = log.warning
         self.by_script = False
         self.telemetry = telemetry
-        self._grip, self._low_battery = grip, low_battery
+        self._mode, self._low_battery = mode, low_battery
         self._opened = opened
         self._engagement = Engagement(
-            grip.what,
-            grip.period,
-            grip.taken,
+            mode.what,
+            mode.period,
+            mode.taken,
             lambda text: self.say(f"drone: {text}"),
-            gap=grip.gap,
-            repeats=grip.repeats,
+            gap=mode.gap,
+            repeats=mode.repeats,
         )
-        grip.say = lambda text: self.say(f"drone: {text}")
+        mode.say = lambda text: self.say(f"drone: {text}")
         self._sticks: Deflections = dict.fromkeys(STICKS, 0.0)
-        self._hand = False
+        self._input = False
         self._written = self._activated = math.inf
         self._control_lost = 0
         self._readings: dict[Axis, Reading] = {}
@@ -66,7 +66,7 @@ class DroneSink:
     @property
     def period(self) -> float:
         """s between two frames, moving or not."""
-        return self._grip.period
+        return self._mode.period
 
     @property
     def engaged(self) -> bool:
@@ -84,7 +84,7 @@ class DroneSink:
         with self._explaining():
             self.telemetry.service(now)
         if self.engaged and now - self._written > LATE:
-            self._hand = False
+            self._input = False
             self._turn(now)
         if not self._readings and self._ready(now):
             self._readings = dict.fromkeys(STICKS, Reading(0.0, self._opened))
@@ -96,7 +96,7 @@ class DroneSink:
         self._take_sticks(tick)
         for act in tick.actions:
             if isinstance(act, DeviceCommand) and act.device == DRONE:
-                self._tell(act.name, tick.time)
+                self._command(act.name, tick.time)
         if self.by_script and first:
             self._engage(tick.time)
         self._turn(tick.time)
@@ -109,7 +109,7 @@ class DroneSink:
 
         Raises DeviceError, once, when the drone has not confirmed it: what can be sent again is, for RELEASE_FOR.
         """
-        self._hand = False
+        self._input = False
         self._ends = min(self._ends, now)
         self._engagement.leave(now, "the run ends", asked=True)
         self._withdraw()
@@ -135,7 +135,7 @@ class DroneSink:
     def _take_sticks(self, tick: Tick) -> None:
         asked = [axis for axis in STICKS if axis in tick.motion and _asks(tick.demand, axis)]
         self._sticks = {axis: tick.motion[axis].position if axis in asked else 0.0 for axis in STICKS}
-        self._hand = bool(asked)
+        self._input = bool(asked)
         if any(isinstance(tick.demand.get(axis), Stop) for axis in STICKS):
             self._engagement.leave(tick.time, "STOP", asked=True)
 
@@ -146,11 +146,11 @@ class DroneSink:
         self._turned = now
         for trouble in self._troubles(now):
             self._engagement.leave(now, trouble)
-        self._grip.watch(self.telemetry, now)
-        if self._grip.contradicted(self.telemetry, now):
+        self._mode.watch(self.telemetry, now)
+        if self._mode.contradicted(self.telemetry, now):
             self._engagement.contradicted(now)
-        held = self._grip.held(self.telemetry, now)
-        order = self._engagement.advance(now, self._hand, held, self._grip.patience)
+        held = self._mode.held(self.telemetry, now)
+        order = self._engagement.advance(now, self._input, held, self._mode.patience)
         self._withdraw()
         try:
             with self._explaining():
@@ -160,20 +160,20 @@ class DroneSink:
             raise
 
     def _withdraw(self) -> None:
-        """An order that is sent again later would outlive the hand that gave it; giving back is not among these yet."""
+        """An order that is sent again later would outlive its input; giving back is not among these yet."""
         if self._engagement.stage in (Stage.ADRIFT, Stage.LEAVING):
-            self._grip.withdraw()
+            self._mode.withdraw()
 
     def _send(self, order: Order, now: float) -> None:
         match order:
             case Order.DRIVE:
-                self._grip.drive(self._sticks, self.telemetry, now)
+                self._mode.drive(self._sticks, self.telemetry, now)
             case Order.NEUTRAL:
-                self._grip.neutral(self.telemetry, now)
+                self._mode.neutral(self.telemetry, now)
             case Order.GIVE_BACK:
-                self._grip.give_back(now)
+                self._mode.give_back(now)
             case Order.NOTHING if self._engagement.stage in (Stage.CHECKING, Stage.UNCONFIRMED):
-                self._grip.give_back_again(now)
+                self._mode.give_back_again(now)
 
     def _troubles(self, now: float) -> Iterator[str]:
         if not self.engaged:
@@ -186,25 +186,25 @@ class DroneSink:
     def _refusals(self, now: float) -> Iterator[str]:
         yield from refusals(self.telemetry, now, self._low_battery)
         if self.telemetry.activated:
-            yield from self._grip.refusals(self.telemetry, now)
+            yield from self._mode.refusals(self.telemetry, now)
         if refusal := self._engagement.refusal(now):
             yield refusal
 
     def _engage(self, now: float) -> None:
         wanting = list(self._refusals(now))
-        if not self._hand:
+        if not self._input:
             wanting.append("no input holds its sticks")
         elif any(abs(deflection) > CENTRED for deflection in self._sticks.values()):
             wanting.append("center its sticks")
         if wanting:
             self._refuse(wanting)
             return
-        for warning in self._grip.warnings(self.telemetry, now):
+        for warning in self._mode.warnings(self.telemetry, now):
             self.say(f"drone: {warning}")
         self._control_lost = self.telemetry.control_lost
         self._engagement.engage(now)
         with self._explaining():
-            self._grip.take(self.telemetry, now)
+            self._mode.take(self.telemetry, now)
 
     def _refuse(self, wanting: Sequence[str]) -> None:
         text = f"not engaged: {'; '.join(wanting)}"
@@ -212,7 +212,7 @@ class DroneSink:
             raise DeviceError(f"drone: {text}")
         self.say(f"drone: {text}")
 
-    def _tell(self, word: str, now: float) -> None:
+    def _command(self, word: str, now: float) -> None:
         if word == "engage":
             self._engage(now)
         elif word == "disengage":
@@ -221,12 +221,12 @@ class DroneSink:
             self.say(f"drone: {word} refused: it is not engaged")
         else:
             try:
-                self.say(f"drone: {self._grip.tell(word, self.telemetry, now)}")
+                self.say(f"drone: {self._mode.tell(word, self.telemetry, now)}")
             except KeyError:
                 self.say(f"drone: unknown command {word}")
 
     def _explaining(self) -> _Explaining:
-        return _Explaining(self._engagement.stage is not Stage.IDLE, self._grip.alone)
+        return _Explaining(self._engagement.stage is not Stage.IDLE, self._mode.alone)
 
 
 class _Explaining:

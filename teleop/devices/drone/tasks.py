@@ -38,10 +38,10 @@ class Phase(Enum):
 
 
 class TaskWatch:
-    """The task that was ordered last. `say` is for what the operator has to know."""
+    """The task that was ordered last. `notify` is for what the operator has to know."""
 
-    def __init__(self, say: Callable[[str], object]) -> None:
-        self._say = say
+    def __init__(self, notify: Callable[[str], object]) -> None:
+        self._notify = notify
         self.kind: TaskKind | None = None  # None: none runs
         self._phase = Phase.ASKED
         self._since = -math.inf  # s: when it was ordered
@@ -72,10 +72,10 @@ class TaskWatch:
             return
         if code == TaskCode.STARTED:
             self._phase = Phase.RUNNING
-            self._say(f"{self.word}: started")
+            self._notify(f"{self.word}: started")
         elif code is None:
             self._phase = Phase.UNANSWERED
-            self._say(f"{self.word}: no answer; its status will show whether it started")
+            self._notify(f"{self.word}: no answer; its status will show whether it started")
         else:
             self._end(f"refused, {word_of(code)}")
 
@@ -133,11 +133,11 @@ class TaskWatch:
             self._end(f"not started: the drone reports {word_of(status)}")
         elif not self._warned:
             self._warned = True
-            self._say(f"{self.word}: the drone still reports {word_of(status)}; a moved stick flies it again")
+            self._notify(f"{self.word}: the drone still reports {word_of(status)}; a moved stick flies it again")
 
     def _end(self, why: str) -> None:
         word, self.kind = self.word, None
-        self._say(f"{word}: {why}")
+        self._notify(f"{word}: {why}")
 
 
 def take_off_refusal(seen: Telemetry, now: float, armed: bool) -> str:

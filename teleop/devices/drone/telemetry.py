@@ -53,10 +53,10 @@ class Telemetry:
         self._asked = False
         self._fault: DeviceError | LinkError | None = None
         self._parts: dict[str, tuple[Any, float]] = {}
-        self.control_lost = 0  # how often the drone said so
+        self.control_lost = 0  # how often the drone reported it
         for kind in (drone.Version, drone.Activate, drone.Frequency):
             connection.on_answer(kind, self._answered)
-        connection.on_push(Broadcast, self._heard)
+        connection.on_push(Broadcast, self._keep)
         connection.on_push(drone.Pushed, self._pushed)
 
     def service(self, now: float) -> None:
@@ -75,8 +75,8 @@ class Telemetry:
 
     def get(self, part: str, now: float, within: float = FRESH) -> Any:
         """A part of the broadcast, None where it has not come `within` so many s and is too old to be believed."""
-        value, heard = self._parts.get(part, (None, -math.inf))
-        return value if now - heard <= (SLOW_FRESH if part == "battery" else within) else None
+        value, since = self._parts.get(part, (None, -math.inf))
+        return value if now - since <= (SLOW_FRESH if part == "battery" else within) else None
 
     def _answered(self, answer: Answer) -> None:
         if answer.reply is None:
@@ -94,7 +94,7 @@ class Telemetry:
             if self._step == 2 and isinstance(self._connection.session, OnboardSession):  # activated
                 self._connection.session.cipher = self._cipher
 
-    def _heard(self, push: Message, now: float) -> None:
+    def _keep(self, push: Message, now: float) -> None:
         for part in PARTS:
             value = getattr(push, part, None)
             if value is not None:

@@ -37,7 +37,7 @@ class Autopilot:
         self.virtual_on = self.locked = self.obtained = False
         self.control_lost = 0  # how often it was taken from the onboard computer
         self._back_to_rc = True
-        self._enabled = self._stick_heard = self._move_heard = -math.inf
+        self._enabled = self._last_sticks = self._last_move = -math.inf
         self._in_corners = math.inf  # since when the sticks of whoever flies are
         self._gesture_made = False  # and have not left them since
         self._battery = battery
@@ -85,9 +85,9 @@ class Autopilot:
     def _due(self) -> list[Due]:
         due = self._automatic.due()
         if self.virtual_on and not self.locked:
-            due.append((self._stick_heard + self._settings.virtual_rc_timeout, self._virtual_timeout))
-        if self.pilot is Pilot.ONBOARD and self._move_heard > -math.inf:
-            due.append((self._move_heard + self._settings.movement_timeout, self._move_timeout))
+            due.append((self._last_sticks + self._settings.virtual_rc_timeout, self._virtual_timeout))
+        if self.pilot is Pilot.ONBOARD and self._last_move > -math.inf:
+            due.append((self._last_move + self._settings.movement_timeout, self._move_timeout))
         if self._in_corners < math.inf:
             due.append((self._in_corners + GESTURE, self._gesture))
         return due
@@ -97,7 +97,7 @@ class Autopilot:
             self.locked = True
         self._enabled = self.time
         if self.rc.switch is Switch.F and not self.locked:
-            self.virtual_on, self._back_to_rc, self._stick_heard = True, back_to_rc, self.time
+            self.virtual_on, self._back_to_rc, self._last_sticks = True, back_to_rc, self.time
             self.virtual = Controls()
             self._hand_to(Pilot.VIRTUAL)
 
@@ -107,7 +107,7 @@ class Autopilot:
 
     def virtual_sticks(self, controls: Controls) -> None:
         if self.virtual_on and not self.locked:
-            self._stick_heard = self.time
+            self._last_sticks = self.time
             self.virtual = controls
             self._obey(controls)
 
@@ -149,7 +149,7 @@ class Autopilot:
     def moves(self, move: Callable[[Flight], object]) -> None:
         """A movement command of the onboard computer."""
         if self.pilot is Pilot.ONBOARD:
-            self._move_heard = self.time
+            self._last_move = self.time
             self._automatic.interrupt()
             move(self.flight)
 
@@ -167,12 +167,12 @@ class Autopilot:
         """A task holds against the end of movement commands that came before it."""
         starts = task()
         if starts:
-            self._move_heard = -math.inf
+            self._last_move = -math.inf
         return starts
 
     def _hand_to(self, pilot: Pilot) -> None:
         self.pilot = pilot
-        self._move_heard, self._in_corners = -math.inf, math.inf
+        self._last_move, self._in_corners = -math.inf, math.inf
         if pilot is Pilot.RC:
             self._obey(self.rc)
         elif self._automatic.doing is None:
@@ -190,7 +190,7 @@ class Autopilot:
         self._end_virtual(self._back_to_rc)
 
     def _move_timeout(self) -> None:
-        self._move_heard = -math.inf
+        self._last_move = -math.inf
         self._automatic.hover()
 
     def _obey(self, controls: Controls) -> None:

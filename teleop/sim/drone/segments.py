@@ -46,8 +46,11 @@ class Level:
 
     def at(self, time: float) -> complex:
         seconds = time - self.start
-        turn, fade = 1j * self.turn, 1j * self.turn - 1 / self.lag
-        steady = seconds if turn == 0 else (cmath.exp(turn * seconds) - 1) / turn
+        fade = 1j * self.turn - 1 / self.lag
+        half = self.turn * seconds / 2
+        steady = (
+            seconds * cmath.exp(1j * half) * (math.sin(half) / half if half else 1.0)
+        )  # cancels nothing, however small
         fading = (cmath.exp(fade * seconds) - 1) / fade
         way = self.last * steady + (self.first - self.last) * fading
         return self.place + way * cmath.exp(1j * self.heading)

@@ -47,9 +47,9 @@ MODES: Mapping[Switch, RcMode] = {Switch.P: RcMode.P, Switch.A: RcMode.A, Switch
 
 
 class TelemetrySender:
-    """`hidden` are parts that are not told though they were asked for, `health` is the GPS's (0..5).
+    """`hidden` are parts that are not sent though they were asked for, `health` is the GPS's (0..5).
 
-    `mirrors`: whether the RC that is told of is the virtual one while that flies; what real ones do is not known.
+    `mirrors`: whether the RC that is broadcast is the virtual one while that flies; what real ones do is not known.
     """
 
     def __init__(self, mirrors: bool, health: int) -> None:
@@ -72,13 +72,13 @@ class TelemetrySender:
         self.rates |= {part: rate for part, rate in wanted.items() if rate is not Rate.HOLD}
 
     def due(self, now: float) -> list[tuple[float, Collection[str]]]:
-        """The times since the last call at which something is said, and the parts."""
+        """The times since the last call at which something is sent, and the parts."""
         if self._beat is None:
             return []
         times = self._beat.due(now)
         first = self._beat.done - len(times) + 1
-        spoken = [(time, self._parts(first + index)) for index, time in enumerate(times)]
-        return [(time, parts) for time, parts in spoken if parts]
+        beats = [(time, self._parts(first + index)) for index, time in enumerate(times)]
+        return [(time, parts) for time, parts in beats if parts]
 
     def _parts(self, beat: int) -> Collection[str]:
         return [

@@ -134,8 +134,8 @@ class SimulatedGimbal:
                 continue
             self.counts[received.message.name] += 1
             answer = self._obey(received.message)
-            told = self.tells_angles or not isinstance(received.message, gimbal.Angles)
-            if frame.cmd_type & _REPLY_TYPE and told and not _has_no_reply(received.message):
+            answers = self.tells_angles or not isinstance(received.message, gimbal.Angles)
+            if frame.cmd_type & _REPLY_TYPE and answers and not _has_no_reply(received.message):
                 self._reply(frame, answer)
         if self._session.last_damage is not damage and self._session.last_damage:
             self.refusals.add_damage(now, self._session.last_damage)
