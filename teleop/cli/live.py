@@ -6,6 +6,7 @@ Everything else goes through the `Operator`; what is recorded then drives the ax
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -31,6 +32,7 @@ from teleop.core.events import Action
 from teleop.core.interfaces import Clock
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.rig import Rig, open_rig
+from teleop.inputs.hid.recording import AFTER, Recording, read_recording
 from teleop.inputs.keyboard import Keyboard, terminal
 from teleop.inputs.recorded_sticks import Sticks, SticksSource, read_sticks
 from teleop.inputs.stick_shaping import shape
@@ -47,6 +49,14 @@ def live(
     sticks: Annotated[
         Path | None, Parameter(metavar="FILE", help="CSV: time in s, and a deflection of -1..1 for each axis.")
     ] = None,
+    input_recording: Annotated[
+        list[Path] | None,
+        Parameter(
+            metavar="FILE",
+            consume_multiple=False,
+            help="Device recorded by `teleop devices record`, as if it were plugged in; may be repeated.",
+        ),
+    ] = None,
     presets: Annotated[
         Path | None, Parameter(metavar="FILE", help="Where presets are kept; else one file for each rig.")
     ] = None,
@@ -61,18 +71,19 @@ def live(
     if learn:
         return _learn(profile)
     refuse_offsets(profile)
-    if sticks is None and fast:
-        raise UsageError("--fast: a hand keeps its own time; only --sticks can be replayed fast")
+    if sticks is None and not input_recording and fast:
+        raise UsageError("--fast: needs --sticks or --input-recording: an operator's inputs are in real time")
     recorded = None if sticks is None else read_sticks(sticks, list(profile.axes))
-    replay = None if recorded is None else _replay(profile, recorded)
+    recordings = [read_recording(file, number) for number, file in enumerate(input_recording or [], 1)]
+    replay = None if recorded is None and not recordings else _replay(profile, _until_end(recorded, recordings))
     title = profile.name if sticks is None else sticks.name
-    axes: Sequence[Axis] = list(profile.axes) if recorded is None else recorded.axes
+    axes: Sequence[Axis] = list(profile.axes) if recorded is None or recordings else recorded.axes
     keyboard = None if fast else _keyboard()
     aboard = Aboard()
-    if recorded is not None:
+    if recorded is not None and not recordings:
         profile = profile.in_use(axes, () if keyboard is None else [Action.RECORD])
     clock = the_clock(fast, profile)
-    if replay and recorded and keyboard is None:
+    if replay and recorded and not recordings and keyboard is None:
         ask_to_fly(title, axes, i_understand)
         tally = TrackingErrorMonitor(lambda: replay.begin)
         limits = {axis: profile.limits[axis] for axis in axes}
@@ -90,7 +101,8 @@ def live(
             aboard.board(rig, axes, display.say, by_script=True)
             return perform(*(rig, axes, [guard], tally, display, options.json, recorder), stopped=lambda: guard.reason)
     with ExitStack() as stack:
-        inputs, note = open_devices(stack, profile, clock, keyboard is not None, NOBODY)
+        begin = (lambda: replay.begin) if replay else (lambda: math.inf)
+        inputs, note = open_devices(stack, profile, clock, keyboard is not None, NOBODY, recordings, begin, fast)
         rig, axes, left_out = _opened(stack, profile, clock, None if recorded is None else axes)
         limits = {axis: profile.limits[axis] for axis in axes}
         shelf = read_presets(presets or default_file(profile.name), limits, profile.name)
@@ -100,7 +112,7 @@ def live(
         for line in (*left_out, *([note] if note else [])):
             operator.say(line)
         recorder = stack.enter_context(
-            recording(take, profile.name, title, limits, lambda: aboard.status(operator.status))
+            recording(take, profile.name, title, limits, lambda: aboard.status(operator.status), patient=fast)
         )
         aboard.board(rig, axes, operator.say, by_script=False)
         view = LiveView(
@@ -132,6 +144,17 @@ def _opened(
     if axes is None:
         return open_present(stack, profile, clock)
     return stack.enter_context(open_rig(profile, clock)), axes, ()
+
+
+def _until_end(sticks: Sticks | None, recordings: Sequence[Recording]) -> Sticks:
+    """The recorded sticks, or none, until a moment after the last row of the last recording of a device."""
+    end = max((each.end for each in recordings), default=0.0) + AFTER
+    if sticks is None:
+        return Sticks([], [0.0, end], [[], []])
+    if not recordings or sticks.times[-1] >= end:
+        return sticks
+    rest = [0.0] * len(sticks.axes)
+    return Sticks(sticks.axes, [*sticks.times, end], [*sticks.deflections[:-1], rest, rest])
 
 
 def _replay(profile: Profile, recorded: Sticks) -> SticksSource:

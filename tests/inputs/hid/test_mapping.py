@@ -78,7 +78,7 @@ def test_nothing_is_said_of_a_stick_while_its_centre_is_found_and_of_one_without
 def test_a_stick_that_is_held_when_first_seen_counts_from_the_middle_unless_the_mapping_is_a_guess() -> None:
     held = settled(mapped({"X": {"axis": "pan"}}), {"X": byte(255)})
     assert look(held, X=byte(255)).deflections == {Axis.PAN: 1}
-    assert list(held.uncentred) == ["X"]
+    assert list(held.uncentered) == ["X"]
     guessed = settled(mapped({"X": {"axis": "pan"}}, guessed=True), {"X": byte(255)})
     assert look(guessed, X=byte(255)).deflections == {}
 
@@ -98,10 +98,10 @@ def test_a_range_in_the_devices_numbers_replaces_its_own() -> None:
     assert look(ring, Wheel=Sample(0, -128, 127)).deflections == {Axis.PAN: 0}
 
 
-def test_a_slider_says_a_position_once_it_has_been_moved() -> None:
+def test_a_slider_is_where_it_was_first_seen_until_it_has_been_moved() -> None:
     slider = mapped({"Slider": {"axis": "focus", "by": "position"}})
-    assert look(slider, Slider=byte(51)).positions == {}
-    assert look(slider, Slider=byte(52)).positions == {}
+    assert look(slider, Slider=byte(51)).positions == {Axis.FOCUS: 0.2}
+    assert look(slider, Slider=byte(52)).positions == {Axis.FOCUS: 0.2}
     assert look(slider, Slider=byte(102)).positions == {Axis.FOCUS: 0.4}
     assert look(slider, Slider=byte(51)).positions == {Axis.FOCUS: 0.2}
 
