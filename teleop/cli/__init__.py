@@ -33,7 +33,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "copy": ("teleop.cli.shipped_files:copy", "Copy a shipped move, rig or pad to a file of yours."),
     "take": ("teleop.cli.take.commands:app", "List, judge, export and repair recorded runs."),
     "calibrate": ("teleop.cli.calibrate:app", "Measure what a profile has to know about a gimbal."),
-    "devices": ("teleop.cli.devices:devices", "List CAN interfaces, serial ports and HID devices."),
+    "devices": ("teleop.cli.record_device:app", "List CAN interfaces, serial ports and HID devices."),
     "doctor": ("teleop.cli.doctor.command:doctor", "Say what this machine can do, and what is in the way."),
     "send": ("teleop.cli.send.gimbal:send", "Send one command to a gimbal, camera, focus motor or drone."),
     "monitor": ("teleop.cli.monitor:monitor", "Show what host and device say to each other on a link."),
@@ -48,6 +48,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
 _GROUPS = (
     "teleop.cli.take.commands:app",
     "teleop.cli.calibrate:app",
+    "teleop.cli.record_device:app",
     "teleop.cli.codec.decode:app",
     "teleop.cli.codec.encode:app",
 )
