@@ -244,3 +244,25 @@ def test_no_mapping_says_more_than_full(sections: Mapping[str, Any], reported: l
         assert all(-1 <= deflection <= 1 for deflection in held.deflections.values())
         assert all(0 <= position <= 1 for position in held.positions.values())
         assert -1 <= held.dial <= 1
+
+
+def test_where_a_stick_is_counts_as_no_clicks() -> None:
+    wheel = mapped({"X": {"axis": "pan", "by": "position"}}, relative=["X"])
+    assert not wheel.read({"X": byte(200)}, changes("X", (1.0, byte(200))), 1.0).steps[Axis.PAN]
+
+
+def test_a_puck_rests_at_zero() -> None:
+    puck = Mapped({"Rz": ControlSection(axis=Axis.PAN)}, puck=True)
+    held = puck.read({"Rz": Sample(70, -350, 350)}, (), 0.0)
+    assert held.deflections == {Axis.PAN: pytest.approx(0.2)}
+    assert not puck.finding
+    assert puck.read({"Rz": Sample(0, -350, 350)}, (), 1.0).deflections == {Axis.PAN: 0}
+
+
+def test_a_guessed_trigger_that_is_held_at_the_start_never_becomes_a_stick() -> None:
+    guessed = mapped({"Rx": {"axis": "roll"}, "Ry": {"axis": "focus"}}, guessed=True)
+    for index in range(60):
+        guessed.read({"Rx": byte(0), "Ry": byte(255)}, (), index / 100)
+    for index in range(60, 120):
+        assert not guessed.read({"Rx": byte(0), "Ry": byte(128)}, (), index / 100).deflections
+    assert not guessed.read({"Rx": byte(0), "Ry": byte(0)}, (), 2.0).deflections
