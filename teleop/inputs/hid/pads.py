@@ -29,7 +29,6 @@ from teleop.core.axes import Axis
 from teleop.core.operator_input import Command
 from teleop.inputs.hid.backend import DeviceInfo
 
-STICKS = frozenset({(0x01, 0x04), (0x01, 0x05), (0x01, 0x08)})  # joystick, gamepad, multi-axis controller
 MULTI_AXIS = (0x01, 0x08)
 _BUTTONS = (
     ("Button 1", Command.STOP),
@@ -64,12 +63,15 @@ def pad_for(info: DeviceInfo) -> PadSection | None:
 
 
 def fits(device: DeviceSection, info: DeviceInfo) -> bool:
-    """Whether this is the device, by its ids and its name; of a section for any device nothing is asked."""
+    """Whether this is the device, by its ids, its name and where it is; a section for any device fits all."""
     from fnmatch import fnmatch
 
     return (
         device.vendor in (None, info.vendor_id)
         and device.product in (None, info.product_id)
+        and device.serial in (None, info.serial)
+        and device.port in (None, info.port)
+        and device.interface in (None, info.interface)
         and (device.name is None or fnmatch(info.name.casefold(), device.name.casefold()))
     )
 
@@ -89,7 +91,7 @@ def may_stop(section: InputSection) -> bool:
 
 
 def choose(section: InputSection, info: DeviceInfo, names: Collection[str]) -> Chosen:
-    """What the device does that `section` stands for and that has these controls."""
+    """What the device does that `section` is for; a guess is made for the controls of these `names`."""
     named = load_pad(section.pad) if section.pad else None
     pad = named or (None if section.controls else pad_for(info))
     if pad is None and not section.controls:
