@@ -15,7 +15,8 @@ from teleop.config.inputs_section import DeviceSection
 from teleop.core.axes import Axis
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError, UsageError
-from teleop.inputs.hid.backend import DeviceInfo, Hidapi, HidBackend, HidDevice, described
+from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, described
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.learn import Found, Kind, Learned, Question, Watch, other_way, questions, still
 from teleop.inputs.hid.reader import wanted
@@ -66,7 +67,7 @@ def learn(
 
     Raises UsageError without a terminal or a joystick, DeviceError when the joystick cannot be read or is unplugged.
     """
-    backend, asker, now = backend or Hidapi(), asker or Terminal(), now or SystemClock().now
+    backend, asker, now = backend or AllDevices(), asker or Terminal(), now or SystemClock().now
     found = wanted(DeviceSection(), backend.enumerate(), None)
     if not found:
         raise UsageError("--learn: no joystick found: plug one in; `teleop devices` lists the devices")

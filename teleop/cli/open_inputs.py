@@ -10,7 +10,7 @@ from teleop.config.profile import Profile
 from teleop.core.errors import DeviceError, UsageError
 from teleop.core.interfaces import Clock
 from teleop.core.operator_input import Input
-from teleop.inputs.hid.backend import Hidapi
+from teleop.inputs.evdev.backend import AllDevices
 from teleop.inputs.hid.device import open_inputs
 from teleop.inputs.hid.reader import wanted
 
@@ -24,7 +24,7 @@ def open_devices(
     nothing is, and DeviceError when no device can be read.
     """
     try:
-        backend = Hidapi()
+        backend = AllDevices()
     except DeviceError as error:
         if not keys:
             raise

@@ -14,7 +14,7 @@ from teleop.config.inputs_section import InputSection
 from teleop.config.profile import Profile
 from teleop.core.errors import DeviceError
 from teleop.core.interfaces import Clock
-from teleop.inputs.hid.backend import Hidapi
+from teleop.inputs.evdev.backend import AllDevices
 from teleop.inputs.hid.device import HidInput, open_inputs
 from teleop.inputs.hid.pads import may_stop
 from teleop.inputs.hid.reader import wanted
@@ -32,7 +32,7 @@ def open_stop_inputs(stack: ExitStack, profile: Profile, clock: Clock) -> Sequen
     if not sections:
         return []
     try:
-        backend = Hidapi()
+        backend = AllDevices()
         found = backend.enumerate()
     except (DeviceError, OSError) as error:
         if profile.inputs:

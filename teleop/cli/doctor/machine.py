@@ -18,11 +18,12 @@ PACKAGES = {  # by name, what is imported of it
     "python-can": "can",
     "pyserial": "serial",
     "hidapi": "hidraw",
+    **({"evdev": "evdev"} if sys.platform == "linux" else {}),
     "ruckig": "ruckig",
     "numpy": "numpy",
     "pydantic": "pydantic",
 }
-SPARE = {"hidapi"}  # without these some things work
+SPARE = {"hidapi", "evdev"}  # without these some things work
 ROOM = 0.5e9  # bytes for takes: an hour and more
 
 

@@ -31,6 +31,8 @@ class DeviceInfo(NamedTuple):
     usage_page: int
     usage: int
     interface: int
+    driver: str = ""
+    """Kernel driver that named its controls (xpad); "": its own descriptor did."""
 
 
 class HidDevice(Protocol):

@@ -18,7 +18,8 @@ from teleop.config.inputs_section import DIRECTIONS, ActionSection, ControlSecti
 from teleop.config.operator_settings import DEAD_ZONE, EXPO
 from teleop.config.pad_file import load_pad
 from teleop.core.operator_input import Command, Held
-from teleop.inputs.hid.backend import Hidapi, HidBackend, described
+from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.hid.backend import HidBackend, described
 from teleop.inputs.hid.mapping import Mapped
 from teleop.inputs.hid.pads import Chosen, may_stop, shipped
 from teleop.inputs.hid.reader import Claims, HidReader, Plugged
@@ -193,9 +194,9 @@ def open_inputs(
 ) -> Iterator[list[HidInput]]:
     """The devices of a profile, started, in its order; without sections any joystick.
 
-    Raises DeviceError when HID devices cannot be read here at all, DocumentError when a pad cannot be used.
+    Raises DeviceError when no device can be read here at all, DocumentError when a pad cannot be used.
     """
-    devices, claims = backend or Hidapi(), Claims()
+    devices, claims = backend or AllDevices(), Claims()
     shipped()  # read now: once the loop runs nothing shall keep it waiting
     with ExitStack() as stack:
         inputs = [
