@@ -21,6 +21,7 @@ from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.learn import Found, Kind, Learned, Question, Watch, other_way, questions, still
 from teleop.inputs.hid.reader import wanted
 from teleop.inputs.hid.state import HidState
+from teleop.inputs.keyboard import has_keys
 
 QUIET = 0.5  # s without a movement: everything has been let go
 HELD = 2.0  # s: what is away from its rest for longer was put there, and is not merely held
@@ -44,6 +45,8 @@ class Terminal:
     def __init__(self) -> None:
         if not sys.stdin.isatty():
             raise UsageError("--learn asks questions: run it on a terminal")
+        if not has_keys():
+            raise UsageError("--learn cannot see Enter on this system: use Linux or macOS, or copy a shipped mapping")
 
     def say(self, text: str) -> None:
         print(text, file=sys.stderr, flush=True)

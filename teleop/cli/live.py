@@ -15,6 +15,7 @@ from cyclopts import Parameter
 
 from teleop.app.absent_devices import open_present
 from teleop.cli.drone_run import Aboard, Understood, ask_to_fly, is_flown, refuse_offsets
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.open_inputs import open_devices
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, Take, the_clock
@@ -31,7 +32,7 @@ from teleop.core.events import Action
 from teleop.core.interfaces import Clock
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.rig import Rig, open_rig
-from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.recorded_sticks import Sticks, SticksSource, read_sticks
 from teleop.inputs.stick_shaping import shape
 from teleop.manual.operator import Operator
@@ -147,7 +148,7 @@ def _replay(profile: Profile, recorded: Sticks) -> SticksSource:
 
 def _keyboard() -> Keyboard | None:
     """The keys of the terminal that this was started on, if there is one."""
-    descriptor = terminal()
+    descriptor = key_terminal()
     return None if descriptor is None else Keyboard(descriptor)
 
 

@@ -10,6 +10,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from teleop.cli.drone_run import Understood, ask_to_fly, is_flown
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.operator_check import attended
 from teleop.cli.options import DEFAULTS, MOVES, Options, is_take, warn
 from teleop.cli.sequence_run import SequenceRun
@@ -23,7 +24,7 @@ from teleop.core.axes import Axis
 from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.errors import UsageError
 from teleop.core.events import Action
-from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.playback_keymap import FLOWN_KEYS, KEYS, TRIM_KEYS, PlayKeys
 from teleop.links import parse
 from teleop.planner.keyframes.findings import PlanError
@@ -82,7 +83,7 @@ def play(
         return shoot(file, timelapse, profile, the_clock(fast, profile), shooting, take, options)
     if timelapse is not None:
         warn(performance)
-    descriptor = None if fast else terminal()
+    descriptor = None if fast else key_terminal()
     waits = descriptor is not None and not flown  # a drone does not stand still while a move waits
     performance = attended(file, performance, waits, fast)
     trimmed = None if trim.trim_out is None else _trimmed(file, trim.trim_out, axes, profile)

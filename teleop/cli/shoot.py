@@ -8,6 +8,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from teleop.app.shoot_runner import Ended, Shooting, camera_link
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import Options
 from teleop.cli.running import EXIT_CODES, print_links, print_take, undisturbed
 from teleop.cli.screens.folded import complain, tell
@@ -21,7 +22,7 @@ from teleop.config.profile import Profile
 from teleop.core.clock import VirtualClock
 from teleop.core.interfaces import Clock, Observer
 from teleop.core.run_state import Result
-from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 from teleop.recording.writer import recording
@@ -42,7 +43,7 @@ def shoot(
     virtual = isinstance(time, VirtualClock)
     path = Path(Path(file).stem + ENDING)
     belongs = Shoot(Path(file).name, timelapse.identity, timelapse.frames)
-    descriptor = None if virtual else terminal()
+    descriptor = None if virtual else key_terminal()
     camera_link(profile)  # refused before a journal is begun
     with ExitStack() as stack:
         journal = stack.enter_context(

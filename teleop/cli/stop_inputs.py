@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import ExitStack
 
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.screens.folded import complain
 from teleop.config.inputs_section import InputSection
 from teleop.config.profile import Profile
@@ -18,7 +19,7 @@ from teleop.inputs.evdev.backend import AllDevices
 from teleop.inputs.hid.device import HidInput, open_inputs
 from teleop.inputs.hid.pads import may_stop
 from teleop.inputs.hid.reader import wanted
-from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
 from teleop.manual.stop_guard import Relay, Resumable, StopGuard
 
@@ -50,7 +51,7 @@ def guarded(
     stack: ExitStack, source: Resumable, profile: Profile, clock: Clock, fast: bool
 ) -> tuple[StopGuard, Sequence[Keyboard]]:
     """`source` under every STOP that there is, and the keys of the terminal, which are to be entered."""
-    descriptor = None if fast else terminal()
+    descriptor = None if fast else key_terminal()
     keys = [] if descriptor is None else [Keyboard(descriptor, PlayKeys(RUN_KEYS))]
     devices = [] if fast else open_stop_inputs(stack, profile, clock)
     return StopGuard(source, [Relay(each) for each in (*devices, *keys)]), keys
