@@ -112,6 +112,8 @@ class HidInput:
             return None
         if stops <= set(plugged.missing):
             return f"{self.name}: no control {', '.join(sorted(stops))}"
+        if undescribed := _undescribed(plugged, now):
+            return f"{self.name}: {undescribed}"
         if not plugged.on_change and now - state.last > SILENT:
             return f"{self.name}: no report for {SILENT:g} s"
         return ""
@@ -146,6 +148,8 @@ class HidInput:
         if self._misnamed:
             return self._misnamed
         deflected = bool(held.dial) or any(held.deflections.values())
+        if undescribed := _undescribed(plugged, now):
+            return undescribed
         if not plugged.mapped.names & state.values.keys():
             return "no report yet"
         if plugged.mapped.finding:
@@ -165,6 +169,22 @@ class HidInput:
             yield f"{self.name}: {own} was not centered; a trigger or a throttle needs rest: low or high"
         elif plugged.chosen.guessed and found & {"X", "Y"}:
             yield f"{self.name}: {names} was not centered and is ignored; release it and plug the device in again"
+
+
+def _undescribed(plugged: Plugged, now: float) -> str:
+    """Why only reports come that nothing can be read of: on Bluetooth a program has switched the pad to longer ones.
+
+    Once its calibration has been read a DualSense sends 0x31, a DualShock 0x11. Beside readable reports such a one is
+    no trouble, nor is a vendor's own beside the silence of a device that reports changes.
+    """
+    state = plugged.state
+    if state.opaque is None or now - state.last <= SILENT or now - state.opaque[1] > SILENT:
+        return ""
+    number = state.opaque[0]
+    if plugged.on_change and state.values and state.is_described(number):
+        return ""
+    text = f"sends report {number:#04x}, which its descriptor does not describe"
+    return f"{text}: connect it by cable, or turn it off and on with no other program using it"
 
 
 def _run_controls(controls: Mapping[str, ControlSection]) -> dict[str, ControlSection]:
