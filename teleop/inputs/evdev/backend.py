@@ -89,8 +89,10 @@ class _Counted:
         self.get_input_report = device.get_input_report
 
     def close(self) -> None:
-        self._device.close()
-        self._on_close()
+        try:
+            self._device.close()
+        finally:
+            self._on_close()
 
 
 def _hidapi() -> HidBackend | None:
