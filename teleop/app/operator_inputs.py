@@ -11,7 +11,8 @@ from teleop.config.profile import Profile
 from teleop.core.errors import DeviceError, UsageError
 from teleop.core.interfaces import Clock
 from teleop.core.operator_input import Input
-from teleop.inputs.hid.backend import Hidapi, HidBackend
+from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.hid.backend import HidBackend
 from teleop.inputs.hid.device import open_inputs
 from teleop.inputs.hid.reader import wanted
 from teleop.inputs.hid.recording import RecordedDevices, Recording
@@ -34,7 +35,7 @@ def open_devices(
     """
     backend: HidBackend | None = None
     try:
-        backend = None if virtual else Hidapi()
+        backend = None if virtual else AllDevices()
     except DeviceError as error:
         if not recordings:
             if not keys:

@@ -11,6 +11,7 @@ from cyclopts import Parameter
 from teleop.app.drone_flight import refuse_offsets
 from teleop.app.live import LiveParts, LiveRun
 from teleop.cli.drone_run import Understood, ask_to_fly
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, Take, the_clock
 from teleop.cli.running import print_report
@@ -25,7 +26,7 @@ from teleop.core.errors import UsageError
 from teleop.core.events import Action
 from teleop.core.run_status import RunStatus
 from teleop.inputs.hid.recording import read_recording
-from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.recorded_sticks import Sticks, SticksSource, read_sticks
 from teleop.recording.writer import Recorder
 
@@ -99,7 +100,7 @@ def _unattended(run: LiveRun, recorded: Sticks, options: Options) -> int:
 
 def _keyboard() -> Keyboard | None:
     """The keys of the terminal that this was started on, if there is one."""
-    descriptor = terminal()
+    descriptor = key_terminal()
     return None if descriptor is None else Keyboard(descriptor)
 
 

@@ -16,7 +16,8 @@ from teleop.cli.examples import examples
 from teleop.config.inputs_section import DeviceSection
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError, UsageError
-from teleop.inputs.hid.backend import DeviceInfo, Hidapi, HidBackend, described, identified
+from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, described, identified
 from teleop.inputs.hid.reader import wanted
 from teleop.inputs.hid.recorder import Recorder
 
@@ -39,7 +40,7 @@ def record(
     """Record what an input device is and reports, for a bug report or `teleop live --input-recording`."""
     if seconds is not None and not 0 < seconds < float("inf"):
         raise UsageError(f"--seconds: must be more than 0, not {seconds:g}")
-    backend = Hidapi()
+    backend = AllDevices()
     infos = chosen(backend, device)
     try:
         stream = output.open("x", encoding="utf-8")

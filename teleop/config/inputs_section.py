@@ -162,12 +162,19 @@ class InputSection(_MappedSection):
         return {} if value == "any" else value
 
 
+class PadDeviceSection(DeviceSection):
+    """A device that a shipped mapping is for."""
+
+    driver: str | None = None
+    """Linux driver that names its controls, read by its event device: xpad; without it the device's own names."""
+
+
 class PadSection(_MappedSection):
     """A shipped mapping: the devices it is for, or why they cannot be read."""
 
     name: str
     """Name of the pad."""
-    devices: Annotated[list[DeviceSection], Field(min_length=1)]
+    devices: Annotated[list[PadDeviceSection], Field(min_length=1)]
     """The devices that the mapping is for."""
     unreadable: str = ""
     """Why the reports of these devices cannot be read; empty where they can."""

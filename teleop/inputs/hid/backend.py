@@ -38,6 +38,8 @@ class DeviceInfo(NamedTuple):
     usage: int
     interface: int
     port: str = ""
+    driver: str = ""
+    """Kernel driver that named its controls (xpad); "": its own descriptor did."""
 
 
 class HidDevice(Protocol):

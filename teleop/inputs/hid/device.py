@@ -19,12 +19,13 @@ from teleop.config.inputs_section import DIRECTIONS, ActionSection, ControlSecti
 from teleop.config.operator_settings import DEAD_ZONE, EXPO
 from teleop.config.pad_file import load_pad
 from teleop.core.operator_input import Command, Held
-from teleop.inputs.hid.backend import DeviceInfo, Hidapi, HidBackend, Unit, described, identified, unit
+from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, Unit, described, identified, unit
 from teleop.inputs.hid.claims import Claims
 from teleop.inputs.hid.mapping import Mapped
 from teleop.inputs.hid.pads import MULTI_AXIS, Chosen, may_stop, shipped
 from teleop.inputs.hid.reader import HidReader, Plugged
-from teleop.inputs.hid.state import HidState
+from teleop.inputs.hid.state import SILENT, HidState
 
 RUN_COMMANDS = {Command.STOP, Command.CLEAR, Command.PAUSE, Command.GO, Command.QUIT}  # of a run that moves by itself
 
@@ -121,6 +122,8 @@ class HidInput:
             return None
         if stops <= set(plugged.missing):
             return f"{self.name}: no control {', '.join(sorted(stops))}"
+        if undescribed := _undescribed(plugged, now):
+            return f"{self.name}: {undescribed}"
         if not plugged.on_change and now - state.last > state.patience:
             return f"{self.name}: no report for {state.patience:g} s"
         return ""
@@ -178,6 +181,8 @@ class HidInput:
         if self._misnamed:
             return self._misnamed
         deflected = bool(held.dial) or any(held.deflections.values())
+        if undescribed := _undescribed(plugged, now):
+            return undescribed
         if not plugged.mapped.names & state.values.keys():
             return "no report yet"
         if plugged.mapped.finding:
@@ -198,6 +203,22 @@ class HidInput:
             yield f"{self.name}: {own} was not centered; a trigger or a throttle needs rest: low or high"
         elif plugged.chosen.guessed and found & {"X", "Y"}:
             yield f"{self.name}: {names} was not centered and is ignored until it is: release it"
+
+
+def _undescribed(plugged: Plugged, now: float) -> str:
+    """Why only reports come that nothing can be read of: on Bluetooth a program has switched the pad to longer ones.
+
+    Once its calibration has been read a DualSense sends 0x31, a DualShock 0x11. Beside readable reports such a one is
+    no trouble, nor is a vendor's own beside the silence of a device that reports changes.
+    """
+    state = plugged.state
+    if state.opaque is None or now - state.last <= SILENT or now - state.opaque[1] > SILENT:
+        return ""
+    number = state.opaque[0]
+    if plugged.on_change and state.values and state.is_described(number):
+        return ""
+    text = f"sends report {number:#04x}, which its descriptor does not describe"
+    return f"{text}: connect it by cable, or turn it off and on with no other program using it"
 
 
 def _run_controls(controls: Mapping[str, ControlSection]) -> dict[str, ControlSection]:
@@ -228,10 +249,10 @@ def open_inputs(
 ) -> Iterator[list[HidInput]]:
     """The devices of a profile, started, in its order; without sections any joystick.
 
-    `polled`: on the virtual clock, from a backend of recordings. Raises DeviceError when HID devices cannot be read
-    here at all, DocumentError when a pad cannot be used.
+    `polled`: on the virtual clock, from a backend of recordings. Raises DeviceError when no device can be read here at
+    all, DocumentError when a pad cannot be used.
     """
-    devices, sections = backend or Hidapi(), sections or [InputSection()]
+    devices, sections = backend or AllDevices(), sections or [InputSection()]
     claims = Claims(sections)
     shipped()  # read now: once the loop runs nothing shall keep it waiting
     with ExitStack() as stack:

@@ -1,4 +1,4 @@
-"""Which mapping a device gets: a shipped one by its ids, or one that is guessed from the controls it has.
+"""Which mapping a device gets: a shipped one by its ids or its driver, or one that is guessed from the controls it has.
 
 The guess for a pad nobody described: the left stick (X, Y) is pan and tilt, the right one (Rx and Ry, or Z and Rz,
 whichever rests in its middle) roll and focus; a joystick's twist (Rz without a Z) is roll. The puck of a multi-axis
@@ -21,6 +21,7 @@ from teleop.config.inputs_section import (
     ControlSection,
     DeviceSection,
     InputSection,
+    PadDeviceSection,
     PadSection,
 )
 from teleop.config.pad_file import load_pad
@@ -59,7 +60,12 @@ def shipped() -> Sequence[PadSection]:
 
 def pad_for(info: DeviceInfo) -> PadSection | None:
     """The shipped mapping for this very device."""
-    return next((pad for pad in shipped() if any(fits(device, info) for device in pad.devices)), None)
+    return next((pad for pad in shipped() if any(_is_for(device, info) for device in pad.devices)), None)
+
+
+def _is_for(device: PadDeviceSection, info: DeviceInfo) -> bool:
+    """A mapping by the names of a descriptor is for no device whose controls a driver has named, nor the other way."""
+    return (device.driver or "") == info.driver and fits(device, info)
 
 
 def fits(device: DeviceSection, info: DeviceInfo) -> bool:

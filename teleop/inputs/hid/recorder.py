@@ -39,6 +39,7 @@ class Recorder:
                 "interface": self._info.interface,
                 "usages": [[info.usage_page, info.usage] for info in infos],
                 **({"port": self._info.port} if self._info.port else {}),
+                **({"driver": self._info.driver} if self._info.driver else {}),
             },
             descriptor=self._device.get_report_descriptor().hex(),
         )

@@ -124,9 +124,9 @@ def _infos(path: bytes, device: Any) -> Sequence[DeviceInfo]:
     interface = device.get("interface", 0)
     if not isinstance(interface, int):
         raise ValueError(f'device: "interface" must be a number, not {interface!r}')
-    serial, name, port = (str(device.get(key) or "") for key in ("serial", "name", "port"))
+    serial, name, port, driver = (str(device.get(key) or "") for key in ("serial", "name", "port", "driver"))
     return [
-        DeviceInfo(path, ids[0], ids[1], serial, name, page, usage, interface, port)
+        DeviceInfo(path, ids[0], ids[1], serial, name, page, usage, interface, port, driver)
         for page, usage in usages or [(0, 0)]
     ]
 

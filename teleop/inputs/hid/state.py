@@ -75,6 +75,7 @@ class HidState:
         self.vital: Collection[int] = frozenset(field.report_id for field in fields)
         self.values: Mapping[str, Sample] = {}
         self.last = self.differed = -math.inf  # when a report came, and when one was unlike the one before it
+        self.opaque: tuple[int, float] | None = None  # id and time of a report without controls
         self._changes: deque[Change] = deque(maxlen=MAX_CHANGES)
         self._ids = {name: field.report_id for field in reversed(fields) for name in _names(field)}
         self._reports: dict[int, bytes] = {}
@@ -104,6 +105,10 @@ class HidState:
         """The reports that these controls are in."""
         return sorted({self._ids[name] for name in names if name in self._ids})
 
+    def is_described(self, report_id: int) -> bool:
+        """Whether the descriptor has such a report at all, if only as a vendor's own."""
+        return report_id in self._descriptor.lengths
+
     def length(self, report_id: int) -> int:
         """Bytes of a report, its id included where the device numbers its reports."""
         return self._descriptor.lengths.get(report_id, 0)
@@ -121,6 +126,7 @@ class HidState:
             for name, sample in self._samples(control):
                 held[name] = sample._replace(relative=self.counting[name]) if name in self.counting else sample
         if not held:
+            self.opaque = number, now
             return
         if number in self.vital:
             self.last = now

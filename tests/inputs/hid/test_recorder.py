@@ -51,3 +51,12 @@ def test_a_recording_is_read_as_the_device_that_it_was(tmp_path: Path, serial: b
     assert ("S1" in file.read_text()) is serial
     assert json.loads(file.read_text().splitlines()[0])["device"]["vendor"] == "1234"
     assert (pad.closed, again.closed, recorder.reports) == (1, 1, 2)
+
+
+def test_the_driver_and_the_port_of_a_device_are_recorded(tmp_path: Path) -> None:
+    pad, file = FakeDevice(F310), tmp_path / "pad.jsonl"
+    pad.info = pad.info._replace(port="1-2.3", driver="xpad")
+    with file.open("w") as stream:
+        Recorder(FakeBackend(pad), [pad.info], stream, Seconds()).close()
+    [info] = read_recording(file).infos
+    assert (info.port, info.driver) == ("1-2.3", "xpad")
