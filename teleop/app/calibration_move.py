@@ -7,7 +7,7 @@ harmless, and because a lag and a dead time then look the same.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 from teleop.core.axes import Axis, Limits, Motion
@@ -68,9 +68,10 @@ class CalibrationMove:
 
     def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         place, velocity, acceleration = self._at(now - self.begin)
-        wish: Setpoint = StateTarget(self._rest + self._side * place, self._side * velocity, self._side * acceleration)
-        demand: Mapping[Axis, Setpoint] = {self._axis: wish}
-        return demand, ()
+        setpoint: Setpoint = StateTarget(
+            self._rest + self._side * place, self._side * velocity, self._side * acceleration
+        )
+        return {self._axis: setpoint}, ()
 
     def status(self, now: float) -> RunStatus:
         """What a view shows of it at `now`."""

@@ -14,7 +14,7 @@ from teleop.config.profile import Profile
 from teleop.core.axes import Axis
 from teleop.core.errors import UsageError
 from teleop.recording.writer import ENDING
-from teleop.sequence.compile import CompiledSequence, load_performance
+from teleop.sequence.compile import CompiledSequence, load_sequence
 
 if TYPE_CHECKING:
     from teleop.timelapse.compile import Timelapse
@@ -96,7 +96,7 @@ def _planned(file: str, profile: Profile, share: float) -> Plan:
     if timelapse := load_timelapse(file, limits, profile.name):
         return Plan(profile, timelapse.rehearsal(), timelapse)
     devices = [sink.type for sink in profile.sinks]
-    return Plan(profile, load_performance(file, limits, profile.name, devices))
+    return Plan(profile, load_sequence(file, limits, profile.name, devices))
 
 
 def _plain(value: Any) -> Any:

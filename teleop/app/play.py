@@ -49,4 +49,4 @@ def following(profile: Profile) -> Profile:
 
 def source_of(sequence: CompiledSequence, profile: Profile, share: float, speed: float, cycle: Cycle) -> SequenceSource:
     """The source that plays it with `share` of the rig's limits; raises PlanError where the speed is too high."""
-    return SequenceSource(sequence, sequence_limits(profile.limits, share), speed, staging=cycle)
+    return SequenceSource(sequence, sequence_limits(profile.limits, share), speed, cycle=cycle)

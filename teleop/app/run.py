@@ -11,6 +11,7 @@ from types import TracebackType
 from typing import Protocol, Self
 
 from teleop.core.axes import Axis
+from teleop.core.events import DeviceCommand
 from teleop.core.interfaces import Observer, Sink, Source
 from teleop.core.run_state import Result
 from teleop.devices.drone.state import DroneState
@@ -82,7 +83,10 @@ def run(
 
 
 def commands(
-    rig: Rig, axes: Sequence[Axis], say: Callable[[str], object], done: Callable[[str], object] = lambda _words: None
+    rig: Rig,
+    axes: Sequence[Axis],
+    say: Callable[[str], object],
+    done: Callable[[DeviceCommand], object] = lambda _command: None,
 ) -> tuple[list[Observer], list[Sink]]:
     """The observers of the links, and the sink of a gimbal's own commands where the rig has one; `say` is for both.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from teleop.app.drone_flight import Aboard, is_flown
@@ -26,6 +27,7 @@ from teleop.planner.offset_limits import trim_limits
 from teleop.recording.writer import Recorder, recording
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.playback_controls import PlaybackControls
+from teleop.sequence.progress import run_status
 from teleop.sequence.source import SequenceSource
 from teleop.sequence.trim_export import TrimmedFile
 
@@ -78,14 +80,14 @@ class SequenceRun:
         with ExitStack() as stack:
             controls, guard, trim = self._controls(stack)
             recorder = stack.enter_context(self._recording(aboard))
-            if source.staging.trigger is not None:
-                source.staging.trigger.open(stack)
+            if source.cycle.trigger is not None:
+                source.cycle.trigger.open(stack)
             rig = stack.enter_context(open_rig(self.profile, self.clock))
-            repeatability = Repeatability(source.place) if source.staging.compared else None
+            repeatability = Repeatability(source.place) if source.cycle.compared else None
             observers, sinks = commands(rig, axes, self.notify)
             keys = None if self.keys is None else stack.enter_context(self.keys)
             observers += [each for each in (keys, trim, repeatability) if each is not None]
-            status_of = source.status if controls is None else controls.status
+            status_of = partial(run_status, source) if controls is None else controls.status
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             screen = make_screen(self.limits, shown, recorder)
             aboard.board(rig, axes, screen.say, by_script=True)

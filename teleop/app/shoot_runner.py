@@ -28,7 +28,7 @@ from teleop.devices.shutter import ShutterSink
 from teleop.inputs.keyboard import CLOSED
 from teleop.manual.stop_guard import Relay, StopGuard, Together
 from teleop.timelapse.compile import Timelapse
-from teleop.timelapse.journal import Frame, Journal
+from teleop.timelapse.journal import FrameState, Journal
 from teleop.timelapse.movers import GlideMover, StepMover
 from teleop.timelapse.progress import Progress
 from teleop.timelapse.source import TimelapseSource
@@ -81,10 +81,10 @@ class Shooting:
         self._inputs = [*([] if keys is None else [keys]), *inputs]
         self.guard: StopGuard | None = None
         self._camera = camera_link(profile)
-        shot = sum(state is Frame.DONE for state in journal.frames.values())
+        shot = sum(state is FrameState.DONE for state in journal.frames.values())
         self.progress = Progress(timelapse.slots, timelapse.fps, shot, frame=journal.next)
-        self.progress.doubtful += [each for each, state in journal.frames.items() if state is Frame.DOUBTFUL]
-        self.progress.lost += [each for each, state in journal.frames.items() if state is Frame.MISSED]
+        self.progress.doubtful += [each for each, state in journal.frames.items() if state is FrameState.DOUBTFUL]
+        self.progress.lost += [each for each, state in journal.frames.items() if state is FrameState.MISSED]
         self._begin = math.inf  # when the first frame of the first run was due
         self._source: TimelapseSource | None = None
         self.links: Mapping[str, Mapping[str, int]] = {}
@@ -135,17 +135,17 @@ class Shooting:
     def _one_run(self) -> tuple[Ended, Sequence[BaseException], bool]:
         """How it ended, what was raised in it, and whether the rig was reached."""
         timelapse, first = self._timelapse, self._journal.next
-        carriage = GlideMover(timelapse, self._executor) if timelapse.continuous else StepMover(timelapse)
+        mover = GlideMover(timelapse, self._executor) if timelapse.continuous else StepMover(timelapse)
         relays = [Relay(each) for each in self._inputs]
         keys = Together(relays) if relays else None
-        source = TimelapseSource(timelapse, carriage, self._journal, first, self.progress, self._slot, keys)
+        source = TimelapseSource(timelapse, mover, self._journal, first, self.progress, self._slot, keys)
         self._source = source
         guard = StopGuard(source, relays, self._say, LOOK, self.guard.stopped_by if self.guard else "")
         self.guard = guard
         self._runs += 1
         try:
             with open_rig(self._profile, self._clock) as rig:
-                shutter = ShutterSink(rig.connections[self._camera], source.heard)
+                shutter = ShutterSink(rig.connections[self._camera], source.on_shutter_result)
                 notes = LinkNotes(rig.connections.values(), self._say)
                 self._loop = rig.loop(list(timelapse.limits), [guard], [notes, *self._observers], [shutter])
                 if self._interrupted:
@@ -186,7 +186,7 @@ class Shooting:
             return
         said = f"frame {frame} may be missing: the shoot stopped at its shutter"
         if self._in_doubt == "skip":
-            self._journal.note(frame, Frame.DOUBTFUL)
+            self._journal.note(frame, FrameState.DOUBTFUL)
             self._journal.catch_up()
             self.progress.doubtful.append(frame)
             self._say(f"{said}; it counts as shot")

@@ -38,7 +38,7 @@ class ShootOptions:
         asked = [name for name in ("rehearse", "resume", "restart") if getattr(self, name)]
         in_doubt = ["in-doubt"] if self.in_doubt != NOTHING_ASKED.in_doubt else []
         if not timelapse and (unfit := asked + in_doubt):
-            raise DocumentError([f"--{unfit[0]}: {file} is no timelapse"])
+            raise DocumentError([f"--{unfit[0]}: {file} is not a timelapse"])
         if len(asked) > 1:
             raise DocumentError([f"--{asked[0]} and --{asked[1]} do not go together"])
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def summary(timelapse: Timelapse) -> str:
-    """`720 frames, 5 s apart: 59 m 55 s of shooting, 30.00 s of clip at 24 fps`."""
+    """`720 frames, 5 s apart: 59 min 55 s of shooting, 30.00 s of clip at 24 fps`."""
     slots = timelapse.slots
     apart = f"{slots.first:g} s" if not slots.change else f"{slots.first:g} to {slots.last:g} s"
     clip = (
@@ -38,10 +38,10 @@ def facts(timelapse: Timelapse) -> Mapping[str, object]:
 
 
 def clock(seconds: float) -> str:
-    """`2 h 03 m`, `4 m 05 s`, `12.5 s`."""
+    """`2 h 3 min`, `4 min 5 s`, `4 min`, `12.5 s`."""
     if seconds < 60:
         return f"{seconds:.1f} s"
     whole = round(seconds)
-    if whole < 3600:
-        return f"{whole // 60} m {whole % 60:02} s"
-    return f"{whole // 3600} h {whole % 3600 // 60:02} m"
+    first, second = divmod(whole if whole < 3600 else whole // 60, 60)
+    large, small = ("min", "s") if whole < 3600 else ("h", "min")
+    return f"{first} {large}" + (f" {second} {small}" if second else "")

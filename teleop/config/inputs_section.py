@@ -13,10 +13,12 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field, field_validator
 
 from teleop.config.base_model import Finite, Section
+from teleop.config.device_commands import DRONE, parse_command
 from teleop.config.document import DocumentError, Location, Wrong, mapping, sequence
 from teleop.config.resources import find
 from teleop.core.axes import STICKS, Axis
 from teleop.core.operator_input import Command
+from teleop.dji.message import FieldError
 
 PADS = "profiles/pads"  # where the shipped mappings lie
 DIRECTIONS = ("up", "right", "down", "left")
@@ -29,7 +31,6 @@ Amount = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 AxisName = Annotated[Axis, Field(strict=False)]
 CommandName = Annotated[Command, Field(strict=False)]
 
-DRONE = "drone "  # begins the words that a drone is told
 _NUMBERED = frozenset({"recall", "store", "delete"})
 _AXES = frozenset(axis.value for axis in Axis)
 
@@ -241,7 +242,8 @@ def _action_rules(action: Mapping[str, Any], here: Location, axes: Mapping[str, 
     if "number" in action and not asked & _NUMBERED:
         yield (*here, "number"), "is for recall, store and delete"
     command = action.get("command")
-    if press == "engage" or (press == "tell" and isinstance(command, str) and command.startswith(DRONE)):
+    to_drone = isinstance(command, str) and command.split()[:1] == [DRONE]
+    if press == "engage" or (press == "tell" and to_drone):
         yield (
             here,
             "must be held: use `hold` to engage a drone or command it, with a `press` beside it (press: disengage)",
@@ -250,8 +252,18 @@ def _action_rules(action: Mapping[str, Any], here: Location, axes: Mapping[str, 
         yield here, "needs a command: gimbal follow lock"
     if "command" in action and "tell" not in asked:
         yield (*here, "command"), "is for tell"
+    elif isinstance(command, str) and command and (wrong := _command_error(command)):
+        yield (*here, "command"), wrong
     if "hold" in action and press is None:
         yield (*here, "hold"), "needs a press beside it, for a short press"
+
+
+def _command_error(command: str) -> str:
+    try:
+        parse_command(command)
+    except (ValueError, FieldError) as error:
+        return f": {error}"
+    return ""
 
 
 def _wheel_rules(control: Mapping[str, Any], here: Location) -> Iterator[Wrong]:

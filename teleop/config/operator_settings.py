@@ -1,7 +1,7 @@
-"""How a rig lies in the hand: the profile's `sticks` and `presets`, with the figures of design page operation.md.
+"""How a rig answers to its operator: the profile's `sticks` and `presets`.
 
 Recorded sticks keep the shape they were recorded with, so for them a dead zone or an expo that is not written is none;
-a hand at a stick wants both. A section therefore knows whether they were given.
+a stick in use needs both. A section therefore knows whether they were given.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from teleop.config.base_model import Section
 from teleop.config.json_types import Time
 from teleop.config.quantities import seconds
 
-DEAD_ZONE = 0.06  # of a stick in a hand, when the profile has none
+DEAD_ZONE = 0.06  # of a stick in use, when the profile has none
 EXPO = 0.4
 RANGES = [0.1, 0.35, 1.0]  # slow, medium, fast
 

@@ -150,7 +150,7 @@ def _rules(data: Any) -> Iterator[Wrong]:
             yield ("presets", key), "must be a number from 0 to 999"
         section = mapping(section)
         if section and not any(number(section.get(axis.value)) is not None for axis in Axis):
-            yield ("presets", key), "names no axis (pan, tilt, roll, focus)"
+            yield ("presets", key), "has no axis (pan, tilt, roll, focus)"
 
 
 def _preset(section: PresetSection) -> Preset:

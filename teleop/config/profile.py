@@ -15,6 +15,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from teleop.config.base_model import Finite, Section
+from teleop.config.device_commands import DRONE
 from teleop.config.document import Document, DocumentError, Wrong, mapping, number
 from teleop.config.enable_rules import enable_rules
 from teleop.config.file_kinds import refuse_other_kind
@@ -123,14 +124,14 @@ def _is_used(section: SinkSection, axes: Collection[Axis], acts: Iterable[object
     moves = section.axes if isinstance(section, GimbalSection) else MOVES[section.type]
     if any(axis in axes for axis in moves if axis is not None):
         return True
-    told = [act.words for act in acts if isinstance(act, DeviceCommand)]
+    addressees = {act.device for act in acts if isinstance(act, DeviceCommand)}
     match section.type:
         case "camera":
             return any(isinstance(act, Action | Exposure) for act in acts)
         case "gimbal":
-            return any(not words.startswith("drone ") for words in told)
+            return bool(addressees - {DRONE})
         case "virtual-rc" | "flight":
-            return any(words.startswith("drone ") for words in told)
+            return DRONE in addressees
     return False
 
 

@@ -22,9 +22,17 @@ class Action(StrEnum):
 
 
 class DeviceCommand(NamedTuple):
-    """A device's own command in plain words, for whichever sink speaks its language: `gimbal follow lock`."""
+    """A command that only its device knows: `gimbal follow lock`, `focus set position=5`, `drone land`.
 
-    words: str
+    `arguments` are written `field=value`. `str` is the command as `teleop send` takes it.
+    """
+
+    device: str
+    name: str
+    arguments: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return " ".join((self.device, self.name, *self.arguments))
 
 
 class DialInput(NamedTuple):

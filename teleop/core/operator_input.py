@@ -13,10 +13,11 @@ from enum import StrEnum
 from typing import NamedTuple, Protocol
 
 from teleop.core.axes import Axis
+from teleop.core.events import DeviceCommand
 
 
 class Command(StrEnum):
-    """What a button or a key asks for; `Press.number` says which preset, `Press.words` what a device is told."""
+    """What a button or a key asks for; `Press.number` is that of the preset, `Press.device_command` what TELL sends."""
 
     STOP = "stop"  # latched
     CLEAR = "clear"  # of the STOP
@@ -44,7 +45,7 @@ class Command(StrEnum):
 class Press(NamedTuple):
     command: Command
     number: int = 0
-    words: str = ""
+    device_command: DeviceCommand | None = None
 
 
 @dataclass(frozen=True, slots=True)

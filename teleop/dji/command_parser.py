@@ -59,22 +59,26 @@ class Vocabulary(NamedTuple):
         fields = fields_of(words)
         if len(fields) < sum("=" in word for word in words):
             raise FieldError("duplicate field")
-        name = spoken(" ".join(word for word in words if "=" not in word))
-        names = [name, *(f"{device} {name}" for device in self.devices)]
-        for full in names:
-            if full in self.plain and not fields:
-                return self.plain[full]
-            if full in self.commands:
-                command = self.commands[full]
-                return command.from_fields(command.completed(fields))
-        if any(full in self.plain for full in names):
-            raise FieldError(f"{name} takes no fields")
-        return self._unknown(name)
+        name = self.full_name(words)
+        if name in self.plain and not fields:
+            return self.plain[name]
+        if name in self.commands:
+            command = self.commands[name]
+            return command.from_fields(command.completed(fields))
+        raise FieldError(f"{name} takes no fields")
 
-    def _unknown(self, name: str) -> Message:
+    def full_name(self, words: Sequence[str]) -> str:
+        """The command's name with its device: `gimbal follow lock` for `follow lock`. Raises FieldError."""
+        name = spoken(" ".join(word for word in words if "=" not in word))
+        for full in (name, *(f"{device} {name}" for device in self.devices)):
+            if full in self.plain or full in self.commands:
+                return full
+        raise self._unknown(name)
+
+    def _unknown(self, name: str) -> FieldError:
         all_words = [*self.commands, *self.plain]
         near = get_close_matches(name, list(chain(all_words, (full.split(" ", 1)[1] for full in all_words))), 1)
-        raise FieldError(f"there is no command {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
+        return FieldError(f"unknown command {name}" + (f"; did you mean {near[0]}?" if near else ""))
 
 
 class FieldHelp(NamedTuple):

@@ -11,7 +11,9 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+from teleop.config.device_commands import DRONE, DRONE_COMMANDS
 from teleop.core.axes import Axis
+from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command, Press
 
 STOP = " "
@@ -62,22 +64,19 @@ PREFIXES: Mapping[str, tuple[str, Mapping[str, Act]]] = {
     "x": ("delete which preset? 0-9", {str(digit): Press(Command.DELETE, digit) for digit in range(10)}),
     "f": (
         "follow mode? l lock, y yaw, s sport",
-        {key: Press(Command.TELL, words=f"gimbal follow {mode}") for key, mode in FOLLOW_MODES.items()},
+        {
+            key: Press(Command.TELL, device_command=DeviceCommand("gimbal", f"follow {mode}"))
+            for key, mode in FOLLOW_MODES.items()
+        },
     ),
 }
 """Keys that ask for a second one: the question, and its answers. Any other key takes it back."""
 
 SPELL, SPELLING = "d", "drone command: "
 DRONE_WORDS: Mapping[str, Act] = {
+    **{name: Press(Command.TELL, device_command=DeviceCommand(DRONE, name)) for name in DRONE_COMMANDS},
     "engage": Press(Command.ENGAGE),
     "disengage": Press(Command.DISENGAGE),
-    **{
-        word: Press(Command.TELL, words=f"drone {word}")
-        for word in (
-            *("arm", "disarm", "take-off", "land", "home", "home-off"),
-            *("mode-p", "mode-a", "mode-f", "gear-up", "gear-down"),
-        )
-    },
 }
 """What can be spelled after the key that begins a word."""
 

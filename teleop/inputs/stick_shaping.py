@@ -17,7 +17,7 @@ def shape(deflection: float, dead_zone: float, expo: float) -> float:
     """A deflection of -1..1 as a share of -1..1: the dead zone, rescaled so that nothing jumps at its edge, then expo.
 
     `dead_zone` is the deflection below which there is nothing (0..0.3), `expo` how much of the answer is cubic
-    (0..0.75), which makes slow moves finer; 0 and 0 leave the deflection as it is. See docs/how-to/live.md.
+    (0..0.75), which makes slow moves finer; 0 and 0 leave the deflection as it is. It is the expo of RC transmitters.
     """
     beyond = max(0.0, (min(abs(deflection), 1.0) - dead_zone) / (1 - dead_zone))
     return math.copysign((1 - expo) * beyond + expo * beyond**3, deflection)

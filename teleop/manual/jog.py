@@ -77,8 +77,8 @@ class Jog:
     def clear(self) -> None:
         self._targets.clear()
 
-    def wishes(self, now: float, motion: Motion, share: float) -> dict[Axis, Setpoint]:
-        """What is still to be done by askers that are still trusted; the rest is forgotten.
+    def setpoints(self, now: float, motion: Motion, share: float) -> dict[Axis, Setpoint]:
+        """Setpoints of the targets whose inputs are still unlocked; the others are dropped.
 
         `share` is the most of its velocity that a step may give an axis.
         """
@@ -89,7 +89,7 @@ class Jog:
                 target.stops = abs(target.position - at_rest(state, limits).position) > _SLACK
                 target.held = False
             rests = state.velocity == 0 and state.acceleration == 0
-            if not target.asker.trusted or (rests if target.stops else is_at(state, target.position)):
+            if not target.asker.unlocked or (rests if target.stops else is_at(state, target.position)):
                 del self._targets[axis]
             elif target.stops:
                 demand[axis] = VelocityTarget(0.0)

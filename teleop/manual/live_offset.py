@@ -1,9 +1,9 @@
-"""An operator's hands on a sequence that plays: they add an offset to it, axis by axis, live.
+"""Trims a sequence that plays: an operator's inputs add an offset to it, axis by axis, live.
 
-For the hands an offset is an axis like any other: its limits are what the sequence leaves of the rig's
-(`planner.trim`), its 0 is the sequence itself, and all that holds for a hand in `teleop live` (centred first, stale is
-rest, jogs, sliders, speed ranges) holds here, by the same code. So the sum is legal whatever either of them does. An
-offset that no hand moves is held; letting it go is a recall of 0.
+For the inputs an offset is an axis like any other: its limits are what the sequence leaves of the rig's
+(`planner.offset_limits`), its 0 is the sequence itself, and all that holds for an input of `teleop live` (centered
+first, stale is rest, jogs, sliders, speed ranges) holds here, by the same code. So the sum is always legal. An offset
+that no input moves is held; to release it is a recall of 0.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ class LiveOffset:
     """
 
     def __init__(self, limits: Mapping[Axis, Limits], inputs: Sequence[Input], sticks: SticksSection) -> None:
-        self._hands = [Interlock(device) for device in inputs]
+        self._locks = [Interlock(device) for device in inputs]
         self._limits = limits
         self._sticks, self._range = sticks, sticks.start_range - 1
         self._log, self._now = MessageLog(), 0.0
-        self._driving = Arbitration(limits, self._hands, sticks, self.say)
+        self._arbitration = Arbitration(limits, self._locks, sticks, self.say)
         self._live = Live(limits, PERIOD)
         self._live.reset(dict.fromkeys(limits, State(0.0)))
         self.offsets: dict[Axis, State] = self._live.motion
@@ -53,43 +53,43 @@ class LiveOffset:
         self._log.say(self._now, text)
 
     def read(self, now: float) -> list[tuple[str, Press]]:
-        """What the hands have pressed, with the name of each; what they hold is kept for `step`."""
-        presses = [(hand.name, press) for hand in self._hands for press in hand.read(now, True).presses]
+        """What was pressed, with the name of each input; what the inputs hold is kept for `step`."""
+        presses = [(lock.name, press) for lock in self._locks for press in lock.read(now, True).presses]
         seconds, self._now = now - self._now, now
         self._seconds = max(seconds, PERIOD)
-        notes = [note for hand in self._hands for note in hand.said.notes]
-        for text in (*self._log.changes(self._hands, self._driving.drivers), *notes):
+        notes = [note for lock in self._locks for note in lock.held.notes]
+        for text in (*self._log.changes(self._locks, self._arbitration.drivers), *notes):
             self.say(text)
         return presses
 
     def step(self, motion: Mapping[Axis, State], allowed: bool) -> dict[Axis, State]:
         """`motion` with the offsets, of the tick that was read; where nothing is `allowed` these come to rest."""
         if not allowed:
-            self._driving.let_go()
+            self._arbitration.drop_all()
         # After a rest one tick is enough, as it is for the loop; else as many as have gone by.
         ticks = 1 if self._live.at_rest else round(self._seconds / PERIOD)
-        wishes = self._driving.wishes(self._now, self._seconds, self.offsets, self.share)
-        self.offsets = self._live.step(wishes if allowed else {}, ticks)
+        setpoints = self._arbitration.setpoints(self._now, self._seconds, self.offsets, self.share)
+        self.offsets = self._live.step(setpoints if allowed else {}, ticks)
         return trimmed(motion, self.offsets)
 
     def halt(self) -> None:
         """The axes are stopped, offsets and all: every offset is where its own fastest stop would end, at rest.
 
-        What the hands had asked for is over, and each has to be seen centered again.
+        What the inputs had asked for is over, and each must be centered again.
         """
-        self._driving.let_go()
-        for hand in self._hands:
-            hand.distrust()
+        self._arbitration.drop_all()
+        for lock in self._locks:
+            lock.relock()
         self._live.reset({axis: at_rest(state, self._limits[axis]) for axis, state in self.offsets.items()})
         self.offsets = self._live.motion
 
     def release(self, name: str) -> None:
-        """Take every offset back to 0, as this hand asks; a stick ends that."""
-        hand = next(hand for hand in self._hands if hand.name == name)
-        if hand.waits_for:
-            self.say(f"trim unchanged: {name} is locked: {hand.waits_for}")
+        """Take every offset back to 0, as this input asks; a stick ends that."""
+        lock = next(lock for lock in self._locks if lock.name == name)
+        if lock.waits_for:
+            self.say(f"trim unchanged: {name} is locked: {lock.waits_for}")
         elif any(state.position for state in self.offsets.values()):
-            self._driving.begin(Recall("trim to 0", hand, dict.fromkeys(self.offsets, 0.0), self._now, RELEASE))
+            self._arbitration.begin(Recall("trim to 0", lock, dict.fromkeys(self.offsets, 0.0), self._now, RELEASE))
 
     def change_range(self, by: int, around: bool = False) -> None:
         """To a slower or faster range; `around`: after the fastest comes the slowest."""

@@ -44,7 +44,7 @@ class Recall:
     begun: float
     seconds: float
 
-    def wishes(self) -> dict[Axis, Setpoint]:
+    def setpoints(self) -> dict[Axis, Setpoint]:
         return {axis: PositionTarget(target, self.seconds) for axis, target in self.targets.items()}
 
     def is_over(self, motion: Motion) -> bool:

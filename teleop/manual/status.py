@@ -14,7 +14,7 @@ KEPT = 20  # messages
 
 
 class Message(NamedTuple):
-    """A line for the operator, and when it was said on the loop's clock."""
+    """A line for the operator, and its time on the loop's clock."""
 
     time: float
     text: str
@@ -35,15 +35,15 @@ class OperatorStatus:
 
     `range` is the index of the speed range in force among `ranges`, `deflections` (-1..1) is what came of all sticks,
     `recall` what the axes are being taken to, "" for nothing, and `recall_end` when they are to be there. `recording`
-    is what the camera was last told, `follow` the gimbal's follow mode that it last confirmed, "" for none. `presets`
-    are the names of those stored, "" for one that has none.
+    is whether the camera has confirmed that it records, `follow` the gimbal's follow mode that it last confirmed, ""
+    for none. `presets` are the names of those stored, "" for one that has none.
     """
 
-    hands: Sequence[InputStatus]
+    inputs: Sequence[InputStatus]
     ranges: Sequence[float]
     range: int
     stopped: bool
-    hands_on: bool
+    manual_control: bool
     recall: str
     recall_end: float
     recording: bool
@@ -54,32 +54,32 @@ class OperatorStatus:
 
 
 class MessageLog:
-    """The messages, and what was last said of each input, so that nothing is said twice."""
+    """The messages, and the last one about each input, so that none comes twice."""
 
     def __init__(self) -> None:
         self.messages: tuple[Message, ...] = ()
-        self._said: deque[Message] = deque(maxlen=KEPT)
+        self._kept: deque[Message] = deque(maxlen=KEPT)
         self._troubles: dict[Interlock, str] = {}
         self._hinted: set[Interlock] = set()
 
     def say(self, now: float, text: str) -> None:
-        if self._said and self._said[0].text == text:
-            self._said.popleft()
-        self._said.appendleft(Message(now, text))
-        self.messages = tuple(self._said)
+        if self._kept and self._kept[0].text == text:
+            self._kept.popleft()
+        self._kept.appendleft(Message(now, text))
+        self.messages = tuple(self._kept)
 
-    def changes(self, hands: Sequence[Interlock], drivers: Mapping[Axis, Interlock]) -> Iterator[str]:
+    def changes(self, locks: Sequence[Interlock], drivers: Mapping[Axis, Interlock]) -> Iterator[str]:
         """A line for each input whose state has changed; `drivers` are those that moved an axis until now."""
-        for hand in hands:
-            trouble, before = hand.said.trouble, self._troubles.get(hand, "")
-            self._troubles[hand] = trouble
+        for lock in locks:
+            trouble, before = lock.held.trouble, self._troubles.get(lock, "")
+            self._troubles[lock] = trouble
             if trouble and trouble != before:
-                stops = [axis.value for axis, driver in drivers.items() if driver is hand]
+                stops = [axis.value for axis, driver in drivers.items() if driver is lock]
                 yield f"{trouble}: {' and '.join(stops)} stopped" if stops else trouble
             elif before and not trouble:
-                yield f"{hand.name}: {hand.waits_for or 'ready'}"
-            if hand.trusted:
-                self._hinted.discard(hand)
-            elif not trouble and hand not in self._hinted and any(hand.said.deflections.values()):
-                self._hinted.add(hand)
-                yield f"{hand.name} is locked: {hand.waits_for}"
+                yield f"{lock.name}: {lock.waits_for or 'ready'}"
+            if lock.unlocked:
+                self._hinted.discard(lock)
+            elif not trouble and lock not in self._hinted and any(lock.held.deflections.values()):
+                self._hinted.add(lock)
+                yield f"{lock.name} is locked: {lock.waits_for}"

@@ -22,7 +22,7 @@ from teleop.core.operator_input import Command, Held, Input, Press
 from teleop.core.run_status import Hint, RunStatus, stop_state
 from teleop.core.setpoints import Demand, Stop
 
-LOOK = 0.05  # s between two looks at the inputs while nothing moves
+KEYS_PERIOD = 0.05  # s between two looks at the inputs while nothing moves
 GRACE = 1.0  # s after the start within which an input is found and has reported
 STOPPING = "stopping: all axes slow down to rest"
 STOPPED = "STOPPED. Press c to clear, q to end."
@@ -33,12 +33,12 @@ GO_HINTS = (Hint("p", "continue"), Hint("space", "STOP"), Hint("q", "end"))
 
 
 class Hold(Enum):
-    """Who moves the axes."""
+    """What moves the axes."""
 
     FREE = auto()  # the source
-    STOPPED = auto()  # nobody: a STOP that is not cleared
-    CLEARED = auto()  # nobody, until an operator goes on
-    PAUSED = auto()  # nobody, until an operator goes on: there was no STOP
+    STOPPED = auto()  # nothing: a STOP that is not cleared
+    CLEARED = auto()  # nothing, until an operator continues
+    PAUSED = auto()  # nothing, until an operator continues: there was no STOP
 
 
 class Resumable(Source, Protocol):
@@ -93,7 +93,7 @@ class Relay:
     def name(self) -> str:
         return self._device.name
 
-    def look(self, now: float) -> Sequence[Press]:
+    def poll(self, now: float) -> Sequence[Press]:
         """Ask the device; what was pressed, none of which reaches the source unless it is passed on."""
         held = self._device.read(now)
         self.held = replace(held, presses=())
@@ -124,7 +124,7 @@ class Together:
 class StopGuard:
     """`source` under `relays`, which its own inputs have to be; `say` is for lines that the operator is to read.
 
-    `look` (s) is how often the inputs are looked at while nothing moves. `stopped_by` is a STOP from an earlier run of
+    `poll` (s) is how often the inputs are looked at while nothing moves. `stopped_by` is a STOP from an earlier run of
     the same job, which is still latched.
     """
 
@@ -133,10 +133,10 @@ class StopGuard:
         source: Resumable,
         relays: Sequence[Relay],
         say: Callable[[str], object] = lambda _text: None,
-        look: float = LOOK,
+        poll: float = KEYS_PERIOD,
         stopped_by: str = "",
     ) -> None:
-        self._source, self._relays, self.say, self._look = source, relays, say, look
+        self._source, self._relays, self.say, self._period = source, relays, say, poll
         self._hold = Hold.STOPPED if stopped_by else Hold.FREE
         self.stopped_by = stopped_by  # the input that asked for the STOP in force, "" for none
         self._why = ""  # why it is paused
@@ -155,10 +155,10 @@ class StopGuard:
         """Raises Interrupted once an operator has ended it, DeviceError where a lost input does."""
         self._motion = feedback.motion
         # A STOP has the last word: a clear in the same tick does not undo it.
-        pressed = [(relay, press) for relay in self._relays for press in relay.look(now)]
-        self._watch(now)
+        pressed = [(relay, press) for relay in self._relays for press in relay.poll(now)]
+        self._check_stops(now)
         for relay, press in sorted(pressed, key=lambda each: each[1].command is Command.STOP):
-            self._obey(relay, press, now)
+            self._handle(relay, press, now)
         if self._end is not None:
             raise self._end
         if self._going and self._rests and not self._source.busy:
@@ -171,8 +171,8 @@ class StopGuard:
     def next_change(self, now: float) -> float:
         if self._hold is Hold.FREE:
             change = self._source.next_change(now)
-            return change if math.isinf(change) or not self._relays else min(change, now + self._look)
-        return now if self._source.busy or not self._rests else now + self._look
+            return change if math.isinf(change) or not self._relays else min(change, now + self._period)
+        return now if self._source.busy or not self._rests else now + self._period
 
     @property
     def halted(self) -> bool:
@@ -216,7 +216,7 @@ class StopGuard:
     def _rests(self) -> bool:
         return all(state.velocity == 0 and state.acceleration == 0 for state in self._motion.values())
 
-    def _obey(self, relay: Relay, press: Press, now: float) -> None:
+    def _handle(self, relay: Relay, press: Press, now: float) -> None:
         command = press.command
         if command is Command.STOP:
             self._stop(relay.name, now)
@@ -254,7 +254,7 @@ class StopGuard:
             self._source.suspend(now)
         self._hold, self._going = hold, False
 
-    def _watch(self, now: float) -> None:
+    def _check_stops(self, now: float) -> None:
         """Whether each STOP still counts: one that is lost pauses the run."""
         for relay in self._relays:
             trouble, before = relay.held.stop, relay.trouble
@@ -266,9 +266,9 @@ class StopGuard:
                 if trouble:
                     continue
             elif trouble:
-                self.say(f"{trouble}: its STOP does not count")
+                self.say(f"{trouble}: its STOP does not work")
             else:
-                self.say(f"{relay.name}: its STOP counts{' again' if before else ''}")
+                self.say(f"{relay.name}: its STOP works{' again' if before else ''}")
             relay.trouble = trouble
         if self._lost and self._hold is Hold.FREE:
             paused = self._source.pause(now) if self._source.pauses else False

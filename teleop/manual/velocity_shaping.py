@@ -1,8 +1,8 @@
 """One axis under a stick: from a deflection to the velocity that is asked of the planner, and how gently.
 
-The low-pass takes the noise out of a hand: 3 % of it doubles the jerk (planning.md, A). The ramp is the damping
-control: gentler limits, with which full speed takes that long. They follow the speed that is to be ramped, not only
-the range: a range lowered in full flight, or a preset left at its fastest, is to stop as soon as any other motion.
+The low-pass takes out the noise of a hand: 3 % of it doubles the jerk (docs/explanation/planning.md, A). The ramp is
+the damping control: gentler limits, with which full speed takes that long. They follow the speed that is to be ramped,
+not only the range: a range lowered at full speed, or a preset left at its fastest, stops as soon as any other motion.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ class VelocityShaping:
         self._smooth = self._fastest = 0.0
 
     def drop(self) -> None:
-        """The hand is gone: what it asked for no longer counts, not even as a memory of the low-pass."""
+        """Forget the input, and what the low-pass remembers of it."""
         self._smooth = 0.0
 
-    def wish(self, deflection: float, share: float, state: State, seconds: float) -> VelocityTarget | None:
+    def setpoint(self, deflection: float, share: float, state: State, seconds: float) -> VelocityTarget | None:
         """What is asked of the axis, `seconds` after the last time; None once it rests and nothing is asked.
 
         `deflection` is -1..1, `share` what full deflection is of the axis's velocity, `state` what it is commanded now.

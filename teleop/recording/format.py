@@ -214,8 +214,8 @@ def _setpoint(setpoint: Setpoint, state: State | None) -> dict[str, Any]:
 
 def _action(event: TickEvent) -> dict[str, Any]:
     match event:
-        case DeviceCommand(words):
-            return {"action": "told", "words": words}
+        case DeviceCommand():
+            return {"action": "told", "words": str(event)}
         case DialInput(speed):
             return {"action": "dialled", "speed": speed}
         case Exposure(frame, step):

@@ -1,7 +1,7 @@
-"""A sequence file: keyframes in YAML to a checked performance, or every reason why not.
+"""A sequence file: from keyframes in YAML to a checked `CompiledSequence`, or every reason why not.
 
 Two checks, both before a port opens. The file alone: shapes, times in order, nothing unknown. The file on a rig: the
-axes are there, the keys lie inside the soft limits, and the planner finds a way; what it cannot plan is said at the
+axes are there, the keys lie inside the soft limits, and the planner finds a way; what it cannot plan is an error at the
 keyframe where it goes wrong. The rules read the plain data, so that all errors of a file come at once.
 """
 
@@ -60,7 +60,7 @@ class CompiledSequence:
         return max([self.move.duration, *(cue.at for cue in self.cues)])
 
 
-def load_performance(
+def load_sequence(
     name: str, limits: Mapping[Axis, Limits], rig: str, devices: Collection[str] | None = None
 ) -> CompiledSequence:
     """The sequence called `name`, shipped or at a path, compiled for a rig with these limits.
@@ -69,36 +69,36 @@ def load_performance(
     for everything wrong with it; UnplayableError when only the rig is in the way.
     """
     reader = SequenceReader(limits, rig, devices)
-    script = reader.read(*find(name, "sequences", "sequence"))
-    if script is None:
+    timeline = reader.read(*find(name, "sequences", "sequence"))
+    if timeline is None:
         kind = UnplayableError if len(reader.problems) + reader.more == reader.beyond_rig else DocumentError
         raise kind(reader.problems, reader.more)
-    sheet, document = script.sheet, script.document
-    if sheet.timelapse is not None:
+    model, document = timeline.model, timeline.document
+    if model.timelapse is not None:
         raise DocumentError([document.problem(("timelapse",), "has keyframes in frames: it is shot, not played")])
     try:
-        keys, move, factor = _planned(script.keys, sheet, {axis: limits[axis] for axis in script.keys})
+        keys, move, factor = _planned(timeline.keys, model, {axis: limits[axis] for axis in timeline.keys})
     except Infeasible as error:
-        raise UnplayableError([script.places[found.last].line(str(found)) for found in error.findings]) from None
-    cues = [timed._replace(cue=timed.cue._replace(at=factor * timed.cue.at)) for timed in script.cues]
+        raise UnplayableError([timeline.places[found.last].line(str(found)) for found in error.findings]) from None
+    cues = [timed._replace(cue=timed.cue._replace(at=factor * timed.cue.at)) for timed in timeline.cues]
     if problems := list(_restless(cues, move)):
         raise DocumentError(problems)
     remarks = [*move.overshoots, *move.long_ramps]
-    warnings = [*script.remarks, *(script.places[remark.last].line(str(remark)) for remark in remarks)]
+    warnings = [*timeline.remarks, *(timeline.places[remark.last].line(str(remark)) for remark in remarks)]
     if factor > 1:
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
         if sticks := [axis for axis in move.tracks if axis.is_stick]:
             warnings.append(document.problem(("fit",), f"does so to {', '.join(sticks)} too: the drone flies further"))
-    title, preroll = sheet.called(document.name), seconds(sheet.preroll, sheet.fps)
+    title, preroll = model.called(document.name), seconds(model.preroll, model.fps)
     done = [timed.cue for timed in cues]
-    return CompiledSequence(title, move, done, warnings, keys, preroll, sheet.back_to_one, sheet.fps)
+    return CompiledSequence(title, move, done, warnings, keys, preroll, model.back_to_one, model.fps)
 
 
-def _planned(keys: Keys, sheet: SequenceModel, limits: Mapping[Axis, Limits]) -> tuple[Keys, Move, float]:
+def _planned(keys: Keys, model: SequenceModel, limits: Mapping[Axis, Limits]) -> tuple[Keys, Move, float]:
     """The keys at the times they will have, the move through them, and how far it had to be stretched."""
-    if sheet.fit is None:
-        return keys, plan(keys, limits, sheet.tension), 1.0
-    move, factor = stretch(keys, limits, sheet.tension)
+    if model.fit is None:
+        return keys, plan(keys, limits, model.tension), 1.0
+    move, factor = stretch(keys, limits, model.tension)
     return {axis: [key.later(factor) for key in of_axis] for axis, of_axis in keys.items()}, move, factor
 
 
@@ -110,7 +110,7 @@ def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
         if needs_rest and not any(rest.start - SAME <= at <= rest.end + SAME for rest in places):
             yield place.line(f"{path_text(place.location)} {_where_it_may_be(move, places, at)}")
         elif isinstance(action, Wait) and held:
-            text = f"would hold {' and '.join(held)} deflected, and the drone would fly on: let it be 0 by then"
+            text = f"holds {' and '.join(held)} deflected, so the drone keeps flying: bring it to 0 before"
             yield place.line(f"{path_text(place.location)} {text}")
 
 

@@ -1,18 +1,20 @@
-"""What happens once at a time of a sequence, beside the motion: the camera, the gimbal's own commands, a wait.
+"""Cues: what happens once at a time of a sequence, beside the motion: camera, the gimbal's own commands, a wait.
 
 A command is looked up, and its ranges are checked, when the file is read. What the gimbal does by itself would be taken
-back by the stream that moves it, so that is refused with what does it instead: a recentre is planned like any other
+back by the stream that moves it, so that is refused with what does it instead: a recenter is planned like any other
 way to a key. What changes how the gimbal behaves is given only where every axis rests, as in `teleop live`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 from pydantic import ConfigDict
 
 from teleop.config.base_model import Section
+from teleop.config.device_commands import parse_command
 from teleop.config.document import Location, Wrong, mapping
 from teleop.config.json_types import Time
 from teleop.core.axes import Axis
@@ -22,15 +24,17 @@ from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.command_table import find, is_taken_back
 from teleop.dji.message import FieldError, Message
 
+LASTING = ((Action.RECORD, Action.STOP), (Action.FOCUS, Action.END_FOCUS))  # what begins it, and ends it
+INSTANT = 1e-6  # s: two times that are closer are the same
 KINDS = ("camera", "follow", "recenter", "send", "wait")
-FOLLOW: Mapping[str, str] = {
-    "lock": "gimbal follow lock",
-    "pan": "gimbal follow yaw",
-    "yaw": "gimbal follow yaw",  # the gimbal's own word for it, and that of `teleop send`
-    "sport": "gimbal follow sport",
+FOLLOW: Mapping[str, DeviceCommand] = {
+    "lock": DeviceCommand("gimbal", "follow lock"),
+    "pan": DeviceCommand("gimbal", "follow yaw"),
+    "yaw": DeviceCommand("gimbal", "follow yaw"),  # the gimbal's own word for it, and that of `teleop send`
+    "sport": DeviceCommand("gimbal", "follow sport"),
 }
-CENTRED = (Axis.PAN, Axis.TILT, Axis.ROLL)
-"""What a recentre takes to 0, and what moves when the gimbal does something by itself."""
+CENTERED = (Axis.PAN, Axis.TILT, Axis.ROLL)
+"""What a recenter takes to 0, and what moves when the gimbal does something by itself."""
 
 _BY_ITSELF = (gimbal.Calibrate, gimbal.ActiveTrack, gimbal.Orient)
 _CAMERA = {
@@ -70,13 +74,15 @@ class CueSection(Section):
         """What is done; None where that is motion."""
         if self.camera:
             return Action(self.camera)
-        if self.follow or self.send:
-            return DeviceCommand(FOLLOW[self.follow] if self.follow else " ".join((self.send or "").split()))
+        if self.follow:
+            return FOLLOW[self.follow]
+        if self.send:
+            return parse_command(self.send)
         return Wait() if self.wait else None
 
     @property
     def needs_rest(self) -> bool:
-        """Whether it may be only where every axis rests; what the camera is told may be anywhere."""
+        """Whether it may be only where every axis rests; a command for the camera may be anywhere."""
         return bool(self.follow or self.wait) or (
             self.send is not None and not find(self.send.split()).name.startswith("camera.")
         )
@@ -96,12 +102,31 @@ class Cue(NamedTuple):
     def name(self) -> str:
         """For people, in a word or a few."""
         match self.action:
-            case DeviceCommand(words):
-                return words
+            case DeviceCommand():
+                return str(self.action)
             case Wait():
                 return "wait"
             case _:
                 return str(getattr(self.action, "value", self.action))
+
+
+def cues_from(cues: Sequence[Cue], start_at: float) -> tuple[list[TickEvent], list[Cue]]:
+    """What to do in place, and in a pass that begins at `start_at` (s), in mid move.
+
+    What came before is not made up for, but for what would be going on by then: the camera records, or focuses, as the
+    run-up begins, and the gimbal has its follow mode.
+    """
+    before = [cue.action for cue in cues if cue.at < start_at - INSTANT]
+    follows = [
+        act
+        for act in before
+        if isinstance(act, DeviceCommand) and act.device == "gimbal" and act.name.startswith("follow")
+    ]
+    going_on = []
+    for on, off in LASTING:
+        switches = [act for act in before if act in (on, off)]
+        going_on += [Cue(-math.inf, on)] if switches[-1:] == [on] else []
+    return [*follows[-1:]], [*going_on, *cues[len(before) :]]
 
 
 def cue_rules(cue: Any, here: Location) -> Iterator[Wrong]:
@@ -116,15 +141,15 @@ def cue_rules(cue: Any, here: Location) -> Iterator[Wrong]:
 
 def moved_rules(cue: Any, here: Location, moved: Collection[str]) -> Iterator[Wrong]:
     """What is wrong with one cue, which has passed `cue_rules`, in a sequence that moves the axes `moved`."""
-    turns = any(axis in moved for axis in CENTRED)
+    turns = any(axis in moved for axis in CENTERED)
     if mapping(cue).get("recenter") is not None and not turns:
-        yield (*here, "recenter"), "moves pan, tilt and roll, and no keyframe has one of them"
+        yield (*here, "recenter"), "needs a keyframe with pan, tilt or roll"
     words = mapping(cue).get("send")
     message = find(words.split()) if words else None
     if isinstance(message, _BY_ITSELF) and turns:
-        yield (*here, "send"), "would have the gimbal move by itself, against the keyframes"
+        yield (*here, "send"), "moves the gimbal by itself, against the keyframes"
     if isinstance(message, focus.Calibrate) and Axis.FOCUS in moved:
-        yield (*here, "send"), "would have the focus motor move by itself, against the keyframes"
+        yield (*here, "send"), "moves the focus motor by itself, against the keyframes"
 
 
 def _unsendable(words: str) -> str:
@@ -132,11 +157,11 @@ def _unsendable(words: str) -> str:
         message = find(words.split())
         message.check()
     except FieldError as error:
-        return f"cannot be sent: {error}"
+        return f": {error}"
     if isinstance(message, camera.Command | camera.ShortCommand) and message.command in _CAMERA:
         return f"must be written as camera: {_CAMERA[camera.CameraCommand(message.command)].value}"
     if is_taken_back(message):
-        return f"would be taken back by what is streamed: {_instead(message)}"
+        return f"conflicts with the motion of the run: {_instead(message)}"
     return ""
 
 

@@ -31,8 +31,8 @@ class Trigger(Protocol):
         """Whether the move is to start; asked every tick while it is armed, so it never waits."""
         ...
 
-    def said(self, now: float) -> str:
-        """What is waited for, in a few words."""
+    def waits_for(self, now: float) -> str:
+        """What it waits for, in a few words."""
         ...
 
 

@@ -35,7 +35,7 @@ def ramp(value: Any, fps: float | None) -> Ramp | None:
     if match := _SHARE.fullmatch(text):
         share = float(match[1]) / 100
         if share > LONGEST_SHARE:
-            raise ValueError(f"must be at most {LONGEST_SHARE:.0%} at each end of a way, not {text}")
+            raise ValueError(f"must be at most {LONGEST_SHARE:.0%} at each end of a move, not {text}")
         return Ramp(share=share)
     if text.isalpha():
         raise ValueError(f"must be {_WRITTEN}, not {text!r}{nearest(text, [SMOOTH, *NAMES])}")

@@ -9,7 +9,7 @@ from teleop.config.document import Document, numbered
 from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.keys import Key
-from teleop.sequence.cues import CENTRED
+from teleop.sequence.cues import CENTERED
 from teleop.sequence.easing import ramps
 from teleop.sequence.model import SequenceModel
 
@@ -21,18 +21,18 @@ class KeysError(Exception):
     """A key that has no place; one line."""
 
 
-def axes_of(sheet: SequenceModel) -> Sequence[Axis]:
+def axes_of(model: SequenceModel) -> Sequence[Axis]:
     """The axes that some keyframe names."""
-    return [axis for axis in Axis if any(getattr(frame, axis.value) is not None for frame in sheet.keyframes)]
+    return [axis for axis in Axis if any(getattr(frame, axis.value) is not None for frame in model.keyframes)]
 
 
-def keys_of(sheet: SequenceModel) -> Keys:
+def keys_of(model: SequenceModel) -> Keys:
     """Each axis's keys, at the times that stand in the file."""
-    keys: dict[Axis, list[Key]] = {axis: [] for axis in axes_of(sheet)}
-    everywhere = ramps(sheet.ease, sheet.fps)
-    for index, frame in enumerate(sheet.keyframes):
-        at, hold = seconds(frame.at, sheet.fps), seconds(frame.hold, sheet.fps)
-        eases = ramps(frame.ease, sheet.fps, everywhere)
+    keys: dict[Axis, list[Key]] = {axis: [] for axis in axes_of(model)}
+    everywhere = ramps(model.ease, model.fps)
+    for index, frame in enumerate(model.keyframes):
+        at, hold = seconds(frame.at, model.fps), seconds(frame.hold, model.fps)
+        eases = ramps(frame.ease, model.fps, everywhere)
         for axis, of_axis in keys.items():
             position = getattr(frame, axis.value)
             if position is not None:
@@ -47,16 +47,16 @@ def line_at(document: Document, where: str, text: str) -> str:
     return document.line(("keyframes", number - 1), text)
 
 
-def recentred(keys: Keys, limits: Mapping[Axis, Limits], at: float, duration: float, where: str) -> Keys:
+def recentered(keys: Keys, limits: Mapping[Axis, Limits], at: float, duration: float, where: str) -> Keys:
     """With the gimbal's axes that have keys going to 0 from `at` on, both in s; a turn that may go on for ever ends at
     the nearest whole one. Raises KeysError where one of them does not rest then, or is wanted elsewhere."""
-    centred = {
-        axis: _with_centre(axis, keys[axis], limits[axis], at, duration, where) for axis in CENTRED if axis in keys
+    centered = {
+        axis: _with_center(axis, keys[axis], limits[axis], at, duration, where) for axis in CENTERED if axis in keys
     }
-    return {**keys, **centred}
+    return {**keys, **centered}
 
 
-def _with_centre(
+def _with_center(
     axis: Axis, keys: Sequence[Key], limits: Limits, at: float, duration: float, where: str
 ) -> Sequence[Key]:
     before = [key for key in keys if key.at <= at + SAME]
@@ -64,12 +64,12 @@ def _with_centre(
     last = before[-1] if before else replace(after[0], at=0.0, hold=0.0)
     rested, stops = last.at + last.hold, last.stop or last.hold > 0 or len(before) == 1 or not after
     if rested > at + SAME:
-        raise KeysError(f"is while {last.where} holds {axis} (until {rested:g} s)")
+        raise KeysError(f"begins while {last.where} holds {axis} (until {rested:g} s)")
     if before and after and (not stops or at > rested + SAME) and after[0].position != last.position:
-        rest = f"it rests until {rested:g} s" if stops else f"with pass: stop in {last.where} it would rest there"
-        raise KeysError(f"is while {axis} is on its way to {after[0].where}; {rest}")
+        rest = f"it rests until {rested:g} s" if stops else f"add `pass: stop` to {last.where}"
+        raise KeysError(f"begins while {axis} moves to {after[0].where}; {rest}")
     if after and after[0].at <= at + duration + SAME:
-        raise KeysError(f"must be over before {after[0].where} ({after[0].at:g} s), where {axis} is to be elsewhere")
+        raise KeysError(f"must end before {after[0].where} ({after[0].at:g} s), where {axis} is elsewhere")
     whole = 360.0 * round(last.position / 360) if limits.continuous else 0.0
     start = replace(last, at=at, hold=0.0, stop=True, where=where)
     if before and rested >= at - SAME:

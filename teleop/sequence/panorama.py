@@ -74,15 +74,15 @@ class Shots(NamedTuple):
 
 def grid(fov: list[float], overlap: float, pan: list[float], tilt: list[float]) -> Grid:
     """The frames that show all between two edges each way, `overlap` being a share; all else in deg."""
-    across = centres(pan[0], pan[1], fov[0], overlap, _is_circle(pan))
-    return Grid(across, centres(tilt[0], tilt[1], fov[1], overlap))
+    across = centers(pan[0], pan[1], fov[0], overlap, _is_circle(pan))
+    return Grid(across, centers(tilt[0], tilt[1], fov[1], overlap))
 
 
 def _is_circle(pan: Sequence[float]) -> bool:
     return abs(pan[1] - pan[0]) >= 360
 
 
-def centres(first: float, last: float, fov: float, overlap: float, circle: bool = False) -> list[float]:
+def centers(first: float, last: float, fov: float, overlap: float, circle: bool = False) -> list[float]:
     """Where to aim, from the first edge to the last, in deg."""
     start, end = outermost(first, last, fov, overlap, circle)
     count = _count(abs(last - first), fov, overlap, circle)
@@ -142,7 +142,7 @@ def panorama_rules(data: Any, fps: float | None) -> Iterator[Wrong]:
         yield (WHERE, "overlap"), str(error)
         return
     if (counted := _counted(section, overlap)) and counted > MOST:
-        yield (WHERE,), f"would be {counted:.0f} frames; at most {MOST}: a wider fov or less overlap makes it fewer"
+        yield (WHERE,), f"would be {counted:.0f} frames; at most {MOST}: use a wider fov or less overlap"
 
 
 def _counted(section: Mapping[str, Any], overlap: float) -> float | None:
@@ -168,7 +168,7 @@ def panorama_limits(data: Any, limits: Mapping[str, Limits], rig: str) -> Iterat
     for index, name in enumerate(("pan", "tilt") if section else ()):
         ends = _pair(section, name)
         if name not in limits:
-            yield (WHERE, name), f"cannot be: {rig} has no {name}; it has {', '.join(limits)}"
+            yield (WHERE, name), f": {rig} has no {name}; it has {', '.join(limits)}"
         elif ends and fov and min(fov) > 0 and not _is_circle(ends):
             low, high = limits[name].minimum, limits[name].maximum
             aims = sorted(outermost(*ends, fov[index], 0.0))

@@ -19,11 +19,11 @@ from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.time_scaling import TimeScaling, at_most, change_rate, go_to, run_up, state_at, steady
 from teleop.planner.trajectory import Move
 
-AHEAD = 0.08  # s from asking for a change to its beginning; the search takes 9 ms in the median (planning.md, C)
+AHEAD = 0.08  # s from asking for a change to its beginning; the search takes 9 ms (docs/explanation/planning.md, C)
 LATER = 2.0  # times further ahead when it was found too late
 WRITTEN = 1.0  # the speed that a move was written for
 FASTEST = 2.0  # times the speed that a move was written for
-PATIENCE = 0.05  # s between two looks at a paused move
+ASK_AGAIN = 0.05  # s between two looks at a paused move
 _INSTANT = 1e-6  # s: times on the loop's grid that are closer are the same
 
 Search = Callable[[TimeScaling, float], TimeScaling]  # from the present pace, for a change at that time
@@ -35,7 +35,7 @@ class Playback:
     `keys` are the move's times to step to, in s, rising. `start_at` is where in the move to begin (s): with a run-up,
     so that it is there with the speed that it has there. Changes are searched for by `executor`, a thread unless given.
     Raises PlanError where `rate` is more than the move allows. The speed that it was written for it always allows: a
-    recording at the limits themselves leaves no headroom, and whoever made the move has checked every step of it.
+    recording at the limits themselves leaves no headroom, and the maker of the move has checked every step of it.
     """
 
     def __init__(
@@ -97,7 +97,7 @@ class Playback:
         here, rate, _ = self._pace.at(now)
         if math.isinf(time):
             return math.inf
-        return now + (max(time - here, 0.0) / rate if rate > 0 else PATIENCE)
+        return now + (max(time - here, 0.0) / rate if rate > 0 else ASK_AGAIN)
 
     def rate(self, now: float) -> float:
         """How many seconds of the move go by in a second."""
@@ -159,7 +159,7 @@ class Playback:
         here = self._pace.at(now)[0]
         index = bisect_right(self._keys, here + 1e-3) if keys > 0 else bisect_left(self._keys, here - 1e-3) - 1
         if not 0 <= index < len(self._keys):
-            self.refusal = f"there is no keyframe {'after' if keys > 0 else 'before'} this one"
+            self.refusal = f"no key {'after' if keys > 0 else 'before'} this one"
             return
         target = self._keys[index]
         self._ask(lambda pace, start: go_to(self._move, self._limits, pace, target, start), now)
@@ -201,4 +201,4 @@ def fastest(move: Move, limits: Mapping[Axis, Limits]) -> float:
 def allowed(rate: float, most: float) -> None:
     """Raises PlanError when the move cannot be played at `rate`."""
     if not 0 <= rate <= most:
-        raise PlanError(f"the move allows at most {math.floor(100 * most)} % of its speed, not {100 * rate:.0f} %")
+        raise PlanError(f"maximum playback speed: {math.floor(100 * most)} %, not {100 * rate:.0f} %")

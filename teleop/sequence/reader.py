@@ -21,7 +21,7 @@ from teleop.core.axes import STICKS, Axis, Limits
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import is_timelapse
-from teleop.sequence.timeline import Block, Place, Timeline, finish, joined
+from teleop.sequence.timeline import Block, Origin, Timeline, expand, joined
 
 DEEPEST = 8  # files within files
 MOST_FILES = 200  # each counted as often as it is included
@@ -54,26 +54,26 @@ class SequenceReader:
             self.problems += error.problems
             return None
         beyond_rig = list(rig_rules(document.data, self.limits, self.rig, self.devices))
-        script = None
+        timeline = None
         try:
-            sheet = document.check(SequenceModel, [*file_rules(document.data), *beyond_rig])
-            script = Timeline.of(document, sheet)
+            model = document.check(SequenceModel, [*file_rules(document.data), *beyond_rig])
+            timeline = Timeline.of(document, model)
         except DocumentError as error:
             self.problems += error.problems
             self.more += error.more
             self.beyond_rig += len(beyond_rig)
         entries = enumerate(sequence(document.data, "include"))
         included = [self._include(document, index, entry, (*chain, path.resolve())) for index, entry in entries]
-        if script is None or len(self.problems) > before:
+        if timeline is None or len(self.problems) > before:
             return None
-        blocks = script.own_blocks()
+        blocks = timeline.own_blocks()
         for index, inner in enumerate(included):
             if inner is not None:
-                self._lay(script, index, inner, blocks)
-        script.keys, overlaps = joined(blocks)
-        script.cues.sort(key=lambda timed: timed.cue.at)
-        self.problems += overlaps or list(finish(script, self.limits))
-        return None if len(self.problems) > before else script
+                self._insert(timeline, index, inner, blocks)
+        timeline.keys, overlaps = joined(blocks)
+        timeline.cues.sort(key=lambda timed: timed.cue.at)
+        self.problems += overlaps or list(expand(timeline, self.limits))
+        return None if len(self.problems) > before else timeline
 
     def _document(self, path: Path, name: str, note: str) -> Document:
         """The document in a file, which is parsed once however often it is included. Raises DocumentError."""
@@ -90,39 +90,39 @@ class SequenceReader:
         try:
             path, name = find(move, "sequences", "sequence", chain[-1].parent)
         except DocumentError as error:
-            self.problems.append(document.problem(here, f"cannot be: {error}"))
+            self.problems.append(document.problem(here, f": {error}"))
             return None
         around = [*chain, path.resolve()]
         if path.resolve() in chain:
             circle = " -> ".join(each.name for each in around[chain.index(path.resolve()) :])
-            self.problems.append(document.problem(here, f"would go on for ever: {circle}"))
+            self.problems.append(document.problem(here, f"includes itself: {circle}"))
         elif len(chain) > DEEPEST:
             self.problems.append(document.problem(here, f"is too deep: at most {DEEPEST} files within files"))
         elif self._files > MOST_FILES:
             if self._files == MOST_FILES + 1:
                 self._files += 1  # said once
-                self.problems.append(document.problem(here, f"is too much: at most {MOST_FILES} files are included"))
+                self.problems.append(document.problem(here, f"is too much: at most {MOST_FILES} files can be included"))
         else:
             line, column = document.places["include", index]
             note = f" (included at {document.name}:{line}:{column}){document.note}"
             shown = name if is_bare(move) else str(Path(document.name).parent / move)
             inner = self.read(path, shown, note, chain)
             if inner is not None and is_timelapse(inner.document.data):
-                self.problems.append(document.problem(here, "is a timelapse, whose times are frames and not seconds"))
+                self.problems.append(document.problem(here, "is a timelapse: its times are frames, not seconds"))
             return inner
         return None
 
-    def _lay(self, script: Timeline, index: int, inner: Timeline, blocks: dict[Axis, list[Block]]) -> None:
+    def _insert(self, timeline: Timeline, index: int, inner: Timeline, blocks: dict[Axis, list[Block]]) -> None:
         """Put what `include[index]` names among the blocks."""
-        entry, where = script.sheet.include[index], numbered("include", index)
-        laid = inner.laid(seconds(entry.at, script.sheet.fps), percentage(entry.speed), where)
-        script.places |= laid.places
-        script.cues += laid.cues
-        script.remarks += inner.remarks
-        for axis, of_axis in laid.keys.items():
-            place = Place(script.document, ("include", index))
+        entry, where = timeline.model.include[index], numbered("include", index)
+        inserted = inner.inserted_at(seconds(entry.at, timeline.model.fps), percentage(entry.speed), where)
+        timeline.places |= inserted.places
+        timeline.cues += inserted.cues
+        timeline.remarks += inner.remarks
+        for axis, of_axis in inserted.keys.items():
+            place = Origin(timeline.document, ("include", index))
             blocks.setdefault(axis, []).append(Block(of_axis, where, place))
-        sticks = [axis for axis in STICKS if axis in laid.keys]
+        sticks = [axis for axis in STICKS if axis in inserted.keys]
         if sticks and percentage(entry.speed) != 1:
             text = f"leaves {', '.join(sticks)} as far as they are: the drone flies for another time, and so elsewhere"
-            script.remarks.append(script.document.problem(("include", index, "speed"), text))
+            timeline.remarks.append(timeline.document.problem(("include", index, "speed"), text))

@@ -56,7 +56,7 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
             continue
         frame = mapping(frame)
         if all(frame.get(axis) is None for axis in AXES) and not any(ALIASES.get(key) in AXES for key in frame):
-            yield ("keyframes", index), f"names no axis ({', '.join(AXES[:4])})"
+            yield ("keyframes", index), f"has no axis ({', '.join(AXES[:4])})"
         at, wrong = _time(frame, "at", when)
         hold, wrong_hold = _time(frame, "hold", when)
         for key, text in (("at", wrong), ("hold", wrong_hold)):
@@ -67,7 +67,7 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
         if before and at <= before[1]:
             yield (
                 ("keyframes", index, "at"),
-                f"must be after {numbered('keyframes', before[0])} ({_said(before[1], when)})",
+                f"must be after {numbered('keyframes', before[0])} ({_time_text(before[1], when)})",
             )
         else:
             yield from _hold_rules(index, frame, at, free, when)
@@ -105,11 +105,11 @@ def _hold_rules(
         if frame.get(axis) is not None and at < end:
             yield (
                 ("keyframes", index, "at"),
-                f"must be after {numbered('keyframes', holder)} has held {axis} (until {_said(end, when)})",
+                f"must be after {numbered('keyframes', holder)} has held {axis} (until {_time_text(end, when)})",
             )
 
 
-def _said(time: float, when: When) -> str:
+def _time_text(time: float, when: When) -> str:
     return f"frame {time:g}" if when is frames else f"{time:g} s"
 
 
@@ -130,18 +130,18 @@ def rig_rules(
     for index, cue in enumerate(sequence(data, "cues")):
         for kind, device in DEVICES.items():
             if devices is not None and kind in mapping(cue) and device not in devices:
-                yield ("cues", index, kind), f"cannot be: {rig} has no {device}; its sinks are {', '.join(devices)}"
+                yield ("cues", index, kind), f": {rig} has no {device}; its sinks are {', '.join(devices)}"
     by_name = {axis.value: axis_limits for axis, axis_limits in limits.items()}
     yield from panorama_limits(data, by_name, rig)
     if devices is not None and "camera" not in devices and mapping(data, "panorama"):
-        yield ("panorama",), f"cannot be: {rig} has no camera; its sinks are {', '.join(devices)}"
+        yield ("panorama",), f": {rig} has no camera; its sinks are {', '.join(devices)}"
     for index, frame in enumerate(sequence(data, "keyframes")):
         for axis in AXES:
             position = number(mapping(frame).get(axis))
             if position is None or not math.isfinite(position):
                 continue
             if axis not in by_name:
-                yield ("keyframes", index, axis), f"cannot be: {rig} has no {axis}; it has {', '.join(by_name)}"
+                yield ("keyframes", index, axis), f": {rig} has no {axis}; it has {', '.join(by_name)}"
             elif not by_name[axis].minimum <= position <= by_name[axis].maximum:
                 low, high = by_name[axis].minimum, by_name[axis].maximum
                 yield ("keyframes", index, axis), f"must be within {low:g}..{high:g} ({rig}), not {position:g}"

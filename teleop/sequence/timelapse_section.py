@@ -21,11 +21,11 @@ MOST = 100_000  # frames: more than an hour of clip
 UNUSED = {
     "cues": "the shutter is its only cue",
     "include": "an included move's times are seconds, not frames",
-    "panorama": "that has frames of its own",
+    "panorama": "it has frames of its own",
     "repeat": "its frames are counted once",
-    "preroll": "delay is what it waits for",
-    "back_to_one": "it stays where its last frame was shot",
-    "fit": "a longer interval is what gives it more time",
+    "preroll": "use delay",
+    "back_to_one": "a shoot ends at its last frame",
+    "fit": "use a longer interval",
 }
 Count = Annotated[int, Field(ge=0, le=MOST)]
 
@@ -77,7 +77,7 @@ def timelapse_rules(data: Any) -> Iterator[Wrong]:
     """Durations that are durations, keyframes within the frames that there are, nothing that only a film has."""
     for name, reason in UNUSED.items():
         if name in mapping(data):
-            yield (name,), f"has no place beside timelapse: {reason}"
+            yield (name,), f"cannot be used with timelapse: {reason}"
     for where, ease in _eases(data):
         if isinstance(ease, str) and ease.strip()[-1:] in ("s", "m", "h") and ease[:1].isdigit():
             yield where, f"must be in output frames here (24f), or a share or a name, not {shown(ease)}"

@@ -77,12 +77,12 @@ def _numbers(document: Document, text: str, axes: Sequence[Axis]) -> list[Number
     for line in text.splitlines(keepends=True):
         starts.append(starts[-1] + len(line))
     problems = [
-        document.problem((made,), "makes keys that stand in no file: --trim-out cannot move them", key=True)
+        document.problem((made,), "makes keys that no file has: --trim-out cannot move them", key=True)
         for made in _MADE
         if made in mapping(document.data)
     ]
     problems += [
-        document.problem(("cues", index, "recenter"), "goes to 0 in any case: --trim-out cannot move it")
+        document.problem(("cues", index, "recenter"), "always goes to 0: --trim-out cannot move it")
         for index, cue in enumerate(sequence(document.data, "cues"))
         if "recenter" in mapping(cue)
     ]

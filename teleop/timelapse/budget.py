@@ -45,7 +45,7 @@ class Phases(NamedTuple):
             return cls(prefocus, exposure, post, seconds(settle.at_most, fps), settle.below)
         return cls(prefocus, exposure, post, seconds(section.settle, fps), None)
 
-    def said(self, **more: float) -> str:
+    def text(self, **more: float) -> str:
         """Those that take any time: `exposure 0.5 s + settle 0.3 s`."""
         parts = {"prefocus": self.prefocus, "exposure": self.exposure, "post": self.post, **more}
         return " + ".join(f"{name} {value:.3g} s" for name, value in parts.items() if value > 0) or "nothing"
@@ -64,15 +64,15 @@ def budget(
     if slots.frames < 2:
         return [], []
     if 2 * min(slots.first, slots.last) <= abs(slots.change):
-        return [f"changes by {abs(slots.change):.3g} s from frame to frame, too much for its shortest"], []
+        return [f"changes by {abs(slots.change):.3g} s per frame, too much for its shortest interval"], []
     fixed = phases.prefocus + phases.exposure + phases.post
     if continuous:
-        problems, warnings = _held(np.full(slots.frames - 1, fixed), slots, lambda _frame: phases.said())
+        problems, warnings = _held(np.full(slots.frames - 1, fixed), slots, lambda _frame: phases.text())
         fast, nearly = _speed(path.on(slots), slots, limits)
         return problems + fast, warnings + nearly
     moves = _moves(path, slots.frames, limits)
     needs = fixed + phases.settle + moves
-    return _held(needs, slots, lambda frame: phases.said(move=moves[frame], settle=phases.settle))
+    return _held(needs, slots, lambda frame: phases.text(move=moves[frame], settle=phases.settle))
 
 
 def _moves(path: FramePath, count: int, limits: Mapping[Axis, Limits]) -> Array:
@@ -83,12 +83,12 @@ def _moves(path: FramePath, count: int, limits: Mapping[Axis, Limits]) -> Array:
     return np.where(longest > 0, longest + TICKS, 0.0)
 
 
-def _held(needs: Array, slots: Schedule, said: Callable[[int], str]) -> tuple[list[str], list[str]]:
+def _held(needs: Array, slots: Schedule, text: Callable[[int], str]) -> tuple[list[str], list[str]]:
     """Of the interval after each frame (count - 1,) and what it `needs`."""
     intervals = np.array([slots.interval(frame) for frame in range(slots.frames - 1)])
     spare = intervals - needs
     worst = int(spare.argmin())
-    takes = f"frame {worst} of {slots.frames} takes {said(worst)}"
+    takes = f"frame {worst} of {slots.frames} takes {text(worst)}"
     if spare[worst] < -ROUNDING:
         return [_too_short(intervals, needs, worst, takes, slots)], []
     if spare[worst] < TIGHT * intervals[worst]:
@@ -102,7 +102,7 @@ def _too_short(intervals: Array, needs: Array, worst: int, takes: str, slots: Sc
         return f"must be at least {least:.2f} s, not {intervals[worst]:g} s: {takes}"
     many = int(np.count_nonzero(intervals < needs - ROUNDING))
     others = f" ({many} frames are too short)" if many > 1 else ""
-    return f"is {intervals[worst]:.2f} s where at least {least:.2f} s would do: {takes}{others}"
+    return f"is {intervals[worst]:.2f} s and must be at least {least:.2f} s: {takes}{others}"
 
 
 def _speed(move: Move, slots: Schedule, limits: Mapping[Axis, Limits]) -> tuple[list[str], list[str]]:

@@ -101,7 +101,7 @@ class Timelapse:
 
     @property
     def clip(self) -> float | None:
-        """How long the clip is, in s; None where nobody has said at how many frames per second it is shown."""
+        """How long the clip is, in s; None where its frames per second are not known."""
         return self.frames / self.fps if self.fps else None
 
     def rehearsal(self) -> CompiledSequence:
@@ -132,23 +132,23 @@ def load_timelapse(name: str, limits: Mapping[Axis, Limits], rig: str) -> Timela
         return None
     beyond_rig = list(rig_rules(document.data, limits, rig))
     try:
-        sheet = document.check(SequenceModel, [*file_rules(document.data), *beyond_rig])
+        model = document.check(SequenceModel, [*file_rules(document.data), *beyond_rig])
     except DocumentError as error:
         raise (UnplayableError(error.problems) if len(error.problems) == len(beyond_rig) else error) from None
-    assert sheet.timelapse is not None
-    return _compiled(document, sheet, sheet.timelapse, {axis: limits[axis] for axis in axes_of(sheet)})
+    assert model.timelapse is not None
+    return _compiled(document, model, model.timelapse, {axis: limits[axis] for axis in axes_of(model)})
 
 
 def _compiled(
-    document: Document, sheet: SequenceModel, section: TimelapseSection, limits: Mapping[Axis, Limits]
+    document: Document, model: SequenceModel, section: TimelapseSection, limits: Mapping[Axis, Limits]
 ) -> Timelapse:
-    slots = _slots(section, sheet.fps)
-    phases = Phases.of(section, sheet.fps)
-    keys = keys_of(sheet.model_copy(update={"fps": 1.0}))  # a frame for a second
+    slots = _slots(section, model.fps)
+    phases = Phases.of(section, model.fps)
+    keys = keys_of(model.model_copy(update={"fps": 1.0}))  # a frame for a second
     step = slots.at(slots.frames - 1) / (slots.frames - 1) if slots.frames > 1 else slots.first
     timed = {axis: [key.later(step) for key in of_axis] for axis, of_axis in keys.items()}
     try:
-        move, factor = stretch(timed, limits, sheet.tension)
+        move, factor = stretch(timed, limits, model.tension)
     except Infeasible as error:
         raise UnplayableError([line_at(document, finding.last, str(finding)) for finding in error.findings]) from None
     path = FramePath(move, step * factor, section.lead_in)
@@ -159,19 +159,19 @@ def _compiled(
     remarks = [line_at(document, remark.last, str(remark)) for remark in [*move.overshoots, *move.long_ramps]]
     remarks += [document.problem(("timelapse", "interval"), text) for text in warnings]
     return Timelapse(
-        sheet.called(document.name),
-        sheet.fps,
+        model.called(document.name),
+        model.fps,
         slots,
         path,
         phases,
         continuous,
         section.frames,
-        seconds(section.delay, sheet.fps),
+        seconds(section.delay, model.fps),
         section.on_camera_fault == "continue",
         limits,
         keys,
         remarks,
-        _identity(sheet, section, keys),
+        _identity(model, section, keys),
     )
 
 
@@ -183,6 +183,8 @@ def _slots(section: TimelapseSection, fps: float | None) -> Schedule:
     return Schedule(interval, interval, count)
 
 
-def _identity(sheet: SequenceModel, section: TimelapseSection, keys: Mapping[Axis, Sequence[Key]]) -> str:
-    said = repr([sheet.fps, sheet.tension, section.model_dump(), {axis.value: list(of) for axis, of in keys.items()}])
-    return sha256(said.encode()).hexdigest()
+def _identity(model: SequenceModel, section: TimelapseSection, keys: Mapping[Axis, Sequence[Key]]) -> str:
+    content = repr(
+        [model.fps, model.tension, section.model_dump(), {axis.value: list(of) for axis, of in keys.items()}]
+    )
+    return sha256(content.encode()).hexdigest()

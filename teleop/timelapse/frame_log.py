@@ -10,10 +10,10 @@ from typing import Protocol
 
 from teleop.core.errors import DeviceError, TeleopError
 from teleop.core.events import ShutterResult
-from teleop.timelapse.journal import Frame, Note
+from teleop.timelapse.journal import FrameState, Note
 from teleop.timelapse.progress import Progress
 
-PATIENCE = 10  # frames in a row without a picture, after which going on is pointless
+MOST_FAILURES = 10  # frames in a row without a picture, after which to continue is pointless
 
 
 class FrameBook(Protocol):
@@ -21,7 +21,7 @@ class FrameBook(Protocol):
 
     trouble: str
 
-    def note(self, frame: int | None, state: Frame) -> Note: ...
+    def note(self, frame: int | None, state: FrameState) -> Note: ...
 
     def finish(self) -> Note: ...
 
@@ -36,46 +36,46 @@ class FrameLog:
     def begin(self, frame: int) -> Note:
         """Its shutter is due. Raises TeleopError as `check` does."""
         self.check(frame)
-        return self._book.note(frame, Frame.BEGUN)
+        return self._book.note(frame, FrameState.BEGUN)
 
     def unshot(self, frame: int) -> None:
         """Begun, and its shutter was not pressed."""
-        self._book.note(frame, Frame.UNSHOT)
+        self._book.note(frame, FrameState.UNSHOT)
 
     def lost(self, frame: int) -> None:
         """Its place has been passed without a picture."""
         self._progress.lost.append(frame)
-        self._book.note(frame, Frame.MISSED)
+        self._book.note(frame, FrameState.MISSED)
 
-    def heard(self, outcome: ShutterResult) -> None:
-        """What the camera said; a picture is written down at once."""
-        if outcome.code == 0:
-            self._book.note(outcome.frame, Frame.DONE)
+    def on_result(self, result: ShutterResult) -> None:
+        """Take the camera's answer; a picture is written down at once."""
+        if result.code == 0:
+            self._book.note(result.frame, FrameState.DONE)
 
-    def past(self, outcome: ShutterResult) -> bool:
+    def is_past(self, result: ShutterResult) -> bool:
         """Whether the shoot is past that frame. Raises DeviceError where what the camera did is to end it."""
-        if outcome.code == 0:
+        if result.code == 0:
             self._progress.shot += 1
             self._in_a_row = 0
             return True
         self._in_a_row += 1
-        if outcome.code is None:
-            said = f"the camera did not answer at frame {outcome.frame}: whether it was shot is in doubt"
+        if result.code is None:
+            reason = f"frame {result.frame} may be missing: the camera did not answer"
         else:
-            said = f"the camera refused to shoot frame {outcome.frame} (return code {outcome.code:#04x})"
+            reason = f"the camera refused to shoot frame {result.frame} (return code {result.code:#04x})"
             self._progress.refused += 1
-            self.unshot(outcome.frame)
-        if not self._go_on or self._in_a_row >= PATIENCE:
-            raise DeviceError(said)
-        if outcome.code is None:
-            self._progress.doubtful.append(outcome.frame)
-            self._book.note(outcome.frame, Frame.DOUBTFUL)
-        return outcome.code is None
+            self.unshot(result.frame)
+        if not self._go_on or self._in_a_row >= MOST_FAILURES:
+            raise DeviceError(reason)
+        if result.code is None:
+            self._progress.doubtful.append(result.frame)
+            self._book.note(result.frame, FrameState.DOUBTFUL)
+        return result.code is None
 
     def check(self, frame: int) -> None:
         """Raises TeleopError when nothing can be written down any more; `frame` is the one that waits for it."""
         if self._book.trouble:
-            raise TeleopError(f"{self._book.trouble}; frame {frame} has not been shot")
+            raise TeleopError(f"{self._book.trouble}; frame {frame} was not shot")
 
     def finish(self) -> Note:
         """The last frame is behind."""
@@ -84,4 +84,4 @@ class FrameLog:
     def check_end(self) -> None:
         """Raises TeleopError when the end could not be written down."""
         if self._book.trouble:
-            raise TeleopError(f"{self._book.trouble}; the shoot is past its last frame all the same")
+            raise TeleopError(f"{self._book.trouble}; the last frame is done all the same")

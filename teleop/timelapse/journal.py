@@ -24,7 +24,7 @@ from teleop.core.errors import UsageError
 
 ENDING = ".journal"
 FORMAT = 1  # of the tables
-PATIENCE = 3.0  # s at the end for what is still to be written
+DISK_TIMEOUT = 3.0  # s at the end for what is still to be written
 
 _TABLES = """
 CREATE TABLE IF NOT EXISTS shoot (name TEXT PRIMARY KEY, value) WITHOUT ROWID;
@@ -32,17 +32,17 @@ CREATE TABLE IF NOT EXISTS frames (frame INTEGER PRIMARY KEY, state TEXT NOT NUL
 """
 
 
-class Frame(StrEnum):
+class FrameState(StrEnum):
     """What is known of a frame; one that is not in the journal has not been touched."""
 
-    BEGUN = "begun"  # its shutter is due: shot or not, nobody can say
+    BEGUN = "begun"  # its shutter is due: shot or not, that is not known
     DONE = "done"
     UNSHOT = "unshot"  # begun, and known not to have been shot
     MISSED = "missed"  # not shot, and the camera is past it
     DOUBTFUL = "doubtful"  # counts as shot, and may not be
 
 
-OVER = (Frame.DONE, Frame.MISSED, Frame.DOUBTFUL)  # the shoot is past such a frame
+OVER = (FrameState.DONE, FrameState.MISSED, FrameState.DOUBTFUL)  # the shoot is past such a frame
 
 
 @dataclass
@@ -50,7 +50,7 @@ class Note:
     """Something to be written; `safe` once it is on the disk. `frame` None is the end of the shoot."""
 
     frame: int | None
-    state: Frame
+    state: FrameState
     safe: bool = False
 
 
@@ -60,7 +60,7 @@ class Journal:
     `patient` has `note` wait for the disk. A journal that can no longer be written says so in `trouble`.
     """
 
-    def __init__(self, path: Path, database: sqlite3.Connection, frames: dict[int, Frame], patient: bool) -> None:
+    def __init__(self, path: Path, database: sqlite3.Connection, frames: dict[int, FrameState], patient: bool) -> None:
         self.path, self.frames, self.trouble = path, frames, ""
         self._database, self._patient = database, patient
         self._queue: SimpleQueue[Note | Event | None] = SimpleQueue()
@@ -76,9 +76,9 @@ class Journal:
     @property
     def in_doubt(self) -> int | None:
         """The frame that was begun and never confirmed."""
-        return next((frame for frame, state in self.frames.items() if state is Frame.BEGUN), None)
+        return next((frame for frame, state in self.frames.items() if state is FrameState.BEGUN), None)
 
-    def note(self, frame: int | None, state: Frame) -> Note:
+    def note(self, frame: int | None, state: FrameState) -> Note:
         """Write down a frame; at once, or by the thread, in the order of the calls."""
         note = Note(frame, state)
         if self._patient:
@@ -89,14 +89,14 @@ class Journal:
 
     def finish(self) -> Note:
         """The last frame has been shot."""
-        return self.note(None, Frame.DONE)
+        return self.note(None, FrameState.DONE)
 
     def catch_up(self) -> None:
         """Wait for everything noted so far, but not for ever."""
         done = Event()
         if not self._patient:
             self._queue.put(done)
-            done.wait(PATIENCE)
+            done.wait(DISK_TIMEOUT)
 
     def close(self) -> None:
         """Write what is left; a disk that does not answer is left behind."""
@@ -104,7 +104,7 @@ class Journal:
             self._database.close()
             return
         self._queue.put(None)
-        self._thread.join(PATIENCE)
+        self._thread.join(DISK_TIMEOUT)
         if self._thread.is_alive():
             self.trouble = self.trouble or f"{self.path}: the disk does not answer"
 
@@ -146,7 +146,7 @@ def open_journal(
     Raises UsageError where none of that is what a user can have meant, and where another process is at it.
     """
     if resume and not path.exists():
-        raise UsageError(f"--resume: there is nothing to resume: no {path.name} in {path.absolute().parent}")
+        raise UsageError(f"--resume: no shoot to resume: no {path.name} in {path.absolute().parent}")
     try:
         database = _locked(path)
         facts, frames = _read(database)
@@ -180,10 +180,12 @@ def _locked(path: Path) -> sqlite3.Connection:
     return database
 
 
-def _read(database: sqlite3.Connection) -> tuple[dict[str, object], dict[int, Frame]]:
+def _read(database: sqlite3.Connection) -> tuple[dict[str, object], dict[int, FrameState]]:
     try:
         facts = dict(database.execute("SELECT name, value FROM shoot"))
-        frames = {int(frame): Frame(state) for frame, state in database.execute("SELECT * FROM frames ORDER BY frame")}
+        frames = {
+            int(frame): FrameState(state) for frame, state in database.execute("SELECT * FROM frames ORDER BY frame")
+        }
     except (sqlite3.Error, ValueError):
         database.close()
         raise
@@ -203,22 +205,22 @@ def _begin(path: Path, database: sqlite3.Connection, shoot: Shoot) -> None:
 
 
 def _refuse(
-    path: Path, facts: Mapping[str, object], frames: Mapping[int, Frame], shoot: Shoot, resume: bool, restart: bool
+    path: Path, facts: Mapping[str, object], frames: Mapping[int, FrameState], shoot: Shoot, resume: bool, restart: bool
 ) -> None:
     """Raise UsageError where what was asked for does not go with what the journal says."""
     finished, same = bool(facts.get("finished")), facts.get("identity") == shoot.identity
-    left = f"the shoot of {facts.get('file')} was left at frame {next_frame(frames)} of {facts.get('frames')}"
+    left = f"the shoot of {facts.get('file')} stopped at frame {next_frame(frames)} of {facts.get('frames')}"
     if resume and (finished or not facts):
-        raise UsageError(f"--resume: there is nothing to resume: {path} is of a shoot that has been finished")
+        raise UsageError(f"--resume: no shoot to resume: the shoot of {path} is finished")
     if resume and not same:
-        changed = f"{shoot.file} is not what it was then" if facts.get("file") == shoot.file else "that is another file"
-        raise UsageError(f"--resume: {path}: {left}, and {changed}: put it back, or begin anew with --restart")
+        changed = f"{shoot.file} has changed since" if facts.get("file") == shoot.file else "it is another file"
+        raise UsageError(f"--resume: {path}: {left}, and {changed}: restore it, or start over with --restart")
     if not resume and not restart and frames and not finished:
-        way = "go on with --resume, or begin anew with --restart" if same else "--restart begins anew and forgets it"
+        way = "continue with --resume, or start over with --restart" if same else "start over with --restart"
         raise UsageError(f"{path}: {left}: {way}")
 
 
-def next_frame(frames: Mapping[int, Frame]) -> int:
+def next_frame(frames: Mapping[int, FrameState]) -> int:
     """The first frame that a shoot is not past."""
     return next(frame for frame in range(len(frames) + 1) if frames.get(frame) not in OVER)
 
@@ -228,5 +230,5 @@ def _explained(error: Exception) -> str:
     if "locked" in text:
         return "another teleop is shooting with this journal"
     if "not a database" in text or isinstance(error, ValueError):
-        return "is no journal of a timelapse"
+        return "is not a timelapse journal"
     return f"cannot be used: {text}"

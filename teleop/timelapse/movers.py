@@ -196,9 +196,14 @@ class GlideMover:
         return self._playback.when(self._move.next_motion(self._playback.time(now)), now)
 
     def time(self, now: float) -> float:
-        return self._playback.time(now) if now >= self._begin - _INSTANT else -math.inf
+        """Before it moves, its time runs as the clock does, so that the prefocus of the first frame begins in time."""
+        if now < self._begin - _INSTANT:
+            return self._playback.opening - (self._begin - now)
+        return self._playback.time(now)
 
     def when(self, time: float, now: float) -> float:
+        if now < self._begin - _INSTANT and time <= self._playback.opening:
+            return self._begin - (self._playback.opening - time)
         return self._playback.when(time, max(now, self._begin))
 
     def skip(self, seconds: float) -> bool:  # noqa: ARG002 - the place of the frame is behind

@@ -13,8 +13,8 @@ from teleop.timelapse.schedule import Schedule
 class Progress:
     """`shot` is how many frames are in the camera, the frames of an earlier process included.
 
-    `missed` are slots that passed without a picture, `lost` the frames that have none for it, `doubtful` those of which
-    nobody can say, `stopped` those that were exposing when a STOP halted axes that moved. `late` is how many were shot
+    `missed` are slots that passed without a picture, `lost` the frames that have none for it, `doubtful` those that
+    may be missing, `stopped` those that were exposing when a STOP halted axes that moved. `late` is how many were shot
     after their slot's tick, `latest` by how much at most, in s. `refused` is how often the camera would not,
     `unsettled` how many frames were shot before the axes were measured to be still.
     """

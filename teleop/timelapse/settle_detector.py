@@ -18,11 +18,11 @@ class SettleDetector:
         self._below = below
         self._readings: dict[Axis, deque[Reading]] = {}
 
-    def begin(self) -> None:
-        """Forget what was seen: the axes have just moved."""
+    def reset(self) -> None:
+        """Forget all readings: the axes have just moved."""
         self._readings.clear()
 
-    def see(self, reported: Mapping[Axis, Reading]) -> None:
+    def update(self, reported: Mapping[Axis, Reading]) -> None:
         for axis, reading in reported.items():
             seen = self._readings.setdefault(axis, deque())
             if not seen or reading.time > seen[-1].time:
@@ -32,9 +32,9 @@ class SettleDetector:
 
     @property
     def reached(self) -> bool:
-        return self._below is not None and bool(self._readings) and all(map(self._still, self._readings.values()))
+        return self._below is not None and bool(self._readings) and all(map(self._is_still, self._readings.values()))
 
-    def _still(self, seen: deque[Reading]) -> bool:
+    def _is_still(self, seen: deque[Reading]) -> bool:
         first, last = seen[0], seen[-1]
         span = last.time - first.time
         lowest, highest = min(each.position for each in seen), max(each.position for each in seen)

@@ -47,8 +47,8 @@ def test_a_gimbals_move_needs_neither_the_drones_port_nor_its_keys() -> None:
         ([Axis.STICK_YAW, Axis.TILT], [], {"drone", "gimbal"}),
         ([Axis.STICK_YAW], [Action.RECORD], {"drone", "gimbal"}),
         ([Axis.STICK_YAW], [Exposure(0, ShutterStep.PRESS)], {"drone", "gimbal"}),
-        ([Axis.STICK_YAW], [DeviceCommand("gimbal follow lock")], {"drone", "gimbal"}),
-        ([Axis.PAN], [DeviceCommand("drone land")], {"drone", "gimbal"}),
+        ([Axis.STICK_YAW], [DeviceCommand("gimbal", "follow lock")], {"drone", "gimbal"}),
+        ([Axis.PAN], [DeviceCommand("drone", "land")], {"drone", "gimbal"}),
         ([], [], set()),
     ],
 )

@@ -11,6 +11,7 @@ from teleop.app.calibration_move import REST, SHARE, CalibrationMove
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.errors import DeviceError, UsageError
 from teleop.core.interfaces import Feedback
+from teleop.core.setpoints import StateTarget
 
 LIMITS = Limits(-90, 90, 60, 120, 600)
 AT_REST = Feedback({Axis.PAN: State(0)}, {})
@@ -22,9 +23,10 @@ def started(at=0.0, limits=LIMITS):
     return move
 
 
-def states(move):
+def states(move: CalibrationMove) -> list[StateTarget]:
     times = [10 + 0.01 * tick for tick in range(round(100 * (2 * REST + move.duration)))]
-    return [move.read(time, AT_REST)[0][Axis.PAN] for time in times]
+    setpoints = [move.read(time, AT_REST)[0][Axis.PAN] for time in times]
+    return [each for each in setpoints if isinstance(each, StateTarget)]
 
 
 def test_it_swings_to_one_side_and_back_to_rest():

@@ -25,7 +25,7 @@ from teleop.core.run_state import Result
 from teleop.core.timing import PERIOD
 from teleop.dji.gimbal.camera import CameraCommand, Command
 from teleop.timelapse.compile import load_timelapse
-from teleop.timelapse.journal import Frame, Note
+from teleop.timelapse.journal import FrameState, Note
 
 PAUSE = Press(Key.PAUSE)
 TICK = PERIOD + 1e-6
@@ -270,7 +270,7 @@ def test_a_silent_camera_stops_the_shoot_with_its_frame_in_doubt(stage: Stage) -
     stage.prepare = lambda gimbal: setattr(gimbal, "camera_says", lambda count: None if count == 3 else 0)
     ended = stage.shoot()
     assert ended.result is Result.FAILED
-    assert ended.reasons[0] == "the camera did not answer at frame 3: whether it was shot is in doubt"
+    assert ended.reasons[0] == "frame 3 may be missing: the camera did not answer"
     with stage.journal(resume=True) as journal:
         assert (journal.in_doubt, journal.next) == (3, 3)
 
@@ -347,7 +347,7 @@ def test_no_frame_is_shot_that_cannot_be_written_down(stage: Stage) -> None:
     shot = len(stage.shots)
     assert 5 < shot < 20
     with stage.journal(resume=True) as journal:
-        assert list(journal.frames.values()).count(Frame.DONE) in (shot, shot - 1)
+        assert list(journal.frames.values()).count(FrameState.DONE) in (shot, shot - 1)
         doubt = journal.in_doubt
         assert journal.next in (shot, doubt)
     assert stage.shoot(resume=True).result is Result.DONE
@@ -440,11 +440,11 @@ def test_a_shoot_that_was_killed_after_its_last_frame_has_nothing_left_to_shoot(
     stage.write(6, "2s")
     with stage.journal() as journal:
         for frame in range(6):
-            journal.note(frame, Frame.DONE)
+            journal.note(frame, FrameState.DONE)
     assert stage.shoot(resume=True).result is Result.DONE
     assert stage.shots == []
     assert stage.shooting.progress.shot == 6
-    with pytest.raises(UsageError, match="has been finished"), stage.journal(resume=True):
+    with pytest.raises(UsageError, match="is finished"), stage.journal(resume=True):
         pass
 
 
@@ -464,9 +464,9 @@ def test_an_end_that_cannot_be_written_down_is_no_lost_frame(stage: Stage) -> No
 
         def full() -> Note:
             journal.trouble = "dusk.journal cannot be written: full"
-            return Note(None, Frame.DONE)
+            return Note(None, FrameState.DONE)
 
         book.finish = full  # type: ignore[attr-defined]  # in front of the journal's own
         ended = stage.shoot(book)
     assert (ended.result, len(stage.shots)) == (Result.FAILED, 6)
-    assert ended.reasons[0] == "dusk.journal cannot be written: full; the shoot is past its last frame all the same"
+    assert ended.reasons[0] == "dusk.journal cannot be written: full; the last frame is done all the same"

@@ -82,7 +82,7 @@ def test_a_move_that_cannot_be_is_not_drawn(tmp_path: Path, monkeypatch: pytest.
     (tmp_path / "hard.yaml").write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 0.2, pan: 90}\n")
     assert run(["preview", "hard.yaml", "-o", "hard.html", "--json"]) == 1
     output = capsys.readouterr()
-    assert output.err.startswith("hard.yaml:3:5: pan, key 1 to key 2: ")
+    assert output.err.startswith("hard.yaml:3:5: pan needs ")
     assert json.loads(output.out) == {"ok": False, "problems": [output.err.strip()]}
     (tmp_path / "bad.yaml").write_text("keyframes:\n  - {at: 0, pna: 1}\n")
     assert run(["preview", "bad.yaml", "-o", "bad.html"]) == 2

@@ -73,7 +73,7 @@ def test_check_promises_no_speed_that_play_refuses(tmp_path: Path) -> None:
     assert 100 < most < 200
     assert teleop("play", "hard.yaml", "--fast", "--speed", f"{most}%", cwd=tmp_path).returncode == 0
     refused = teleop("play", "hard.yaml", "--fast", "--speed", f"{most + 1}%", cwd=tmp_path)
-    assert refused.stderr == f"--speed {most + 1}%: the move allows at most {most} % of its speed, not {most + 1} %\n"
+    assert refused.stderr == f"--speed {most + 1}%: maximum playback speed: {most} %, not {most + 1} %\n"
     assert "A drone's move is played at its own speed only." in teleop("check", "fly-by", "--rig", "sim-drone").stdout
 
 
@@ -102,16 +102,16 @@ def test_check_says_what_a_move_asks_and_opens_no_port() -> None:
     [
         (["plai"], 2, 'Did you mean "play"?'),
         (["play", "reveal", "--rgi", "sim"], 2, "--rgi"),
-        (["play", "reveal", "--speed", "500%"], 2, "--speed 500%: the move allows at most 200 % of its speed"),
+        (["play", "reveal", "--speed", "500%"], 2, "--speed 500%: maximum playback speed: 200 %"),
         (["play", "reveal", "--speed", "fast"], 2, "--speed fast: must be a percentage above 0"),
         (["play", "revel"], 2, "did you mean reveal?"),
         (["play", "reveal", "--start-at", "key9"], 2, "--start-at key9: there is key1..key5"),
-        (["play", "reveal", "--start-at", "20s"], 2, "--start-at 20s: the move is over at 15 s"),
+        (["play", "reveal", "--start-at", "20s"], 2, "--start-at 20s: the move ends at 15 s"),
         (["play", "reveal", "--start-at", "96f"], 2, "--start-at 96f: is 96f, in frames, which needs fps"),
         (["play", "reveal", "--trigger", "now"], 2, "--trigger now: must be key, osc:9000/go, mtc"),
         (["play", "reveal", "--trigger", "key"], 2, "--trigger key: there is no terminal"),
         (["play", "reveal", "--trigger", "time", "18:30", "--fast"], 2, "needs real time; leave out --fast"),
-        (["play", "reveal", "--trim", "--fast"], 2, "--trim: a hand keeps its own time"),
+        (["play", "reveal", "--trim", "--fast"], 2, "--trim: an operator works in real time"),
         (["play", "reveal", "--trim-out", "x.yaml"], 2, "--trim-out: needs --trim"),
         (["play", "reveal", "--trim", "--trim-share", "100%"], 2, "must be a percentage between 0 and 100"),
         (["play", "reveal", "--preroll", "soon"], 2, "--preroll soon: must be a time"),
@@ -150,7 +150,7 @@ def test_a_bad_file_says_everything_at_once_and_a_hard_move_is_another_failure(t
     for command in ("check", "play"):
         hard = teleop(command, "hard.yaml", cwd=tmp_path)
         assert hard.returncode == 1
-        assert hard.stderr.startswith("hard.yaml:3:5: pan, key 1 to key 2: ")
+        assert hard.stderr.startswith("hard.yaml:3:5: pan needs ")
     assert json.loads(teleop("check", "hard.yaml", "--json", cwd=tmp_path).stdout)["ok"] is False
 
 
@@ -211,7 +211,7 @@ def test_a_move_waits_in_place_for_its_trigger_and_starts_at_once(tmp_path: Path
         sender.bind(("127.0.0.1", 0))
         port = sender.getsockname()[1]
     with running("play", str(tmp_path / "short.yaml"), "--trigger", f"osc:{port}/go") as process:
-        wait_for(process, f"waits for OSC /go on 127.0.0.1:{port}")
+        wait_for(process, f"waiting for OSC /go on 127.0.0.1:{port}")
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
             sender.sendto(b"nonsense", ("127.0.0.1", port))
             sender.sendto(b"/go\0,\0\0\0", ("127.0.0.1", port))
@@ -223,7 +223,7 @@ def test_a_move_waits_in_place_for_its_trigger_and_starts_at_once(tmp_path: Path
 def test_a_signal_ends_a_run_that_waits_for_its_trigger() -> None:
     later = f"{datetime.now() + timedelta(hours=6):%H:%M:%S}"
     with running("play", "reveal", "--trigger", "time", later) as process:
-        wait_for(process, f"waits for {later}")
+        wait_for(process, f"waiting for {later}")
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=DEADLINE)
     assert process.returncode == 130

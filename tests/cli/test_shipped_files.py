@@ -15,7 +15,7 @@ from teleop.config.pad_file import load_pad
 from teleop.config.profile import load_profile
 from teleop.config.resources import described, folder
 from teleop.config.yaml_loader import read_document
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 
 EVERYTHING = [(kind, name) for kind, place in FOLDERS.items() for name in described(place)]
 GIMBALS = ["rs2", "rs3-pro", "rs4-pro", "rs5"]
@@ -130,7 +130,7 @@ def test_what_the_slow_profiles_cannot_play_is_in_the_readme(rig: str) -> None:
         if name == "day-to-night":
             continue  # a timelapse: its path is slow
         try:
-            load_performance(name, load_profile(rig).limits, rig)
+            load_sequence(name, load_profile(rig).limits, rig)
         except DocumentError:
             refused.add(name)
     assert refused == NEEDS_MORE

@@ -83,11 +83,11 @@ def test_a_shoot_goes_on_where_a_signal_left_it_and_only_the_same_shoot_does(
         assert "Continue with --resume: frame " in said
     again = teleop("play", "dusk.yaml", "--fast", cwd=folder)
     assert again.returncode == 2
-    assert "of 12: go on with --resume, or begin anew with --restart" in again.stderr
+    assert "of 12: continue with --resume, or start over with --restart" in again.stderr
     (folder / "dusk.yaml").write_text(FILE.replace("pan: 10", "pan: 11"))
     changed = teleop("play", "dusk.yaml", "--fast", "--resume", cwd=folder)
     assert changed.returncode == 2
-    assert "and dusk.yaml is not what it was then: put it back, or begin anew with --restart" in changed.stderr
+    assert "and dusk.yaml has changed since: restore it, or start over with --restart" in changed.stderr
     (folder / "dusk.yaml").write_text(FILE)
     report = shot(folder, "--resume", "--link", "gimbal=sim:")
     assert (report["shot"], report["lost"]) == (12, [])
@@ -113,7 +113,7 @@ def test_a_full_disk_stops_the_shoot_before_the_frame_that_it_cannot_note(folder
     assert done.returncode == 1, done.stderr
     report = json.loads(done.stdout)
     assert "dusk.journal cannot be written: " in report["reasons"][0]
-    assert report["reasons"][0].endswith(" has not been shot")
+    assert report["reasons"][0].endswith(" was not shot")
     assert 0 < report["shot"] < 12
 
 
@@ -139,9 +139,9 @@ def test_a_take_of_a_shoot_says_what_its_link_counted(folder: Path) -> None:
             "dusk.yaml is a timelapse: --speed, --trim and the options of passes need --rehearse",
         ),
         (["dusk.yaml", "--resume", "--restart"], "--resume and --restart do not go together"),
-        (["reveal", "--resume"], "--resume: reveal is no timelapse"),
-        (["reveal", "--in-doubt", "skip"], "--in-doubt: reveal is no timelapse"),
-        (["dusk.yaml", "--resume", "--fast"], "--resume: there is nothing to resume: no dusk.journal in "),
+        (["reveal", "--resume"], "--resume: reveal is not a timelapse"),
+        (["reveal", "--in-doubt", "skip"], "--in-doubt: reveal is not a timelapse"),
+        (["dusk.yaml", "--resume", "--fast"], "--resume: no shoot to resume: no dusk.journal in "),
         (["dusk.yaml", "--rig", "./blind.yaml"], "Simulated rig has no camera to shoot with"),
     ],
 )

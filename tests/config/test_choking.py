@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from sequences import LIMITS, load, problems_of
 from teleop.config.document import DocumentError
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 
 SOON = 4.0  # s of this thread's own work, whatever else the machine does; each takes less than one
 LAUGHS = "\n".join(["a0: &a0 x"] + [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]" for i in range(1, 12)])
@@ -64,7 +64,7 @@ def test_a_hundred_thousand_keyframes_are_too_many_and_it_says_so_soon(tmp_path:
     assert time.thread_time() - began < SOON
     assert problem == "shoot.yaml:32001:10: holds too many values"
     text = "keyframes:\n" + "".join(f"  - {{at: {i}, pan: {i % 7}}}\n" for i in range(12_000))
-    assert problems_of(tmp_path, text) == ["shoot.yaml:1:1: would be 12000 keys of pan; at most 10000"]
+    assert problems_of(tmp_path, text) == ["shoot.yaml:1:1: needs 12000 keys of pan; the maximum is 10000"]
 
 
 def test_of_many_errors_the_first_are_told_and_the_others_counted(tmp_path: Path) -> None:
@@ -72,13 +72,13 @@ def test_of_many_errors_the_first_are_told_and_the_others_counted(tmp_path: Path
     (tmp_path / "wrong.yaml").write_text(text)
     began = time.thread_time()
     with pytest.raises(DocumentError) as caught:
-        load_performance(str(tmp_path / "wrong.yaml"), LIMITS, "the rig")
+        load_sequence(str(tmp_path / "wrong.yaml"), LIMITS, "the rig")
     assert time.thread_time() - began < SOON
-    assert len(caught.value.problems) + caught.value.more == 10_000  # each names no axis, and a key that is not known
+    assert len(caught.value.problems) + caught.value.more == 10_000  # each has no axis, and a key that is not known
     done = teleop("check", "wrong.yaml", cwd=tmp_path)
     assert done.returncode == 2
     lines = done.stderr.splitlines()
-    assert lines[0].startswith("wrong.yaml:2:5: key 1 names no axis")
+    assert lines[0].startswith("wrong.yaml:2:5: key 1 has no axis")
     assert (len(lines), lines[-1]) == (51, "teleop: and 9950 more")
 
 
@@ -88,9 +88,9 @@ def test_what_is_no_file_is_not_waited_for(tmp_path: Path) -> None:
     (tmp_path / "folder.yaml").mkdir()
     for name in ("pipe.yaml", "folder.yaml"):
         with pytest.raises(DocumentError, match="is no file"):
-            load_performance(str(tmp_path / name), LIMITS, "the rig")
+            load_sequence(str(tmp_path / name), LIMITS, "the rig")
     with pytest.raises(DocumentError, match=r"/dev/zero: is no file"):
-        load_performance("/dev/zero", LIMITS, "the rig")
+        load_sequence("/dev/zero", LIMITS, "the rig")
 
 
 _WORDS = """

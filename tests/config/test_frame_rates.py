@@ -14,7 +14,7 @@ from timecode.timecode import Timecode
 from teleop.config.frame_rates import drops, exact, exact_rate, frame_of, is_dropped, shown_rate, whole_rate
 from teleop.config.profile import load_profile
 from teleop.config.quantities import frame_rate, seconds
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.triggers.midi_timecode import DROP, Label
 from teleop.timelapse.compile import load_timelapse
 
@@ -124,7 +124,7 @@ def test_midi_and_a_sequence_say_the_same_of_a_label(count: int) -> None:
 def test_a_sequence_and_a_timelapse_run_at_the_exact_rate(tmp_path: Path) -> None:
     profile = load_profile("sim")
     (tmp_path / "move.yaml").write_text('fps: 23.976\nkeyframes: [{at: 0, pan: 0}, {at: "01:00:00:00", pan: 10}]\n')
-    move = load_performance(str(tmp_path / "move.yaml"), profile.limits, profile.name)
+    move = load_sequence(str(tmp_path / "move.yaml"), profile.limits, profile.name)
     assert move.fps == exact_rate(23.976)
     assert move.move.duration == pytest.approx(3603.6, abs=1e-9)
     (tmp_path / "lapse.yaml").write_text(

@@ -122,6 +122,11 @@ def test_a_rig_without_inputs_has_none(tmp_path: Path) -> None:
             "controls.X.command is for tell",
         ),
         (
+            "{controls: {X: {press: tell, command: gimbal folow lock}}}",
+            43,
+            "controls.X.command: unknown command gimbal folow lock; did you mean gimbal follow lock?",
+        ),
+        (
             "{controls: {H: {up: {press: store}}}}",
             25,
             "controls.H.up needs a number: which preset to store",

@@ -9,7 +9,7 @@ import pytest
 from teleop.config.document import DocumentError
 from teleop.config.messages import unknown_key
 from teleop.config.profile import load_profile
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 
 ANGLES = "yaw is called pan here; pitch is tilt"
 LIST = "must be a list: start each line with `- `"
@@ -50,7 +50,7 @@ START = "keyframes:\n  - {at: 0, pan: 0}\n"
 def test_one_mistake_is_one_line_with_its_cure(tmp_path: Path, text: str, problems: list[str]) -> None:
     (tmp_path / "shoot.yaml").write_text(text)
     with pytest.raises(DocumentError) as caught:
-        load_performance(str(tmp_path / "shoot.yaml"), load_profile("sim").limits, "sim")
+        load_sequence(str(tmp_path / "shoot.yaml"), load_profile("sim").limits, "sim")
     assert caught.value.problems == [f"{tmp_path}/shoot.yaml:{problem}" for problem in problems]
 
 
@@ -96,7 +96,7 @@ def test_an_old_key_of_a_timelapse_is_refused_with_its_new_name(tmp_path: Path) 
         "timelapse: {frames: 3, interval: 5s, exposure: 1, camera_fault: go-on}\nkeyframes: [{at: 0, pan: 1}]\n"
     )
     with pytest.raises(DocumentError) as caught:
-        load_performance(str(tmp_path / "dusk.yaml"), load_profile("sim").limits, "sim")
+        load_sequence(str(tmp_path / "dusk.yaml"), load_profile("sim").limits, "sim")
     assert caught.value.problems == [
         f"{tmp_path}/dusk.yaml:1:51: timelapse: `camera_fault` is called `on_camera_fault` now"
     ]

@@ -74,7 +74,7 @@ def test_a_preset_beyond_the_soft_limits_is_said(tmp_path: Path) -> None:
         ("presets:\n  1: {pna: 1}\n", "presets.yaml:2:7: presets.1: unknown key `pna`; did you mean `pan`?"),
         ("presets:\n  1: {pan: far}\n", "presets.yaml:2:12: presets.1.pan must be a number, not 'far'"),
         ("presets:\n  1: {pan: .nan}\n", "presets.yaml:2:12: presets.1.pan must be a finite number, not nan"),
-        ("presets:\n  1: {name: x}\n", "presets.yaml:2:6: presets.1 names no axis (pan, tilt, roll, focus)"),
+        ("presets:\n  1: {name: x}\n", "presets.yaml:2:6: presets.1 has no axis (pan, tilt, roll, focus)"),
         ("presets: 3\n", "presets.yaml:1:10: presets must be a mapping, not 3"),
     ],
 )

@@ -19,7 +19,9 @@ def test_keys_and_values_are_counted():
     with pytest.raises(TooMuchError) as error:
         compose("[1, 2, 3]", 5, 3)
     assert error.value.problem == "holds too many values"
-    assert (error.value.problem_mark.line, error.value.problem_mark.column) == (0, 7)
+    mark = error.value.problem_mark
+    assert mark is not None
+    assert (mark.line, mark.column) == (0, 7)
 
 
 @pytest.mark.parametrize("depth", [4, 10_000])

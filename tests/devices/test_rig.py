@@ -23,7 +23,7 @@ from teleop.dji.gimbal import camera, focus
 from teleop.dji.gimbal import messages as gimbal
 from teleop.inputs.recorded_sticks import SticksSource, read_sticks
 from teleop.monitors.tracking_error import TrackingErrorMonitor
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.source import SequenceSource
 
 PROFILE = """\
@@ -76,7 +76,7 @@ class Stage:
         self, rig: Rig, move: str = MOVE, observers: Sequence[Observer] = ()
     ) -> tuple[ControlLoop, SequenceSource]:
         (self.folder / "move.yaml").write_text(move)
-        performance = load_performance(str(self.folder / "move.yaml"), self.profile.limits, "the rig")
+        performance = load_sequence(str(self.folder / "move.yaml"), self.profile.limits, "the rig")
         source = SequenceSource(performance, self.profile.limits)
         self.tally = TrackingErrorMonitor(lambda: source.begin)
         return rig.loop(list(performance.move.tracks), [source], [self.tally, *observers]), source

@@ -71,7 +71,7 @@ ROWS: dict[str, tuple[Callable[[threading.Event], IO[bytes]], str]] = {
 def test_a_failing_disk_is_said_and_the_motion_is_the_same_to_the_frame(
     row: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "PATIENCE", 0.2)
+    monkeypatch.setattr(module, "FINISH_TIMEOUT", 0.2)
     opens, trouble = ROWS[row]
     wires, over = [], threading.Event()
     try:

@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from teleop.core.axes import STICKS
+from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command
 from teleop.devices.drone.engagement import Stage
 from teleop.sim.drone.controls import Pilot, Switch
@@ -31,8 +32,8 @@ ACTS: Mapping[str, Callable[[DroneFaultBench], object]] = {
     "disengage": lambda bench: bench.keys.press(Command.DISENGAGE),
     "forward": lambda bench: bench.pad.hold(**dict.fromkeys(STICKS, 0.8)),
     "centre": lambda bench: bench.pad.hold(**dict.fromkeys(STICKS, 0.0)),
-    "arm": lambda bench: bench.keys.press(Command.TELL, words="drone arm"),
-    "mode": lambda bench: bench.keys.press(Command.TELL, words="drone mode-a"),
+    "arm": lambda bench: bench.keys.press(Command.TELL, device_command=DeviceCommand("drone", "arm")),
+    "mode": lambda bench: bench.keys.press(Command.TELL, device_command=DeviceCommand("drone", "mode-a")),
     "stale": lambda bench: setattr(bench.pad, "trouble", "silent for 0.2 s"),
     "back": lambda bench: setattr(bench.pad, "trouble", ""),
     "stop": lambda bench: bench.keys.press(Command.STOP),

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from drone_fault_bench import FLIGHT, READY, DroneFaultBench, drone_fault_bench
 
+from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command
 from teleop.core.run_state import Result
 from teleop.dji.drone import messages as drone
@@ -188,7 +189,10 @@ def test_control_that_was_released_is_not_obtained_by_an_older_request(tmp_path:
 @pytest.mark.parametrize(
     ("then", "tasks"),
     [
-        (lambda bench: bench.keys.press(Command.TELL, words="drone land"), [TaskKind.TAKE_OFF, TaskKind.LAND]),
+        (
+            lambda bench: bench.keys.press(Command.TELL, device_command=DeviceCommand("drone", "land")),
+            [TaskKind.TAKE_OFF, TaskKind.LAND],
+        ),
         (lambda bench: bench.keys.press(Command.STOP), [TaskKind.TAKE_OFF]),
         (lambda bench: bench.keys.press(Command.QUIT), [TaskKind.TAKE_OFF]),
         (lambda bench: setattr(bench.pad, "trouble", "gone"), [TaskKind.TAKE_OFF]),

@@ -53,7 +53,7 @@ def test_a_deflection_has_its_ends_its_center_and_no_way_back(
         assert (deflect(low, low, center, high), deflect(high, low, center, high)) == (-1, 1)
 
 
-def found(values: list[float], low: float = 0, high: float = 255) -> Center:
+def found(values: Sequence[float], low: float = 0, high: float = 255) -> Center:
     center = Center(low, high)
     for index, value in enumerate(values):
         center.see(value, 100 + index * 0.01)

@@ -21,8 +21,9 @@ from teleop.planner.live import Live
 from teleop.planner.offset_limits import sequence_limits, trim_limits
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cycle import Cycle
+from teleop.sequence.phases import SequencePhase
 from teleop.sequence.playback_controls import PlaybackControls
-from teleop.sequence.source import SequencePhase, SequenceSource
+from teleop.sequence.source import SequenceSource
 
 PAN, TILT = Axis.PAN, Axis.TILT
 LIMITS = {PAN: Limits(-170, 170, 60, 120, 600), TILT: Limits(-30, 40, 40, 90, 480)}
@@ -37,7 +38,7 @@ FAST = SticksSection(start_range=3, low_pass=0.02, ramp=0.1)
 
 
 class Set:
-    """A sequence under a conductor with a pad and keys, and the live planner of all limits that carries the sum out."""
+    """A sequence under a controls with a pad and keys, and the live planner of all limits that carries the sum out."""
 
     def __init__(self, passes: float = 1) -> None:
         self.pad, self.keys = FakeInput("pad"), FakeInput("keys")
@@ -47,19 +48,19 @@ class Set:
         self.sequence = SequenceSource(performance, limits, 1.0, AtOnce(), staging)
         self.trimming = LiveOffset(trim_limits(MOVE, LIMITS, SHARE), [self.pad, self.keys], FAST)
         self.kept: list[dict] = []
-        self.conductor = PlaybackControls(self.sequence, self.keys, self.trimming, self._keep)
+        self.controls = PlaybackControls(self.sequence, self.keys, self.trimming, self._keep)
         self.now, self.ticks = 50.0, 0
         here = {PAN: State(-20.0), TILT: State(3.0)}
         self.live = Live(LIMITS, DT)
         self.live.reset(here)
-        self.conductor.start(self.now, here)
+        self.controls.start(self.now, here)
 
     def guard(self) -> StopGuard:
         """The same under a guard, which from then on is to be used in its place."""
         relays = [Relay(self.pad), Relay(self.keys)]
         trimming = LiveOffset(trim_limits(MOVE, LIMITS, SHARE), relays, FAST)
-        self.trimming, self.conductor = trimming, PlaybackControls(self.sequence, relays[1], trimming)
-        guard = StopGuard(self.conductor, relays)
+        self.trimming, self.controls = trimming, PlaybackControls(self.sequence, relays[1], trimming)
+        guard = StopGuard(self.controls, relays)
         guard.start(self.now, self.live.motion)
         return guard
 
@@ -71,7 +72,7 @@ class Set:
         """One tick, late ones too; asserts that the sum is legal and met."""
         self.now += ticks * DT
         self.ticks += 1
-        demand, _ = self.conductor.read(self.now, NO_FEEDBACK)
+        demand, _ = self.controls.read(self.now, NO_FEEDBACK)
         before = self.live.motion
         after = self.live.step(demand, ticks)
         for axis, limits in LIMITS.items():
@@ -196,7 +197,7 @@ def test_on_the_way_to_the_start_and_after_the_end_nothing_is_trimmed():
     scene.until(SequencePhase.OVER)
     scene.run(1.5)
     assert scene.offset()[1:] == (0.0, 0.0)
-    assert scene.conductor.next_change(scene.now) == float("inf")
+    assert scene.controls.next_change(scene.now) == float("inf")
 
 
 def test_a_stop_halts_sequence_and_trim_and_both_are_met_again_afterwards():
@@ -262,7 +263,7 @@ def test_a_pads_buttons_change_the_trims_speed_and_the_keys_that_of_the_move():
     assert scene.trimming.share == 1.0
     scene.pad.press(Command.STORE, 3)
     scene.run(0.1)
-    assert "store: not while a sequence is played" in scene.conductor.note
+    assert "store: not available while a sequence plays" in scene.controls.note
 
 
 def test_the_trim_is_kept_when_the_key_says_so_and_shown():
@@ -273,8 +274,8 @@ def test_the_trim_is_kept_when_the_key_says_so_and_shown():
     scene.keys.press(Command.KEEP)
     scene.step()
     assert scene.kept[0][TILT].position == pytest.approx(-2.0)
-    assert "kept" in scene.conductor.note
-    assert "tilt -2.000" in scene.conductor.note
+    assert "kept" in scene.controls.note
+    assert "tilt -2.000" in scene.controls.note
 
 
 def test_paused_the_move_stands_and_the_trim_goes_on():

@@ -39,7 +39,7 @@ def test_a_stick_moves_its_axis_at_its_share_of_the_range(desk: Desk) -> None:
     assert desk.velocity(PAN) == pytest.approx(0.5 * 0.35 * 120)
     assert desk.velocity(TILT) == 0
     assert desk.status.deflections == {PAN: 0.5}
-    assert list(desk.status.hands[0].moves) == [PAN]
+    assert list(desk.status.inputs[0].moves) == [PAN]
 
 
 def test_a_stick_that_is_held_over_at_the_start_moves_nothing_until_it_was_centred(tmp_path: Path) -> None:
@@ -48,7 +48,7 @@ def test_a_stick_that_is_held_over_at_the_start_moves_nothing_until_it_was_centr
     desk.run(1)
     assert desk.rests
     assert desk.messages == ["pad is locked: center its sticks"]
-    assert desk.status.hands[0].waits_for == "center its sticks"
+    assert desk.status.inputs[0].waits_for == "center its sticks"
     desk.pad.hold(pan=0.0)
     desk.tick()
     desk.pad.hold(pan=1.0)
@@ -104,7 +104,7 @@ def test_the_first_trusted_input_that_deflects_an_axis_drives_it(tmp_path: Path)
     desk.run(1)
     assert desk.velocity(PAN) == pytest.approx(12)
     assert desk.velocity(TILT) == pytest.approx(45)
-    assert [list(hand.moves) for hand in desk.status.hands] == [[PAN], [TILT]]
+    assert [list(hand.moves) for hand in desk.status.inputs] == [[PAN], [TILT]]
     first.hold()
     desk.run(1)
     assert desk.velocity(PAN) == pytest.approx(-60)
@@ -122,11 +122,11 @@ def test_hands_off_is_for_inputs_without_an_enable_button(tmp_path: Path) -> Non
     desk.run(1)
     assert desk.velocity(PAN) == 0
     assert desk.velocity(TILT) == pytest.approx(9)
-    assert not desk.status.hands_on
-    assert desk.status.hands[0].waits_for == "center its sticks"
+    assert not desk.status.manual_control
+    assert desk.status.inputs[0].waits_for == "center its sticks"
     free.hold()
     desk.tick(2)
-    assert desk.status.hands[0].waits_for == "manual control is off"
+    assert desk.status.inputs[0].waits_for == "manual control is off"
     free.press(Command.ENABLE)
     desk.tick(2)
     free.hold(pan=1.0)
@@ -154,7 +154,7 @@ def test_trouble_stops_what_the_input_moved_and_says_so(desk: Desk) -> None:
     assert desk.messages[0] == "pad: unplugged: pan and tilt stopped"
     desk.run(0.5)
     assert desk.rests
-    assert desk.status.hands[0].trouble == "pad: unplugged"
+    assert desk.status.inputs[0].trouble == "pad: unplugged"
     desk.pad.trouble = ""  # replugged, the stick still held over
     desk.run(0.5)
     assert desk.rests
@@ -614,12 +614,12 @@ def test_quitting_stops_every_axis_and_ends_the_run(desk: Desk) -> None:
 def test_a_device_s_own_command_is_refused_while_anything_moves(desk: Desk) -> None:
     desk.pad.hold(pan=1.0)
     desk.run(0.2)
-    desk.press(Command.TELL, words="gimbal follow lock")
+    desk.press(Command.TELL, device_command=DeviceCommand("gimbal", "follow lock"))
     assert (desk.actions, desk.messages[0]) == ([], "gimbal follow lock refused: an axis is moving")
     desk.pad.hold()
     desk.run(1)
-    desk.press(Command.TELL, words="gimbal follow lock")
-    assert desk.actions == [DeviceCommand("gimbal follow lock")]
+    desk.press(Command.TELL, device_command=DeviceCommand("gimbal", "follow lock"))
+    assert desk.actions == [DeviceCommand("gimbal", "follow lock")]
 
 
 def test_the_dial_is_passed_on_while_it_turns_and_once_as_it_rests(desk: Desk) -> None:

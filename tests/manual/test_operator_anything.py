@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teleop.core.axes import Axis, Limits, Motion
+from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command
 from teleop.core.setpoints import PositionTarget, Stop, VelocityTarget
 from teleop.core.timing import PERIOD
@@ -41,7 +42,7 @@ def happen(hand: FakeInput, kind: str, what: object) -> None:
             hand.deflections = what
         case "press":
             assert isinstance(what, Command)
-            hand.press(what, 1, "gimbal follow lock")
+            hand.press(what, 1, DeviceCommand("gimbal", "follow lock"))
         case "turn":
             assert isinstance(what, tuple)
             hand.turn(*what)
@@ -120,7 +121,9 @@ def check_demand(desk: Desk, hands: list[FakeInput], witnesses: list[Witness]) -
         assert desk.demand == {axis: Stop() for axis in LIMITS}
         return
     trusted = [
-        hand for hand, witness in zip(hands, witnesses, strict=True) if witness.may_move(hand, desk.status.hands_on)
+        hand
+        for hand, witness in zip(hands, witnesses, strict=True)
+        if witness.may_move(hand, desk.status.manual_control)
     ]
     for axis, wish in desk.demand.items():
         deflected = any(hand.deflections.get(axis) for hand in trusted)

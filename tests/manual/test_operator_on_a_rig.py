@@ -14,7 +14,7 @@ from teleop.config.presets import Presets
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis, Motion
 from teleop.core.clock import VirtualClock
-from teleop.core.events import Tick
+from teleop.core.events import DeviceCommand, Tick
 from teleop.core.operator_input import Command
 from teleop.core.run_state import Result, RunStateMachine
 from teleop.core.timing import PERIOD
@@ -78,8 +78,10 @@ class Show:
         return [message.text for message in reversed(self.operator.status.messages)]
 
 
-def press(command: Command, number: int = 0, words: str = "") -> Callable[[FakeInput], object]:
-    return lambda pad: pad.press(command, number, words)
+def press(
+    command: Command, number: int = 0, device_command: DeviceCommand | None = None
+) -> Callable[[FakeInput], object]:
+    return lambda pad: pad.press(command, number, device_command)
 
 
 def hold(**deflections: float) -> Callable[[FakeInput], object]:
@@ -162,7 +164,7 @@ def test_follow_modes_and_the_dial_arrive_and_the_dial_ends_at_zero(tmp_path: Pa
         tmp_path,
         "position",
         [
-            (0.2, press(Command.TELL, words="gimbal follow lock")),
+            (0.2, press(Command.TELL, device_command=DeviceCommand("gimbal", "follow lock"))),
             (0.5, lambda pad: setattr(pad, "dial", -1.0)),
             (1.5, press(Command.QUIT)),
         ],

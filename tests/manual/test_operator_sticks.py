@@ -65,7 +65,7 @@ def test_the_e_stop_halts_it_in_its_centre_and_forbids_engaging(desk: Desk) -> N
     desk.press(Command.ENGAGE)
     assert desk.messages[0] == "drone: not engaged: STOP is not cleared"
     desk.press(Command.DISENGAGE)
-    assert desk.actions == [DeviceCommand("drone disengage")]
+    assert desk.actions == [DeviceCommand("drone", "disengage")]
 
 
 def test_presets_leave_it_alone_and_it_leaves_presets_alone(desk: Desk) -> None:
@@ -96,8 +96,8 @@ def test_what_a_drone_is_told_does_not_wait_for_rest(desk: Desk) -> None:
     desk.pad.hold(pan=1.0, stick_pitch=0.5)
     desk.run(0.5)
     desk.press(Command.ENGAGE)
-    desk.press(Command.TELL, words="drone arm")
-    assert desk.actions == [DeviceCommand("drone engage"), DeviceCommand("drone arm")]
+    desk.press(Command.TELL, device_command=DeviceCommand("drone", "arm"))
+    assert desk.actions == [DeviceCommand("drone", "engage"), DeviceCommand("drone", "arm")]
 
 
 def test_recorded_sticks_hold_it_where_the_row_has_it_to_the_end() -> None:

@@ -26,17 +26,18 @@ from teleop.planner.live import Live
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.cycle import Cycle
+from teleop.sequence.phases import SequencePhase
 from teleop.sequence.playback_controls import PlaybackControls
-from teleop.sequence.source import SequencePhase, SequenceSource
+from teleop.sequence.source import SequenceSource
 
 PAN, TILT = Axis.PAN, Axis.TILT
 LIMITS = {PAN: Limits(-180, 180, 60, 120, 600), TILT: Limits(-50, 50, 40, 90, 480)}
 KEYS = {PAN: [Key(0, 0), Key(2, 30), Key(4, 60, stop=True), Key(8, -30)], TILT: [Key(0, 0), Key(3, 25), Key(8, -20)]}
 CUES = [
     Cue(0, Action.RECORD),
-    Cue(1, DeviceCommand("gimbal follow lock")),
+    Cue(1, DeviceCommand("gimbal", "follow lock")),
     Cue(1.5, Action.SHUTTER),
-    Cue(6, DeviceCommand("gimbal follow yaw")),
+    Cue(6, DeviceCommand("gimbal", "follow yaw")),
     Cue(8, Action.STOP),
 ]
 DT = 0.01
@@ -62,7 +63,7 @@ class Trigger:
     def fired(self, now: float) -> bool:
         return self.fires
 
-    def said(self, now: float) -> str:
+    def waits_for(self, now: float) -> str:
         return "a test"
 
 
@@ -74,9 +75,9 @@ class Run:
         performance = CompiledSequence("Test", plan(KEYS, LIMITS), list(cues), [], KEYS)
         self.sequence = SequenceSource(performance, LIMITS, 1.0, AtOnce(), staging or Cycle(0.3))
         relays = [Relay(self.pad), Relay(self.keys)]
-        self.conductor = PlaybackControls(self.sequence, Together(relays))
+        self.controls = PlaybackControls(self.sequence, Together(relays))
         self.said: list[str] = []
-        self.guard = StopGuard(self.conductor, relays, self.said.append)
+        self.guard = StopGuard(self.controls, relays, self.said.append)
         self.planner = Live(LIMITS, DT)
         self.motion: Motion = {PAN: State(start), TILT: State(0.0)}
         self.planner.reset(self.motion)
@@ -162,7 +163,7 @@ def test_stop_takes_the_fastest_legal_stop_and_latches() -> None:
     run.press(PAUSE, GO)  # and nothing goes on before it is cleared
     run.run(3)
     assert run.motion == there
-    assert run.guard.over(run.conductor.status(run.now)).stop == "stopped"
+    assert run.guard.over(run.controls.status(run.now)).stop == "stopped"
 
 
 @pytest.mark.parametrize("go", [PAUSE, GO])
@@ -173,7 +174,7 @@ def test_after_clear_the_run_goes_on_from_where_it_was_left_and_no_cue_is_lost_o
     left = run.sequence.playback.time(run.now)
     run.press(STOP)
     run.run(4)
-    assert run.acts == [Action.RECORD, DeviceCommand("gimbal follow lock")]
+    assert run.acts == [Action.RECORD, DeviceCommand("gimbal", "follow lock")]
     run.press(CLEAR)
     assert run.guard.note == "STOP cleared. Press p or Enter to continue, q to end."
     rest = dict(run.motion)
@@ -241,14 +242,14 @@ def test_a_trigger_that_went_by_during_a_stop_leaves_the_start_to_the_operator()
     run = Run(Cycle(0.2, trigger=trigger))
     run.until(SequencePhase.ARMED)
     run.press(STOP)
-    trigger.late = "18:30:00 was 5.0 s before the rig was in place"
+    trigger.late = "18:30:00 was 5.0 s before the rig reached the start"
     run.run(1)
     run.press(CLEAR, GO)
     run.until(SequencePhase.ARMED)
     trigger.fires = True
     run.run(2)
     assert run.sequence.phase is SequencePhase.ARMED
-    assert run.conductor.note.startswith("18:30:00 was 5.0 s before the rig was in place: enter starts it now")
+    assert run.controls.note.startswith("18:30:00 was 5.0 s before the rig reached the start: enter start ")
     run.press(GO)
     run.run(1)
     assert run.sequence.phase is SequencePhase.PLAYING
@@ -341,7 +342,7 @@ def test_an_input_whose_stop_is_lost_pauses_the_run(phase: SequencePhase) -> Non
     run.press(PAUSE)
     run.pad.stop = ""
     run.tick()
-    assert run.said[1:] == ["pad: its STOP counts again"]
+    assert run.said[1:] == ["pad: its STOP works again"]
     while not run.over:
         run.tick()
     assert run.acts == [cue.action for cue in CUES]
@@ -352,7 +353,7 @@ def test_an_input_that_is_absent_from_the_start_blocks_nothing() -> None:
     run.pad.stop = "pad: cannot be opened"
     while not run.over:
         run.tick()
-    assert run.said == ["pad: cannot be opened: its STOP does not count"]
+    assert run.said == ["pad: cannot be opened: its STOP does not work"]
     assert run.acts == [cue.action for cue in CUES]
 
 
@@ -440,6 +441,6 @@ def test_whatever_is_pressed_nothing_moves_while_stopped_and_each_cue_comes_once
         run.run(3)
     else:
         run.press(QUIT)
-        assert run.ended or run.conductor._stopped
+        assert run.ended or run.controls._stopped
         return
     assert run.acts == expected

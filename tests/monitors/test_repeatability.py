@@ -58,7 +58,7 @@ sinks: [{{type: gimbal, link: gimbal, mode: {mode}, rate: 50, delay: 0.05}}]
     limits = {PAN: Limits(-180, 180, 60, 240, 2400)}
     performance = CompiledSequence("Test", plan(keys, limits), [], [], keys)
     clock = VirtualClock(123456.789)
-    source = SequenceSource(performance, limits, staging=Cycle(0.5, passes=4, compared=True))
+    source = SequenceSource(performance, limits, cycle=Cycle(0.5, passes=4, compared=True))
     repeatability = Repeatability(source.place)
     with open_rig(profile, clock) as rig:
         assert rig.loop([PAN], [source], [repeatability]).run().result is Result.DONE

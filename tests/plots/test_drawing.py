@@ -10,14 +10,14 @@ from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.planner import Key, plan
 from teleop.plots.drawing import figure
 from teleop.plots.style import COLORS
-from teleop.sequence.compile import CompiledSequence, load_performance
+from teleop.sequence.compile import CompiledSequence, load_sequence
 
 pytest.importorskip("matplotlib", reason="the plot extra is not installed")
 
 
 def test_each_quantity_has_every_axis_and_the_cues_and_each_unit_a_scale() -> None:
     profile = load_profile("sim")
-    drawing = figure(load_performance("reveal", profile.limits, profile.name), profile)
+    drawing = figure(load_sequence("reveal", profile.limits, profile.name), profile)
     degrees, share = drawing.axes[:4], drawing.axes[4:]
     assert [panel.get_ylabel() for panel in degrees] == ["position °", "velocity °/s", "acceleration °/s²", "jerk °/s³"]
     assert [panel.get_ylabel() for panel in share] == ["position", "velocity 1/s", "acceleration 1/s²", "jerk 1/s³"]

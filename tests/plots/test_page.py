@@ -19,7 +19,7 @@ from teleop.planner.keyframes.planner import Key, plan
 from teleop.planner.trajectory import Move
 from teleop.plots.downsample import MOST
 from teleop.plots.page import page
-from teleop.sequence.compile import CompiledSequence, Cue, load_performance
+from teleop.sequence.compile import CompiledSequence, Cue, load_sequence
 
 HOSTILE = "</script><script>alert(1)</script> & <b>{{data}}"
 LOADED = {"src", "srcset", "href", "data", "action", "poster", "background", "ping"}
@@ -56,7 +56,7 @@ def profile() -> Profile:
 
 @pytest.fixture(scope="module")
 def reveal(profile: Profile) -> str:
-    return page(load_performance("reveal", profile.limits, profile.name), profile)
+    return page(load_sequence("reveal", profile.limits, profile.name), profile)
 
 
 def test_nothing_is_loaded_from_anywhere(reveal: str) -> None:
@@ -93,7 +93,7 @@ def test_a_title_is_text(profile: Profile) -> None:
 def test_a_continuous_axis_has_no_soft_limits(profile: Profile) -> None:
     pan = profile.axes[Axis.PAN].model_copy(update={"min": None, "max": None})
     turning = profile.model_copy(update={"axes": {**profile.axes, Axis.PAN: pan}})
-    text = page(load_performance("reveal", turning.limits, turning.name), turning)
+    text = page(load_sequence("reveal", turning.limits, turning.name), turning)
     assert Reader(text).move["axes"][0]["limits"]["position"] == [None, None]
 
 

@@ -14,7 +14,7 @@ from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
 from teleop.recording.reader import read_take
 from teleop.recording.replay import take_performance
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 
 LIMITS = load_profile("sim").limits
 MOVE = """
@@ -45,7 +45,7 @@ def test_what_was_commanded_is_in_the_file_for_any_reader_of_mcap(take: Path) ->
             for _, channel, message in make_reader(stream).iter_messages()
             if channel.topic == "/motion"
         ]
-    move = load_performance(str(take.with_name("shoot.yaml")), LIMITS, "sim").move
+    move = load_sequence(str(take.with_name("shoot.yaml")), LIMITS, "sim").move
     begin = messages[-1][0] / 1e9
     ends = messages[-1][1]
     assert ends["pan"]["position"] == pytest.approx(40)
@@ -126,5 +126,5 @@ def test_a_take_at_the_limits_themselves_is_repeated_at_its_own_speed(tmp_path: 
     faster = teleop("play", "full.mcap", "--fast", "--speed", "120%", cwd=tmp_path)
     assert (faster.returncode, faster.stderr) == (
         2,
-        "--speed 120%: the move allows at most 97 % of its speed, not 120 %\n",
+        "--speed 120%: maximum playback speed: 97 %, not 120 %\n",
     )

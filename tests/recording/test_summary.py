@@ -17,7 +17,7 @@ from teleop.recording.summary import summarize, summarize_index, takes_in
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    acts = {5: [Action.RECORD], 50: [DeviceCommand("gimbal recenter")]}
+    acts = {5: [Action.RECORD], 50: [DeviceCommand("gimbal", "recenter")]}
     write_take(tmp_path / "b.mcap", {Axis.PAN: at_rest(1)}, 2.5, acts=acts, result="failed", reasons=["pan: stalled"])
     write_take(tmp_path / "c.mcap", {Axis.PAN: lambda time: State(time, 1.0)}, 1.0, closed=False)
     (tmp_path / "a.mcap").write_bytes(b"")

@@ -23,7 +23,7 @@ OF_PAN = ["_stick", "_wish", "_asked", "", "_velocity", "_acceleration", "_measu
 
 
 def test_a_row_for_each_tick_with_what_was_measured_in_the_row_of_its_time(tmp_path: Path) -> None:
-    acts = {3: [Action.RECORD, DeviceCommand("gimbal follow lock, now")]}
+    acts = {3: [Action.RECORD, DeviceCommand("gimbal", "follow lock, now")]}
     path = write_take(
         tmp_path / "t.mcap", {PAN: lambda time: State(time, 1.0)}, 1.0, measured={PAN: lambda time: time / 2}, acts=acts
     )

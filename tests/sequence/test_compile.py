@@ -13,7 +13,7 @@ from teleop.config.resources import folder
 from teleop.core.axes import Axis
 from teleop.core.events import Action
 from teleop.planner.keyframes.ramp import Ramp
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.cues import Cue
 
 
@@ -23,7 +23,7 @@ from teleop.sequence.cues import Cue
         ("title: x\n", "shoot.yaml:1:1: keyframes is missing"),
         ("keyframes: []\n", "shoot.yaml:1:12: keyframes must have at least 1"),
         ("keyframes:\n  - {pan: 1}\n", "shoot.yaml:2:5: key 1: at is missing"),
-        ("keyframes:\n  - {at: 0}\n", "shoot.yaml:2:5: key 1 names no axis (pan, tilt, roll, focus)"),
+        ("keyframes:\n  - {at: 0}\n", "shoot.yaml:2:5: key 1 has no axis (pan, tilt, roll, focus)"),
         (
             "keyframes:\n  - {at: 0, pan: 0}\n  - {at: 6.5, pan: 1}\n  - {at: 6, tilt: 1}\n",
             "shoot.yaml:4:10: key 3: at must be after key 2 (6.5 s)",
@@ -61,7 +61,7 @@ def test_what_the_rig_cannot_do_is_another_kind_of_error(tmp_path: Path) -> None
     text = "keyframes:\n  - {at: 0, pan: 200}\n  - {at: 3, roll: 1}\n"
     assert problems_of(tmp_path, text, UnplayableError) == [
         "shoot.yaml:2:18: key 1: pan must be within -180..180 (the rig), not 200",
-        "shoot.yaml:3:19: key 2: roll cannot be: the rig has no roll; it has pan, tilt, focus",
+        "shoot.yaml:3:19: key 2: roll: the rig has no roll; it has pan, tilt, focus",
     ]
 
 
@@ -101,7 +101,7 @@ PLAYED = [file for file in sorted(folder("sequences").glob("*.yaml")) if "timela
 @pytest.mark.parametrize("name", [file.stem for file in PLAYED])
 def test_every_shipped_sequence_plays_on_a_simulated_rig(name: str) -> None:
     rig = load_profile(RIGS.get(name, "sim"))
-    performance = load_performance(name, rig.limits, rig.name, [sink.type for sink in rig.sinks])
+    performance = load_sequence(name, rig.limits, rig.name, [sink.type for sink in rig.sinks])
     assert performance.warnings == []
 
 

@@ -31,9 +31,9 @@ def test_each_kind_becomes_what_its_device_is_told(tmp_path: Path) -> None:
     )
     assert performance.cues == [
         Cue(0, Action.FOCUS),
-        Cue(0, DeviceCommand("gimbal follow yaw")),
-        Cue(0, DeviceCommand("gimbal follow yaw")),
-        Cue(4.2, DeviceCommand("gimbal set_stiffness pitch=40 roll=40 yaw=40")),
+        Cue(0, DeviceCommand("gimbal", "follow yaw")),
+        Cue(0, DeviceCommand("gimbal", "follow yaw")),
+        Cue(4.2, DeviceCommand("gimbal", "set_stiffness", ("pitch=40", "roll=40", "yaw=40"))),
     ]
     assert [cue.name for cue in performance.cues[:2]] == ["focus", "gimbal follow yaw"]
 
@@ -58,28 +58,28 @@ def test_each_kind_becomes_what_its_device_is_told(tmp_path: Path) -> None:
         ("at: 0, recenter: now", "6:23: cue 1: recenter must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not 'now'"),
         (
             "at: 0, send: gimbal folow lock",
-            "6:19: cue 1: send cannot be sent: there is no command 'gimbal folow lock', did you mean 'gimbal follow",
+            "6:19: cue 1: send: unknown command gimbal folow lock; did you mean gimbal follow",
         ),
         (
             "at: 0, send: gimbal set_stiffness pitch=140 roll=40 yaw=40",
-            "6:19: cue 1: send cannot be sent: gimbal.set_stiffness: pitch must be 0..100 %, not 140",
+            "6:19: cue 1: send: gimbal.set_stiffness: pitch must be 0..100 %, not 140",
         ),
         (
             "at: 0, send: gimbal set_stiffness pitch=1",
-            "6:19: cue 1: send cannot be sent: gimbal.set_stiffness: roll, yaw",
+            "6:19: cue 1: send: gimbal.set_stiffness: roll, yaw",
         ),
         ("at: 0, send: camera record", "6:19: cue 1: send must be written as camera: record"),
         ("at: 0, send: camera short_command command=record", "6:19: cue 1: send must be written as camera: record"),
-        ("at: 0, send: recenter", "6:19: cue 1: send would be taken back by what is streamed: write recenter: 3s"),
+        ("at: 0, send: recenter", "6:19: cue 1: send conflicts with the motion of the run: write recenter: 3s"),
         (
             "at: 0, send: gimbal position yaw=1 roll=0 pitch=0",
-            "6:19: cue 1: send would be taken back by what is streamed: write pan:, tilt: and roll: into a keyframe",
+            "6:19: cue 1: send conflicts with the motion of the run: write pan:, tilt: and roll: into a keyframe",
         ),
         (
             "at: 0, send: focus set position=1",
-            "6:19: cue 1: send would be taken back by what is streamed: write focus: into a keyframe",
+            "6:19: cue 1: send conflicts with the motion of the run: write focus: into a keyframe",
         ),
-        ("at: 0, send: gimbal track", "6:19: cue 1: send would have the gimbal move by itself, against the keyframes"),
+        ("at: 0, send: gimbal track", "6:19: cue 1: send moves the gimbal by itself, against the keyframes"),
         ("at: 0, send: 3", "6:19: cue 1: send must be text, not 3"),
         ("send: gimbal angles", "6:5: cue 1: at is missing"),
         ("at: , camera: stop", "6:10: cue 1: at must be a time (4, 4s, 1m30s, 96f or 00:00:04:00), not empty"),
@@ -99,7 +99,8 @@ def test_what_changes_the_gimbals_ways_needs_a_rest_and_is_told_where_one_is(tmp
         "with `pass: stop` at 5.1 s",
     ]
     for rest in ("0", "4", "4.5", "5", "9", "100"):
-        assert load(tmp_path, cued(f"at: {rest}, follow: lock")).cues[0].action == DeviceCommand("gimbal follow lock")
+        lock = load(tmp_path, cued(f"at: {rest}, follow: lock")).cues[0].action
+        assert lock == DeviceCommand("gimbal", "follow lock")
 
 
 def test_a_wait_needs_rest_and_a_drone_that_hovers(tmp_path: Path) -> None:
@@ -115,7 +116,7 @@ def test_a_wait_needs_rest_and_a_drone_that_hovers(tmp_path: Path) -> None:
         "cues:\n  - {at: 4, wait: operator}\n"
     )
     assert problems_of(tmp_path, flight) == [
-        "shoot.yaml:6:5: cue 1 would hold stick_yaw deflected, and the drone would fly on: let it be 0 by then"
+        "shoot.yaml:6:5: cue 1 holds stick_yaw deflected, so the drone keeps flying: bring it to 0 before"
     ]
     assert load(tmp_path, flight.replace("at: 4, wait", "at: 9, wait")).cues == [Cue(9, Wait())]
 
@@ -145,10 +146,10 @@ def test_a_recentre_is_a_planned_way_from_rest_to_rest(tmp_path: Path) -> None:
     [
         (
             "at: 2, recenter: 1s",
-            "is while pan is on its way to key 2; it rests until 0 s",
+            "begins while pan moves to key 2; it rests until 0 s",
         ),
-        ("at: 4, recenter: 1s", "is while key 2 holds pan (until 5 s)"),
-        ("at: 5, recenter: 4s", "must be over before key 3 (9 s), where pan is to be elsewhere"),
+        ("at: 4, recenter: 1s", "begins while key 2 holds pan (until 5 s)"),
+        ("at: 5, recenter: 4s", "must end before key 3 (9 s), where pan is elsewhere"),
     ],
 )
 def test_a_recentre_of_what_moves_or_is_wanted_elsewhere_is_refused(tmp_path: Path, cue: str, problem: str) -> None:
@@ -158,16 +159,16 @@ def test_a_recentre_of_what_moves_or_is_wanted_elsewhere_is_refused(tmp_path: Pa
 
 def test_a_recentre_that_is_too_fast_or_moves_nothing_is_said_where_it_stands(tmp_path: Path) -> None:
     found, *_ = problems_of(tmp_path, cued("at: 9, recenter: 0.1s"), UnplayableError)
-    assert found.startswith("shoot.yaml:6:5: pan, key 3 to cue 1: ")
+    assert found.startswith("shoot.yaml:6:5: pan needs 0.960 s from key 3 to cue 1, not 0.100 s ")
     [found] = problems_of(tmp_path, "keyframes: [{at: 0, focus: 0}]\ncues: [{at: 1, recenter: 3s}]\n")
-    assert found.endswith("cue 1: recenter moves pan, tilt and roll, and no keyframe has one of them")
+    assert found.endswith("cue 1: recenter needs a keyframe with pan, tilt or roll")
 
 
 def test_a_rig_without_the_device_of_a_cue_is_said(tmp_path: Path) -> None:
     text = cued("at: 0, camera: record", "at: 9, follow: lock")
     assert problems_of(tmp_path, text, UnplayableError, devices=["focus"]) == [
-        "shoot.yaml:6:21: cue 1: camera cannot be: the rig has no camera; its sinks are focus",
-        "shoot.yaml:7:21: cue 2: follow cannot be: the rig has no gimbal; its sinks are focus",
+        "shoot.yaml:6:21: cue 1: camera: the rig has no camera; its sinks are focus",
+        "shoot.yaml:7:21: cue 2: follow: the rig has no gimbal; its sinks are focus",
     ]
     assert len(load(tmp_path, text, devices=["focus", "gimbal", "camera"]).cues) == 2
 

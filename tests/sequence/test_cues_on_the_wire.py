@@ -19,7 +19,7 @@ from teleop.dji.gimbal.camera import CameraCommand
 from teleop.dji.gimbal.command_table import COMMANDS, find, is_taken_back
 from teleop.dji.gimbal.enums import FollowMode
 from teleop.dji.message import Message
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.cycle import Cycle
 from teleop.sequence.source import SequenceSource
 
@@ -55,10 +55,10 @@ def heard(
     """All that is no stream, with its time in s after the start."""
     (folder / "cued.yaml").write_text(text)
     profile, clock = load_profile("sim"), VirtualClock(100.0)
-    performance = load_performance(str(folder / "cued.yaml"), profile.limits, "the rig")
+    performance = load_sequence(str(folder / "cued.yaml"), profile.limits, "the rig")
     with open_rig(profile, clock) as rig:
         tap = wire.tapped(rig)
-        source = SequenceSource(performance, profile.limits, speed, staging=Cycle(0.5, passes=passes))
+        source = SequenceSource(performance, profile.limits, speed, cycle=Cycle(0.5, passes=passes))
         told = CommandSink(next(iter(rig.connections.values())), lambda _text: None)
         ended = rig.loop(list(performance.move.tracks), [source], sinks=[told]).run()
     assert (ended.result, ended.reasons) == (Result.DONE, [])
@@ -148,7 +148,10 @@ def test_any_message_of_the_protocol_is_sent_or_refused_with_a_reason(tmp_path: 
     text = f"keyframes: [{{at: 0, pan: 0}}]\ncues: [{{at: 1, send: {words}}}]\n"
     message = find(words.split())
     if name in BY_THEMSELVES or is_taken_back(message):
-        with pytest.raises(DocumentError, match=r"cued.yaml:2:22: cue 1: send would (be taken back|have the gimbal) "):
+        with pytest.raises(
+            DocumentError,
+            match=r"cued.yaml:2:22: cue 1: send (conflicts with|moves) the ",
+        ):
             heard(tmp_path, text)
     else:
         assert (1.0, message) in heard(tmp_path, text, streams=())

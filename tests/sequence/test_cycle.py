@@ -16,7 +16,9 @@ from teleop.planner.live import Live
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue
 from teleop.sequence.cycle import Cycle
-from teleop.sequence.source import SequencePhase, SequenceSource
+from teleop.sequence.phases import SequencePhase
+from teleop.sequence.progress import progress_text
+from teleop.sequence.source import SequenceSource
 
 PAN = Axis.PAN
 LIMITS = {PAN: Limits(-180, 180, 60, 120, 600)}
@@ -41,7 +43,7 @@ class Button:
     def fired(self, now: float) -> bool:
         return self.pulled
 
-    def said(self, now: float) -> str:
+    def waits_for(self, now: float) -> str:
         return "the button"
 
 
@@ -51,7 +53,7 @@ class Stage:
     def __init__(self, keys: list[Key], staging: Cycle, cues: list[Cue] | None = None, here: float = 0.0) -> None:
         self.move = plan({PAN: keys}, LIMITS)
         performance = CompiledSequence("Test", self.move, cues or [], [], {PAN: keys})
-        self.source = SequenceSource(performance, LIMITS, executor=AtOnce(), staging=staging)
+        self.source = SequenceSource(performance, LIMITS, executor=AtOnce(), cycle=staging)
         self.now = 100.0
         self.source.start(self.now, {PAN: State(here)})
         self.live = Live(LIMITS, DT)
@@ -95,7 +97,7 @@ def test_the_preroll_is_counted_down_in_place():
     stage = Stage(THERE, Cycle(preroll=3), here=-10)
     stage.until(SequencePhase.PREROLL)
     assert stage.pan == State(0.0)
-    assert stage.source.said(stage.now) == "starts in  3.0 s"
+    assert progress_text(stage.source, stage.now) == "starts in  3.0 s"
     assert stage.source.next_change(stage.now) == stage.source.begin == pytest.approx(stage.now + 3)
     stage.until(SequencePhase.PLAYING)
     assert stage.now == pytest.approx(stage.source.begin)
@@ -104,7 +106,7 @@ def test_the_preroll_is_counted_down_in_place():
 def test_started_in_mid_move_it_is_there_at_the_speed_that_the_move_has_there():
     stage = Stage(THERE, Cycle(start_at=2.5), here=-10)
     stage.until(SequencePhase.PLAYING)
-    assert stage.source.said(stage.now) == "run-up to 2.5 s"
+    assert progress_text(stage.source, stage.now) == "run-up to 2.5 s"
     while stage.source.playback.time(stage.now) < 2.5 - 1e-6:
         assert stage.pan.position < stage.move.at(2.5)[PAN].position
         stage.step()
@@ -124,12 +126,12 @@ def test_cues_before_a_start_in_mid_move_are_left_out_but_the_camera_is_recordin
 
 
 def test_a_start_in_mid_move_finds_the_gimbal_told_how_to_follow_and_the_camera_focusing():
-    lock, pan = DeviceCommand("gimbal follow lock"), DeviceCommand("gimbal follow yaw")
+    lock, pan = DeviceCommand("gimbal", "follow lock"), DeviceCommand("gimbal", "follow yaw")
     cues = [
         Cue(0, lock),
         Cue(0, Action.FOCUS),
         Cue(1, pan),
-        Cue(1, DeviceCommand("gimbal version")),
+        Cue(1, DeviceCommand("gimbal", "version")),
         Cue(4, Action.END_FOCUS),
     ]
     stage = Stage(THERE, Cycle(preroll=1, start_at=2.5), cues)
@@ -188,7 +190,7 @@ def test_a_trigger_starts_the_move_once_the_rig_is_in_place_and_not_before():
     for _ in range(200):
         stage.step()
     assert stage.pan == State(0.0)
-    assert stage.source.said(stage.now) == "waits for the button"
+    assert progress_text(stage.source, stage.now) == "waiting for the button"
     assert stage.source.next_change(stage.now) == stage.now
     button.pulled = True
     stage.step()

@@ -33,7 +33,7 @@ def test_both_ends_or_each_its_own_and_what_holds_otherwise():
     ("written", "wrong"),
     [
         ("medum", "must be 1.5s, 25%, smooth, sharp, medium or soft, not 'medum'; did you mean medium?"),
-        ("60%", "must be at most 50% at each end of a way, not 60%"),
+        ("60%", "must be at most 50% at each end of a move, not 60%"),
         (-1, "must be 0 s or later, not -1"),
         (True, "must be 1.5s, 25%, smooth, sharp, medium or soft, not true"),
         ([1], "must be 1.5s, 25%, smooth, sharp, medium or soft, not [1]"),

@@ -11,7 +11,7 @@ from sequences import LIMITS, load, problems_of
 from teleop.config.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.cues import Cue
 
 PART = "fps: 25\nkeyframes:\n  - {at: 1, pan: 0}\n  - {at: 100f, pan: 30}\ncues: [{at: 3, camera: record}]\n"
@@ -25,7 +25,7 @@ def test_a_part_is_laid_in_where_and_as_fast_as_is_said_with_its_cues(tmp_path: 
     assert [key.at for key in keys] == pytest.approx([3, 6, 10 + 1 / 1.5, 10 + 4 / 1.5])
     assert [key.position for key in keys] == [0, 30, 0, 30]
     assert performance.cues == [Cue(5, Action.RECORD), Cue(12, Action.RECORD)]
-    whole = load_performance(str(tmp_path / "part.yaml"), LIMITS, "the rig").move
+    whole = load_sequence(str(tmp_path / "part.yaml"), LIMITS, "the rig").move
     for moment in (1.0, 2.3, 3.9, 4.0):
         assert performance.move.at(2 + moment)[Axis.PAN] == pytest.approx(whole.at(moment)[Axis.PAN], abs=1e-6)
         p, v, _ = whole.at(moment)[Axis.PAN]
@@ -38,7 +38,7 @@ def test_it_keeps_its_own_tension_ease_repeat_and_recentre(tmp_path: Path) -> No
         "  - {at: 5, pan: 25}\n  - {at: 10, pan: 90}\ncues: [{at: 20, recenter: 2s}]\n"
     )
     (tmp_path / "part.yaml").write_text(part)
-    whole = load_performance(str(tmp_path / "part.yaml"), LIMITS, "the rig").move
+    whole = load_sequence(str(tmp_path / "part.yaml"), LIMITS, "the rig").move
     laid = load(tmp_path, "include: [{move: part.yaml, at: 1}]\nkeyframes: [{at: 30, pan: 5}]\n").move
     assert whole.duration == 22
     for moment in range(23):
@@ -61,7 +61,7 @@ def test_an_error_is_said_where_it_stands_and_where_that_was_included(tmp_path: 
     by_a, by_b = (" (included at shoot.yaml:%d:5)", " (included at a.yaml:3:5) (included at shoot.yaml:%d:5)")
     assert sorted(problems_of(tmp_path, text)) == sorted(
         [
-            "shoot.yaml:3:12: include 2: move cannot be: none.yaml: no such file",
+            "shoot.yaml:3:12: include 2: move: none.yaml: no such file",
             "shoot.yaml:4:34: include 3: speed must be 1% to 1000%",
         ]
         + ["a.yaml:4:1: unknown key `zoom`" + by_a % line for line in (2, 4)]
@@ -73,27 +73,27 @@ def test_an_error_is_said_where_it_stands_and_where_that_was_included(tmp_path: 
 def test_what_only_the_rig_cannot_do_is_that_kind_of_error_from_within_too(tmp_path: Path) -> None:
     (tmp_path / "part.yaml").write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 1, pan: 60}\n")
     [found] = problems_of(tmp_path, "include:\n  - {move: part.yaml, at: 3, speed: 200%}\n", UnplayableError)
-    assert found.startswith("part.yaml:3:5: pan, include 1, key 1 to include 1, key 2: ")
+    assert found.startswith("part.yaml:3:5: pan needs 1.256 s from include 1, key 1 to include 1, key 2, not 0.500 s ")
     assert found.endswith(" (included at shoot.yaml:2:5)")
     (tmp_path / "part.yaml").write_text("keyframes:\n  - {at: 0, roll: 0}\n")
     [found] = problems_of(tmp_path, "include:\n  - {move: part.yaml, at: 3}\n", UnplayableError)
-    assert found.startswith("part.yaml:2:19: key 1: roll cannot be: the rig has no roll")
+    assert found.startswith("part.yaml:2:19: key 1: roll: the rig has no roll")
 
 
 @pytest.mark.parametrize(
     ("entry", "problem"),
     [
-        ("{move: shoot.yaml, at: 0}", "2:12: include 1: move would go on for ever: shoot.yaml -> shoot.yaml"),
+        ("{move: shoot.yaml, at: 0}", "2:12: include 1: move includes itself: shoot.yaml -> shoot.yaml"),
         (
             "{move: a.yaml, at: 0}",
-            "a.yaml:1:18: include 1: move would go on for ever: shoot.yaml -> a.yaml -> ",
+            "a.yaml:1:18: include 1: move includes itself: shoot.yaml -> a.yaml -> ",
         ),
-        ("{move: lapse.yaml, at: 0}", "2:12: include 1: move is a timelapse, whose times are frames and not seconds"),
+        ("{move: lapse.yaml, at: 0}", "2:12: include 1: move is a timelapse: its times are frames, not seconds"),
         (
             "{move: revel, at: 0}",
-            "2:12: include 1: move cannot be: revel: no sequence of that name is shipped;",
+            "2:12: include 1: move: revel: no sequence of that name is shipped;",
         ),
-        ("{move: ., at: 0}", "2:12: include 1: move cannot be: .:"),
+        ("{move: ., at: 0}", "2:12: include 1: move: .:"),
         ("{move: reveal}", "2:5: include 1: at is missing"),
         ("{move: reveal, at: 0, speed: 2}", "2:34: include 1: speed must be a percentage (30%), not 2"),
         ("{move: 3, at: 0}", "2:12: include 1: move must be text, not 3"),
@@ -114,8 +114,8 @@ def test_two_may_not_want_an_axis_at_once(tmp_path: Path) -> None:
     (tmp_path / "part.yaml").write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 4, pan: 30}\n")
     text = "include:\n  - {move: part.yaml, at: 1}\n  - {move: part.yaml, at: 4}\nkeyframes:\n  - {at: 3, pan: 1}\n"
     assert problems_of(tmp_path, text) == [
-        "shoot.yaml:5:5: key 1 must be after include 1 is done with pan (5 s)",
-        "shoot.yaml:3:5: include 2 must be after include 1 is done with pan (5 s)",
+        "shoot.yaml:5:5: key 1 must begin after include 1 ends (pan, 5 s)",
+        "shoot.yaml:3:5: include 2 must begin after include 1 ends (pan, 5 s)",
     ]
     meets = "include:\n  - {move: part.yaml, at: 1}\nkeyframes:\n  - {at: 5, pan: 30, hold: 1}\n  - {at: 8, pan: 0}\n"
     assert load(tmp_path, meets).move.at(6.0)[Axis.PAN] == (30, 0, 0)
@@ -145,7 +145,7 @@ def test_what_would_include_a_million_files_is_refused_soon(tmp_path: Path) -> N
     began = time.thread_time()
     found = problems_of(tmp_path, "include: [{move: 0.yaml, at: 0}]\n")
     assert time.thread_time() - began < 3
-    assert any("is too much: at most 200 files are included" in line for line in found)
+    assert any("is too much: at most 200 files can be included" in line for line in found)
     (tmp_path / "deep.yaml").write_text("include: [{move: deeper.yaml, at: 0}]\n")
     (tmp_path / "8.yaml").write_text("include: [{move: 9.yaml, at: 0}]\n")
     (tmp_path / "9.yaml").write_text("keyframes: [{at: 0, pan: 0}]\n")
@@ -157,4 +157,6 @@ def test_what_would_include_a_million_files_is_refused_soon(tmp_path: Path) -> N
 
 def test_so_are_more_keys_than_can_be_planned(tmp_path: Path) -> None:
     text = "repeat: {times: 10000, mode: bounce}\nkeyframes: [{at: 0, pan: 0}, {at: 5, pan: 9}, {at: 9, pan: 20}]\n"
-    assert problems_of(tmp_path, text) == ["shoot.yaml:1:17: repeat.times would be 20001 keys of pan; at most 10000"]
+    assert problems_of(tmp_path, text) == [
+        "shoot.yaml:1:17: repeat.times needs 20001 keys of pan; the maximum is 10000"
+    ]

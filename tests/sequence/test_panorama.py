@@ -13,7 +13,7 @@ from sequences import load, problems_of
 from teleop.config.document import UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
-from teleop.sequence.panorama import centres, grid
+from teleop.sequence.panorama import centers, grid
 
 TEXT = "panorama:\n  fov: [54, 38]\n  overlap: 30%\n  pan: [-90, 90]\n  tilt: [30, -30]\n  every: 3s\n"
 
@@ -22,7 +22,7 @@ TEXT = "panorama:\n  fov: [54, 38]\n  overlap: 30%\n  pan: [-90, 90]\n  tilt: [3
 def test_all_is_seen_and_neighbours_share_what_was_asked_for(
     first: float, last: float, fov: float, overlap: float
 ) -> None:
-    aims = centres(first, last, fov, overlap)
+    aims = centers(first, last, fov, overlap)
     low, high = sorted((first, last))
     assert min(aims) - fov / 2 <= low + 1e-6
     assert max(aims) + fov / 2 >= high - 1e-6
@@ -83,9 +83,9 @@ def test_what_the_rig_cannot_reach_is_said_in_its_words(tmp_path: Path) -> None:
         "shoot.yaml:5:9: panorama.tilt aims from -71 to -29, and the rig has -56..146"
     ]
     found = problems_of(tmp_path, TEXT.replace("3s", "1.1s"), UnplayableError)
-    assert found[0].startswith("shoot.yaml:2:3: pan, shot 1 to shot 2: ")
+    assert found[0].startswith("shoot.yaml:2:3: pan needs 0.978 s from shot 1 to shot 2, not 0.100 s ")
     [found] = problems_of(tmp_path, TEXT, UnplayableError, devices=["gimbal"])
-    assert found == "shoot.yaml:2:3: panorama cannot be: the rig has no camera; its sinks are gimbal"
+    assert found == "shoot.yaml:2:3: panorama: the rig has no camera; its sinks are gimbal"
 
 
 def test_keyframes_stand_beside_it_but_not_in_its_way(tmp_path: Path) -> None:
@@ -94,9 +94,9 @@ def test_keyframes_stand_beside_it_but_not_in_its_way(tmp_path: Path) -> None:
     assert set(move.tracks) == {Axis.PAN, Axis.TILT, Axis.FOCUS}
     assert move.end[Axis.PAN].position == 0
     [found] = problems_of(tmp_path, beside.replace("at: 32", "at: 25"))
-    assert found == "shoot.yaml:10:5: key 3 must be after panorama is done with pan (28 s)"
+    assert found == "shoot.yaml:10:5: key 3 must begin after panorama ends (pan, 28 s)"
 
 
 def test_a_panorama_is_no_timelapse(tmp_path: Path) -> None:
     found = problems_of(tmp_path, TEXT + "timelapse: {frames: 10, interval: 2s, exposure: 0.1s}\n")
-    assert "shoot.yaml:2:3: panorama has no place beside timelapse: that has frames of its own" in found
+    assert "shoot.yaml:2:3: panorama cannot be used with timelapse: it has frames of its own" in found

@@ -58,7 +58,7 @@ def test_more_than_the_move_allows_is_refused_with_what_it_does():
     with pytest.raises(PlanError) as refusal:
         Show(3.0)
     most = Show().playback.at_most
-    assert str(refusal.value) == f"the move allows at most {math.floor(100 * most)} % of its speed, not 300 %"
+    assert str(refusal.value) == f"maximum playback speed: {math.floor(100 * most)} %, not 300 %"
     show = Show()
     show.playback.speed(3.0, show.now)
     assert show.playback.refusal == str(refusal.value)
@@ -91,7 +91,7 @@ def test_steps_go_to_the_keys_on_either_side_and_stop_at_the_ends():
         show.playback.step(keys, show.now)
         assert show.run(30) == pytest.approx(expected, abs=1e-9)
     show.playback.step(-1, show.now)
-    assert show.playback.refusal == "there is no keyframe before this one"
+    assert show.playback.refusal == "no key before this one"
     assert show.behind < 1e-9
 
 

@@ -16,6 +16,7 @@ from teleop.planner.live import Live
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.playback_controls import HELP, PlaybackControls
+from teleop.sequence.progress import progress_text
 from teleop.sequence.source import SequenceSource
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600)}
@@ -54,8 +55,8 @@ class Show:
         self.sequence = SequenceSource(
             CompiledSequence("Test", plan(KEYS, LIMITS), [], [], KEYS), LIMITS, executor=AtOnce()
         )
-        self.conductor = PlaybackControls(self.sequence, self.keys)
-        self.conductor.start(0.0, {Axis.PAN: State(0.0)})
+        self.controls = PlaybackControls(self.sequence, self.keys)
+        self.controls.start(0.0, {Axis.PAN: State(0.0)})
         self.now = 0.0
         self.run(self.sequence.begin)
 
@@ -71,7 +72,7 @@ class Show:
         demand = {}
         for _ in range(round(seconds / DT)):
             self.now += DT
-            demand, _ = self.conductor.read(self.now, NO_FEEDBACK)
+            demand, _ = self.controls.read(self.now, NO_FEEDBACK)
         wish = demand[Axis.PAN]
         assert isinstance(wish, StateTarget)
         return wish.position
@@ -83,21 +84,21 @@ def test_p_pauses_and_goes_on():
     show.press(PAUSE)
     here = show.run(1)
     assert show.run(5) == here
-    assert show.conductor.note == f"paused  {HELP}"
-    assert show.conductor.next_change(show.now) <= show.now + 0.05
+    assert show.controls.note == f"paused  {HELP}"
+    assert show.controls.next_change(show.now) <= show.now + 0.05
     show.press(SLOWER)
-    assert show.conductor.note == f"paused, goes on at 90%  {HELP}"
+    assert show.controls.note == f"paused, continues at 90%  {HELP}"
     show.press(FASTER)
     show.press(PAUSE)
     assert show.run(1) > here
-    assert show.conductor.note == f"100%  {HELP}"
+    assert show.controls.note == f"100%  {HELP}"
 
 
 def test_arrows_go_to_the_keys_while_it_is_paused_and_are_refused_while_it_plays():
     show = Show()
     show.run(5)
     show.press(NEXT)
-    assert show.conductor.note == "the move is running: pause it before stepping to a key"
+    assert show.controls.note == "the move is running: pause it before stepping to a key"
     show.press(PAUSE)
     show.press(PREVIOUS)
     assert show.run(1) == pytest.approx(30)
@@ -113,7 +114,7 @@ def test_the_speed_goes_up_to_what_the_move_allows_and_down_to_a_tenth():
     assert show.sequence.playback.chosen == most
     assert show.sequence.playback.rate(show.now) == pytest.approx(most)
     show.press(*[SLOWER] * 40)
-    assert show.conductor.note.startswith("10%")
+    assert show.controls.note.startswith("10%")
 
 
 def test_before_the_move_begins_keys_are_answered_and_do_nothing():
@@ -140,7 +141,7 @@ def test_what_was_said_before_the_move_is_not_said_while_it_plays():
 def test_it_is_over_when_the_sequence_is():
     show = Show()
     show.run(12)
-    assert show.conductor.next_change(show.now) == float("inf")
+    assert show.controls.next_change(show.now) == float("inf")
 
 
 def test_an_end_by_the_operator_ends_the_run_at_once():
@@ -149,14 +150,14 @@ def test_an_end_by_the_operator_ends_the_run_at_once():
     show.keys.pressed.append(QUIT)
     show.now += DT
     with pytest.raises(Interrupted, match="stopped by keys"):
-        show.conductor.read(show.now, NO_FEEDBACK)
+        show.controls.read(show.now, NO_FEEDBACK)
 
 
 def test_go_is_for_a_move_that_waits_and_means_nothing_else():
     show = Show()
     show.run(1)
     show.press(GO)
-    assert show.conductor.note == f"100%  {HELP}"
+    assert show.controls.note == f"100%  {HELP}"
 
 
 WAITING = {Axis.PAN: [Key(0, 0), Key(4, 30, stop=True), Key(10, 60)]}
@@ -170,8 +171,8 @@ class WaitingShow(Show):
         cues = [Cue(4, Action.STOP), Cue(4, Wait()), Cue(4, Action.RECORD), Cue(7, Action.SHUTTER)]
         performance = CompiledSequence("Test", plan(WAITING, LIMITS), cues, [], WAITING)
         self.sequence = SequenceSource(performance, LIMITS, speed, executor=AtOnce())
-        self.conductor = PlaybackControls(self.sequence, self.keys)
-        self.conductor.start(0.0, {Axis.PAN: State(0.0)})
+        self.controls = PlaybackControls(self.sequence, self.keys)
+        self.controls.start(0.0, {Axis.PAN: State(0.0)})
         self.now = 0.0
         self.acts: list = []
         self.motion: list[tuple[float, StateTarget]] = []
@@ -180,7 +181,7 @@ class WaitingShow(Show):
     def watch(self, seconds: float) -> None:
         for _ in range(round(seconds / DT)):
             self.now += DT
-            demand, acts = self.conductor.read(self.now, NO_FEEDBACK)
+            demand, acts = self.controls.read(self.now, NO_FEEDBACK)
             self.acts += [(self.now, act) for act in acts]
             follow = demand[Axis.PAN]
             assert isinstance(follow, StateTarget)
@@ -197,9 +198,9 @@ def test_a_wait_holds_for_the_operator_and_no_cue_drifts(speed: float, key: Pres
     assert len(held) > 3000
     assert all(follow == pytest.approx((30, 0, 0), abs=1e-5) for follow in held)
     assert [act for _, act in show.acts] == [Action.STOP]
-    assert "waits for you" in show.sequence.said(show.now)
-    assert "enter goes on" in show.conductor.note
-    assert show.now < show.conductor.next_change(show.now) <= show.now + 0.06
+    assert "waiting for you" in progress_text(show.sequence, show.now)
+    assert "enter continue" in show.controls.note
+    assert show.now < show.controls.next_change(show.now) <= show.now + 0.06
     went = show.now
     show.keys.pressed.append(key)
     show.watch(8)
@@ -208,7 +209,7 @@ def test_a_wait_holds_for_the_operator_and_no_cue_drifts(speed: float, key: Pres
     assert recorded == pytest.approx(went + DT)
     assert shot == pytest.approx(went + 3 / speed, abs=2 * DT)
     assert show.motion[-1][1].position == pytest.approx(60)
-    assert math.isinf(show.conductor.next_change(show.now))
+    assert math.isinf(show.controls.next_change(show.now))
 
 
 @pytest.mark.parametrize("speed", [1.0, 1.37])
@@ -232,7 +233,7 @@ def test_while_it_waits_it_cannot_be_stepped_and_the_speed_counts_afterwards() -
     assert show.sequence.waiting
     show.keys.pressed.append(NEXT)
     show.watch(DT)
-    assert "the move waits for you" in show.conductor.note
+    assert "the move is waiting" in show.controls.note
     show.keys.pressed.append(GO)
     went = show.now
     show.watch(8)
@@ -244,7 +245,7 @@ def test_a_stop_ends_it_while_it_waits() -> None:
     show.watch(6)
     show.keys.pressed.append(QUIT)
     with pytest.raises(Interrupted):
-        show.conductor.read(show.now + DT, NO_FEEDBACK)
+        show.controls.read(show.now + DT, NO_FEEDBACK)
 
 
 def test_a_drone_is_not_paused() -> None:
@@ -252,10 +253,10 @@ def test_a_drone_is_not_paused() -> None:
     keys = {Axis.STICK_YAW: [Key(0, 0), Key(4, 0.5), Key(8, 0)]}
     pressed = Keys()
     sequence = SequenceSource(CompiledSequence("Fly", plan(keys, limits), [], [], keys), limits, executor=AtOnce())
-    conductor = PlaybackControls(sequence, pressed)
-    conductor.start(0.0, {Axis.STICK_YAW: State(0.0)})
-    conductor.read(sequence.begin + 1, NO_FEEDBACK)
+    controls = PlaybackControls(sequence, pressed)
+    controls.start(0.0, {Axis.STICK_YAW: State(0.0)})
+    controls.read(sequence.begin + 1, NO_FEEDBACK)
     pressed.pressed.append(PAUSE)
-    conductor.read(sequence.begin + 1.01, NO_FEEDBACK)
-    assert "a drone goes on flying" in conductor.note
+    controls.read(sequence.begin + 1.01, NO_FEEDBACK)
+    assert "a drone keeps flying" in controls.note
     assert not sequence.playback.changing(sequence.begin + 1.01)

@@ -8,7 +8,7 @@ from teleop.config.document import DocumentError
 from teleop.config.files import OutputError
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.errors import UsageError
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 from teleop.sequence.trim_export import TrimmedFile
 
 PAN, TILT = Axis.PAN, Axis.TILT
@@ -38,7 +38,7 @@ def test_only_the_numbers_of_the_keys_are_other_ones(tmp_path: Path):
     assert file.text(offsets) == expected
     file.write(offsets)
     assert (tmp_path / "shoot.yaml").read_text() == TEXT
-    again = load_performance(str(tmp_path / "out.yaml"), LIMITS, "rig")
+    again = load_sequence(str(tmp_path / "out.yaml"), LIMITS, "rig")
     assert [key.position for key in again.keys[PAN]] == [-27.6543, 12.3457, 22.3457]
 
 
@@ -64,7 +64,7 @@ def test_what_is_no_plain_number_is_refused_beforehand_and_all_of_it(tmp_path: P
     with pytest.raises(DocumentError) as refusal:
         trimmed(tmp_path, text)
     assert [problem.partition(".yaml:")[2] for problem in refusal.value.problems] == [
-        "5:26: cue 1: recenter goes to 0 in any case: --trim-out cannot move it",
+        "5:26: cue 1: recenter always goes to 0: --trim-out cannot move it",
         "2:18: key 1: pan must be a plain number to be moved by --trim-out",
         "3:18: key 2: pan must be a plain number to be moved by --trim-out",
         "2:18: key 3: pan must be a plain number to be moved by --trim-out",

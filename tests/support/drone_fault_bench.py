@@ -22,6 +22,7 @@ from teleop.config.profile import load_profile
 from teleop.core.axes import STICKS, Axis
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import LinkError
+from teleop.core.events import DeviceCommand
 from teleop.core.interfaces import Link
 from teleop.core.operator_input import Command
 from teleop.core.run_state import RunStateMachine
@@ -108,7 +109,7 @@ class DroneFaultBench:
         self.at(seconds, lambda: self.keys.press(Command.ENGAGE))
 
     def tell_at(self, seconds: float, word: str) -> None:
-        self.at(seconds, lambda: self.keys.press(Command.TELL, words=f"drone {word}"))
+        self.at(seconds, lambda: self.keys.press(Command.TELL, device_command=DeviceCommand("drone", word)))
 
     def hold_at(self, seconds: float, **deflections: float) -> None:
         held = {axis.value: 0.0 for axis in STICKS} | deflections

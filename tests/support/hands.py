@@ -8,7 +8,7 @@ from pathlib import Path
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
 from teleop.core.axes import Axis, Limits, Motion, State
-from teleop.core.events import TickEvent
+from teleop.core.events import DeviceCommand, TickEvent
 from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Held, Press
 from teleop.core.setpoints import Demand
@@ -43,8 +43,8 @@ class FakeInput:
     def hold(self, **deflections: float) -> None:
         self.deflections = {Axis(axis): deflection for axis, deflection in deflections.items()}
 
-    def press(self, command: Command, number: int = 0, words: str = "") -> None:
-        self._presses.append(Press(command, number, words))
+    def press(self, command: Command, number: int = 0, device_command: DeviceCommand | None = None) -> None:
+        self._presses.append(Press(command, number, device_command))
 
     def turn(self, axis: Axis, units: float) -> None:
         self._steps[axis] = self._steps.get(axis, 0.0) + units
@@ -108,9 +108,9 @@ class Desk:
     def run(self, seconds: float) -> None:
         self.tick(round(seconds / PERIOD))
 
-    def press(self, command: Command, number: int = 0, words: str = "") -> None:
+    def press(self, command: Command, number: int = 0, device_command: DeviceCommand | None = None) -> None:
         """On the first input, and the tick in which it counts."""
-        self.pad.press(command, number, words)
+        self.pad.press(command, number, device_command)
         self.tick()
 
     def velocity(self, axis: Axis) -> float:

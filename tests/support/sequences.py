@@ -9,7 +9,7 @@ import pytest
 
 from teleop.config.document import DocumentError
 from teleop.core.axes import Axis, Limits
-from teleop.sequence.compile import CompiledSequence, load_performance
+from teleop.sequence.compile import CompiledSequence, load_sequence
 
 STICK = Limits(-1, 1, 2, 8, 40)
 LIMITS = {
@@ -24,7 +24,7 @@ FLYING = {**LIMITS, Axis.STICK_THROTTLE: STICK, Axis.STICK_YAW: STICK}
 def load(folder: Path, text: str, devices: Collection[str] | None = None) -> CompiledSequence:
     file = folder / "shoot.yaml"
     file.write_text(text)
-    return load_performance(str(file), FLYING if "stick_" in text else LIMITS, "the rig", devices)
+    return load_sequence(str(file), FLYING if "stick_" in text else LIMITS, "the rig", devices)
 
 
 def problems_of(

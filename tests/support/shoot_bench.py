@@ -27,7 +27,7 @@ from teleop.dji.gimbal.session import Session
 from teleop.dji.message import Message, ReturnCode
 from teleop.sim.gimbal.device import SimulatedGimbal
 from teleop.timelapse.compile import Timelapse, load_timelapse
-from teleop.timelapse.journal import Frame, Journal, Shoot, open_journal
+from teleop.timelapse.journal import FrameState, Journal, Shoot, open_journal
 
 FILE = """
 title: Dusk
@@ -239,9 +239,9 @@ class SlowBook:
     def __getattr__(self, name: str) -> Any:
         return getattr(self._journal, name)
 
-    def note(self, frame: int | None, state: Frame) -> Any:
+    def note(self, frame: int | None, state: FrameState) -> Any:
         note = self._journal.note(frame, state)
-        held = self._held.get(frame, 0.0) if frame is not None and state is Frame.BEGUN else 0.0
+        held = self._held.get(frame, 0.0) if frame is not None and state is FrameState.BEGUN else 0.0
         if not held or frame is None:
             return note
         end = self._since.setdefault(frame, self._stage.clock.now()) + held

@@ -121,8 +121,8 @@ def test_what_only_a_film_has_is_refused_and_times_are_frames(tmp_path: Path) ->
     assert "4:16: ease.arrive must be in output frames here (24f), or a share or a name, not '1s'" in said
     assert "7:10: key 2: at must be in output frames (240 or 240f), not '4s'" in said
     assert "7:20: key 2: ease must be in output frames" in said
-    assert "repeat has no place beside timelapse: its frames are counted once" in said
-    assert "cues has no place beside timelapse: the shutter is its only cue" in said
+    assert "repeat cannot be used with timelapse: its frames are counted once" in said
+    assert "cues cannot be used with timelapse: the shutter is its only cue" in said
 
 
 def test_keys_out_of_order_are_said_in_frames(tmp_path: Path) -> None:
@@ -142,7 +142,7 @@ def test_an_interval_that_cannot_hold_a_frame_says_which_and_what_would_do(tmp_p
     assert "is tight: frame 206 of 720 takes" in tight
     assert load(tmp_path, interval="5s").warnings == []
     [ramped] = problems(tmp_path, interval="{from: 0.5s, to: 2s}")
-    assert "timelapse.interval is 0.57 s where at least 0.95 s would do: frame 35 of 720" in ramped
+    assert "timelapse.interval is 0.57 s and must be at least 0.95 s: frame 35 of 720" in ramped
     assert "(273 frames are too short)" in ramped
 
 

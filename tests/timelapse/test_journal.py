@@ -9,7 +9,7 @@ import pytest
 from waiting import wait_until
 
 from teleop.core.errors import UsageError
-from teleop.timelapse.journal import Frame, Shoot, open_journal
+from teleop.timelapse.journal import FrameState, Shoot, open_journal
 
 SHOOT = Shoot("dusk.yaml", "abc", 720)
 
@@ -19,7 +19,7 @@ def path(tmp_path: Path) -> Path:
     return tmp_path / "dusk.journal"
 
 
-def left_at(path: Path, *states: Frame, finished: bool = False) -> None:
+def left_at(path: Path, *states: FrameState, finished: bool = False) -> None:
     """A journal whose first frames are in these states."""
     with open_journal(path, SHOOT, restart=True) as journal:
         for frame, state in enumerate(states):
@@ -32,14 +32,14 @@ def left_at(path: Path, *states: Frame, finished: bool = False) -> None:
     ("states", "next_frame", "in_doubt"),
     [
         ((), 0, None),
-        ((Frame.DONE, Frame.DONE), 2, None),
-        ((Frame.DONE, Frame.BEGUN), 1, 1),
-        ((Frame.DONE, Frame.UNSHOT), 1, None),
-        ((Frame.DONE, Frame.MISSED, Frame.DOUBTFUL), 3, None),
+        ((FrameState.DONE, FrameState.DONE), 2, None),
+        ((FrameState.DONE, FrameState.BEGUN), 1, 1),
+        ((FrameState.DONE, FrameState.UNSHOT), 1, None),
+        ((FrameState.DONE, FrameState.MISSED, FrameState.DOUBTFUL), 3, None),
     ],
 )
 def test_it_knows_which_frame_is_next(
-    path: Path, states: tuple[Frame, ...], next_frame: int, in_doubt: int | None
+    path: Path, states: tuple[FrameState, ...], next_frame: int, in_doubt: int | None
 ) -> None:
     left_at(path, *states)
     with open_journal(path, SHOOT, resume=True) as journal:
@@ -49,7 +49,7 @@ def test_it_knows_which_frame_is_next(
 @pytest.mark.parametrize("patient", [True, False])
 def test_a_note_is_safe_once_another_connection_can_read_it(path: Path, patient: bool) -> None:
     with open_journal(path, SHOOT, patient=patient) as journal:
-        note = journal.note(0, Frame.BEGUN)
+        note = journal.note(0, FrameState.BEGUN)
         if patient:
             assert note.safe
         wait_until(lambda: note.safe, "safe")
@@ -67,21 +67,33 @@ def test_it_is_written_ahead_and_synchronously(path: Path) -> None:
 @pytest.mark.parametrize(
     ("states", "finished", "shoot", "how", "said"),
     [
-        ((Frame.DONE,), False, SHOOT, {}, "the shoot of dusk.yaml was left at frame 1 of 720: go on with --resume, or"),
-        ((Frame.DONE,), False, Shoot("dusk.yaml", "x", 720), {}, "left at frame 1 of 720: --restart begins anew"),
         (
-            (Frame.DONE,),
+            (FrameState.DONE,),
+            False,
+            SHOOT,
+            {},
+            "shoot of dusk.yaml stopped at frame 1 of 720: continue with --resume",
+        ),
+        (
+            (FrameState.DONE,),
+            False,
+            Shoot("dusk.yaml", "x", 720),
+            {},
+            "stopped at frame 1 of 720: start over with",
+        ),
+        (
+            (FrameState.DONE,),
             False,
             Shoot("dusk.yaml", "x", 720),
             {"resume": True},
-            "was left at frame 1 of 720, and dusk.yaml is not what it was then: put it back, or begin anew",
+            "stopped at frame 1 of 720, and dusk.yaml has changed since: restore it, or start over",
         ),
-        ((Frame.DONE,), False, Shoot("x.yaml", "x", 9), {"resume": True}, "and that is another file"),
-        ((Frame.DONE,), True, SHOOT, {"resume": True}, "there is nothing to resume"),
+        ((FrameState.DONE,), False, Shoot("x.yaml", "x", 9), {"resume": True}, "and it is another file"),
+        ((FrameState.DONE,), True, SHOOT, {"resume": True}, "no shoot to resume"),
     ],
 )
 def test_it_refuses_what_nobody_can_have_meant(
-    path: Path, states: tuple[Frame, ...], finished: bool, shoot: Shoot, how: dict[str, bool], said: str
+    path: Path, states: tuple[FrameState, ...], finished: bool, shoot: Shoot, how: dict[str, bool], said: str
 ) -> None:
     left_at(path, *states, finished=finished)
     with pytest.raises(UsageError) as caught, open_journal(path, shoot, **how):
@@ -100,24 +112,24 @@ def test_without_a_journal_there_is_nothing_to_resume(path: Path) -> None:
 
 def test_a_finished_shoot_and_one_that_never_began_are_simply_begun(path: Path) -> None:
     left_at(path)
-    left_at(path, Frame.DONE, finished=True)
+    left_at(path, FrameState.DONE, finished=True)
     with open_journal(path, SHOOT) as journal:
         assert journal.next == 0
 
 
 def test_a_second_hand_is_refused_and_the_first_goes_on(path: Path) -> None:
     with open_journal(path, SHOOT) as journal:
-        journal.note(0, Frame.DONE)
+        journal.note(0, FrameState.DONE)
         said = "another teleop is shooting with this journal"
         with pytest.raises(UsageError, match=said), open_journal(path, SHOOT, resume=True):
             pass
-        note = journal.note(1, Frame.BEGUN)
+        note = journal.note(1, FrameState.BEGUN)
         wait_until(lambda: note.safe, "safe")
 
 
 def test_what_is_no_journal_is_left_alone(path: Path) -> None:
     path.write_bytes(b"my diary" * 1000)
-    with pytest.raises(UsageError, match="is no journal of a timelapse"), open_journal(path, SHOOT, restart=True):
+    with pytest.raises(UsageError, match="is not a timelapse journal"), open_journal(path, SHOOT, restart=True):
         pass
     assert path.read_bytes() == b"my diary" * 1000
 
@@ -139,9 +151,9 @@ def test_whatever_fails_in_its_thread_is_said_and_keeps_nobody_waiting(
 
     with open_journal(path, SHOOT) as journal:
         monkeypatch.setattr(journal, "_database", Broken())
-        note = journal.note(0, Frame.BEGUN)
+        note = journal.note(0, FrameState.BEGUN)
         wait_until(lambda: journal.trouble, "trouble")
         assert journal.trouble == f"{path} cannot be written: a defect"
         assert not note.safe
-        assert not journal.note(1, Frame.BEGUN).safe
+        assert not journal.note(1, FrameState.BEGUN).safe
         journal.catch_up()

@@ -61,7 +61,7 @@ def banner(status: OperatorStatus, motion: Motion, now: float, width: int) -> Te
     """What holds everything, or where everything is going."""
     if status.stopped:
         return stop_row(stop_state(True, motion), STOPPED, width)
-    if not status.hands_on:
+    if not status.manual_control:
         return Text(" MANUAL CONTROL OFF. Press e to enable.".ljust(width), "black on yellow")
     if status.recall:
         left = max(0.0, status.recall_end - now)
@@ -73,7 +73,7 @@ def state_rows(status: OperatorStatus, links: Sequence[Text]) -> list[Text]:
     """Speed and jog step, inputs, camera, follow mode, links, presets."""
     jog = f"   jog {JOG:g} deg (shift {COARSE * JOG:g}, ctrl {FINE * JOG:g})"
     rows = [labelled("speed", _ranges(status).append(jog, "dim"))]
-    rows += [labelled("inputs" if index == 0 else "", _hand(hand)) for index, hand in enumerate(status.hands)]
+    rows += [labelled("inputs" if index == 0 else "", _hand(hand)) for index, hand in enumerate(status.inputs)]
     camera = Text("● recording", "bold red") if status.recording else Text("○ not recording", "dim")
     rows.append(labelled("camera", camera.append("   follow ", "dim").append(status.follow or "not set")))
     rows += [labelled("link", link) for link in links]

@@ -13,6 +13,7 @@ import logging
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
+from teleop.config.device_commands import DRONE
 from teleop.core.axes import STICKS, Axis, Reading
 from teleop.core.errors import DeviceError, LinkError
 from teleop.core.events import DeviceCommand, Tick
@@ -28,7 +29,6 @@ LATE = 0.2  # s without a tick after which its sticks are stale
 PATIENCE = 4.0  # s after activation in which a drone that a script engages must be ready
 RELEASE_LOOK = 0.01  # s between looks while giving back
 RELEASE_FOR = 4.0  # s for which a run that ends goes on giving back what is not confirmed
-PREFIX = "drone "
 
 log = logging.getLogger(__name__)
 
@@ -95,8 +95,8 @@ class DroneSink:
         first, self._written = math.isinf(self._written), tick.time
         self._take_sticks(tick)
         for act in tick.actions:
-            if isinstance(act, DeviceCommand) and act.words.startswith(PREFIX):
-                self._tell(act.words.removeprefix(PREFIX).strip(), tick.time)
+            if isinstance(act, DeviceCommand) and act.device == DRONE:
+                self._tell(act.name, tick.time)
         if self.by_script and first:
             self._engage(tick.time)
         self._turn(tick.time)

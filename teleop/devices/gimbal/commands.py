@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from teleop.config.device_commands import DRONE
 from teleop.core.events import DeviceCommand, DialInput, Tick
 from teleop.devices.connection import Answer, Connection
 from teleop.dji.gimbal import messages as gimbal
@@ -20,9 +21,6 @@ FULL_DIAL = 2048  # R SDK V2.5, section 2.3.4.11
 DIAL_PERIOD = 0.02  # s between two words of the dial, at least
 
 
-_DRONE = "drone "  # what its own sink hears; all other words are the gimbal's
-
-
 class Unheard:
     """Says of what is told to a device that this rig does not have that nobody hears it."""
 
@@ -31,32 +29,34 @@ class Unheard:
 
     def observe(self, tick: Tick) -> None:
         for act in tick.actions:
-            if isinstance(act, DeviceCommand) and not (self._drone if act.words.startswith(_DRONE) else self._gimbal):
-                self._say(f"{act.words}: this rig has no {'drone' if act.words.startswith(_DRONE) else 'gimbal'}")
+            if isinstance(act, DeviceCommand):
+                addressee, is_there = ("drone", self._drone) if act.device == DRONE else ("gimbal", self._gimbal)
+                if not is_there:
+                    self._say(f"{act}: this rig has no {addressee}")
 
 
 class CommandSink:
     """Gives `DeviceCommand` and `DialInput` to the gimbal on a connection; `say` is for what comes of it.
 
-    `done` is called with the words of each command that the gimbal has confirmed.
+    `done` is called with each command that the gimbal has confirmed.
     """
 
     def __init__(
         self,
         connection: Connection,
         say: Callable[[str], object],
-        done: Callable[[str], object] = lambda _words: None,
+        done: Callable[[DeviceCommand], object] = lambda _command: None,
     ) -> None:
         self._connection, self._say, self._done = connection, say, done
-        self._asked: dict[int, str] = {}  # sequence -> the words
+        self._asked: dict[int, DeviceCommand] = {}  # by sequence number
         self._kinds: set[type[Message]] = set()
         self._dial = self._sent_dial = 0
         self._sent_at = -math.inf
 
     def write(self, tick: Tick) -> None:
         for act in tick.actions:
-            if isinstance(act, DeviceCommand) and not act.words.startswith(_DRONE):
-                self._tell(act.words, tick.time)
+            if isinstance(act, DeviceCommand) and act.device != DRONE:
+                self._send(act, tick.time)
             elif isinstance(act, DialInput):
                 self._dial = round(max(-1.0, min(1.0, act.speed)) * FULL_DIAL)
         if self._asked:
@@ -74,33 +74,33 @@ class CommandSink:
         self._connection.stream(gimbal.Dial(speed))
         self._sent_dial = speed
 
-    def _tell(self, words: str, now: float) -> None:
+    def _send(self, command: DeviceCommand, now: float) -> None:
         try:
-            message = find(words.split())
+            message = find(str(command).split())
             message.check()
         except FieldError as error:
-            self._say(f"{words}: {error}")
+            self._say(f"{command}: {error}")
             return
         if is_taken_back(message):
-            self._say(f"{words} refused: it would disturb the commands of the run")
+            self._say(f"{command} refused: it would disturb the commands of the run")
             return
         if not message.has_reply:
             self._connection.stream(message)
-            self._say(f"{words}: sent; this command has no reply")
+            self._say(f"{command}: sent; this command has no reply")
             return
         if type(message) not in self._kinds:
             self._kinds.add(type(message))
             self._connection.on_answer(type(message), self._answered)
-        self._asked[self._connection.request(message, now)] = words
+        self._asked[self._connection.request(message, now)] = command
 
     def _answered(self, answer: Answer) -> None:
-        words = self._asked.pop(answer.sequence, None)
-        if words is None:
+        command = self._asked.pop(answer.sequence, None)
+        if command is None:
             return
         code = getattr(answer.reply, "return_code", 0)
         if answer.reply is None:
-            self._say(f"{words}: no answer")
+            self._say(f"{command}: no answer")
         else:
-            self._say(f"{words}: refused (return code {code:#04x})" if code else f"{words}: done")
+            self._say(f"{command}: refused (return code {code:#04x})" if code else f"{command}: done")
             if not code:
-                self._done(words)
+                self._done(command)

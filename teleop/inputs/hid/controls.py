@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from teleop.config.device_commands import parse_command
 from teleop.config.inputs_section import ActionSection, ControlSection
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Command, Press
@@ -222,7 +223,9 @@ def _pressed_before(changes: Sequence[Change]) -> bool:
 
 
 def _press(section: ActionSection, command: Command | None) -> Press | None:
-    return None if command is None else Press(command, section.number or 0, section.command)
+    if command is None:
+        return None
+    return Press(command, section.number or 0, parse_command(section.command) if section.command else None)
 
 
 def _limited(value: float) -> float:

@@ -27,7 +27,7 @@ from teleop.recording.to_keyframes.fit import RecordedSegment, Style, fit
 from teleop.recording.to_keyframes.merge_keys import AxisKey, MergedKey, merge_keys
 from teleop.recording.to_keyframes.reference import GRID, Reference, references, too_fast
 from teleop.recording.to_keyframes.sequence_text import SequenceText, sequence_text
-from teleop.sequence.compile import load_performance
+from teleop.sequence.compile import load_sequence
 
 SLACK = 4  # places by which rests may give way
 STICK = ((1.0, 0), (0.5, 0)), ((1.0, SLACK),), ((0.0, 0),)
@@ -177,7 +177,7 @@ def _errors(text: str, take: Take, refs: Mapping[Axis, Reference]) -> Mapping[Ax
     with TemporaryDirectory() as folder:
         file = Path(folder) / "fitted.yaml"
         file.write_text(text, encoding="utf-8")
-        move = load_performance(str(file), take.about.limits, take.about.rig).move
+        move = load_sequence(str(file), take.about.limits, take.about.rig).move
     errors = {}
     for axis, reference in refs.items():
         times = np.arange(len(reference.positions)) / GRID

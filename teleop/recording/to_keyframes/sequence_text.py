@@ -24,7 +24,7 @@ class SequenceText:
 
 
 def sequence_text(sequence: SequenceText) -> str:
-    """The YAML of a sequence, as `load_performance` reads it."""
+    """The YAML of a sequence, as `load_sequence` reads it."""
     return "\n".join(_lines(sequence)) + "\n"
 
 

@@ -91,7 +91,7 @@ class StartTrigger(_MidiTrigger):
         began = self.timecode.starts > self._starts and self.timecode.run_from >= self._armed_at
         return began and self.timecode.runs(now)
 
-    def said(self, now: float) -> str:
+    def waits_for(self, now: float) -> str:
         return "MIDI timecode to stop and start again" if self.timecode.runs(now) else "MIDI timecode to start"
 
 
@@ -121,10 +121,10 @@ class TimecodeTrigger(_MidiTrigger):
             return False
         return timecode.runs(now) and self._before and left > -LATE
 
-    def said(self, now: float) -> str:
+    def waits_for(self, now: float) -> str:
         position = self.timecode.position(now)
         if math.isnan(position):
-            return f"timecode {self._label}; none has come yet"
+            return f"timecode {self._label}; none received yet"
         left = self._label.time(self.timecode.rate) - position
-        where = f"{left:.1f} s to go" if left > 0 else "it is past that"
-        return f"timecode {self._label}; {where}{'' if self.timecode.runs(now) else ', it stands'}"
+        where = f"{left:.1f} s to go" if left > 0 else "already past"
+        return f"timecode {self._label}; {where}{'' if self.timecode.runs(now) else ', stopped'}"

@@ -1,7 +1,7 @@
 """A start by OSC: a UDP packet with the right address, from a show controller, a phone or a script.
 
 A thread of its own takes the packets, and what is no OSC is dropped there. It listens on this computer only, unless
-another address of its own is given: whoever can reach the port can start the rig.
+another address of its own is given: any program that reaches the port can start the rig.
 
 A packet counts only for the arming in force when it was taken from the socket. Arming empties the socket first, so that
 neither a packet that waits there nor one that the thread is still reading can start a move.
@@ -16,7 +16,7 @@ from threading import Event, Lock, Thread
 
 from teleop.core.errors import DeviceError, UsageError
 
-LOOK = 0.2  # s between looks at whether it is over
+POLL_PERIOD = 0.2  # s between looks at whether it is over
 LEAVE = 1.0  # s for the listening thread to end
 WAITING = 10_000  # packets that arming throws away at most: more than a socket holds
 LONGEST = 65536  # bytes of a packet
@@ -69,14 +69,14 @@ class OscTrigger:
     def fired(self, now: float) -> bool:  # noqa: ARG002
         return 0 < self._armed == self._fired_in
 
-    def said(self, now: float) -> str:  # noqa: ARG002
+    def waits_for(self, now: float) -> str:  # noqa: ARG002
         host, port = self._where
         return f"OSC {self._address} on {host}:{port}"
 
     def _listen(self, listener: socket.socket) -> None:
         while not self._over.is_set():
             try:
-                ready = bool(select.select([listener], [], [], LOOK)[0])
+                ready = bool(select.select([listener], [], [], POLL_PERIOD)[0])
             except (OSError, ValueError):  # the socket is gone
                 ready = True
             with self._lock:
@@ -84,7 +84,7 @@ class OscTrigger:
             if data is not None:
                 self._hear(data, armed)
             elif ready:  # a socket that has nothing but an error is not asked again at once
-                self._over.wait(LOOK)
+                self._over.wait(POLL_PERIOD)
 
     def _hear(self, data: bytes, armed: int = 0) -> None:
         """A packet that was taken while it had been armed so many times."""
@@ -102,6 +102,6 @@ class OscTrigger:
 def _taken(listener: socket.socket | None) -> bytes | None:
     """The next packet, None where none waits."""
     if listener is not None:
-        with suppress(OSError):  # none waits, or an answer to nobody's packet, as some systems report it
+        with suppress(OSError):  # none waits, or an answer to no packet of ours, as some systems report it
             return listener.recv(LONGEST)
     return None

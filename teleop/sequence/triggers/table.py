@@ -40,7 +40,7 @@ class KeyTrigger:
     def fired(self, now: float) -> bool:  # noqa: ARG002 - the sequence hears the key itself
         return False
 
-    def said(self, now: float) -> str:  # noqa: ARG002 - nothing to count down
+    def waits_for(self, now: float) -> str:  # noqa: ARG002 - nothing to count down
         return "enter"
 
 
@@ -71,12 +71,12 @@ class ClockTrigger:
     def arm(self, now: float) -> None:  # noqa: ARG002 - the wall clock decides
         late = self._wall() - self._at
         if late > PERIOD:
-            raise DeviceError(f"{self._name} was {late:.1f} s before the rig was in place")
+            raise DeviceError(f"{self._name} was {late:.1f} s before the rig reached the start")
 
     def fired(self, now: float) -> bool:  # noqa: ARG002
         return self._wall() >= self._at - PERIOD / 2
 
-    def said(self, now: float) -> str:  # noqa: ARG002
+    def waits_for(self, now: float) -> str:  # noqa: ARG002
         left = max(0, round(self._at - self._wall()))
         parts = ((left // 3600, "h"), (left // 60 % 60, "min"), (left % 60, "s"))
         return f"{self._name}, in {' '.join(f'{count} {unit}' for count, unit in parts if count) or '0 s'}"
@@ -95,7 +95,7 @@ def read_trigger(text: str, now: Callable[[], float]) -> Trigger:
 
 def _key(rest: str, _now: Callable[[], float]) -> Trigger:
     if rest:
-        raise WrittenError("is just key; it is the enter key")
+        raise WrittenError("must be just key: the Enter key")
     return KeyTrigger()
 
 

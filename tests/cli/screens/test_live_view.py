@@ -24,7 +24,7 @@ LIMITS = {
     Axis.FOCUS: Limits(0, 1, 0.5, 2, 10),
 }
 STATUS = OperatorStatus(
-    hands=[
+    inputs=[
         InputStatus("Xbox pad", [Axis.PAN], "", ""),
         InputStatus("dial", [], "hold its enable button", ""),
         InputStatus("old stick", [], "old stick: unplugged", "old stick: unplugged"),
@@ -33,7 +33,7 @@ STATUS = OperatorStatus(
     ranges=[0.1, 0.35, 1.0],
     range=1,
     stopped=False,
-    hands_on=True,
+    manual_control=True,
     recall="",
     recall_end=0.0,
     recording=False,
@@ -83,7 +83,7 @@ def test_the_help_has_every_key_on_the_smallest_terminal(
 ) -> None:
     reader = KeyReader()
     assert list(reader.feed(typed)) == []
-    shown = screen(replace(STATUS, hands=STATUS.hands[:hands]), monkeypatch, keyboard=Keyboard(-1, reader))
+    shown = screen(replace(STATUS, inputs=STATUS.inputs[:hands]), monkeypatch, keyboard=Keyboard(-1, reader))
     text = "\n".join(shown)
     assert [word for key in HELP for word in key if word not in text] == []
     assert ("follow mode?" in text) == (typed == "?f")
@@ -103,14 +103,14 @@ def test_it_shows_each_thing_that_an_operator_asks_for(monkeypatch: pytest.Monke
 
 
 def test_a_stop_comes_before_all_else_in_the_banner() -> None:
-    everything: dict[str, Any] = {"stopped": True, "hands_on": False, "recall": "preset 1", "recall_end": 14.0}
+    everything: dict[str, Any] = {"stopped": True, "manual_control": False, "recall": "preset 1", "recall_end": 14.0}
     still = {Axis.PAN: State(-45.0)}
     assert banner(replace(STATUS, **everything), MOTION, 12.0, 80).plain.startswith(" stopping")
     stopped = " STOPPED. Press c to clear, then center all sticks."
     assert banner(replace(STATUS, **everything), still, 12.0, 80).plain.rstrip() == stopped
     everything["stopped"] = False
     assert "MANUAL CONTROL OFF" in banner(replace(STATUS, **everything), still, 12.0, 80).plain
-    everything["hands_on"] = True
+    everything["manual_control"] = True
     assert "preset 1 in 2.0 s" in banner(replace(STATUS, **everything), still, 12.0, 80).plain
     assert banner(STATUS, still, 12.0, 80).plain == ""
 

@@ -271,7 +271,7 @@ def test_a_question_that_was_lost_is_asked_again_after_100_ms() -> None:
     ("arguments", "said"),
     [
         ([], "name a command; teleop send --help lists all"),
-        (["recentre"], "there is no command 'recentre', did you mean 'recenter'?"),
+        (["recentre"], "unknown command recentre; did you mean recenter?"),
         (["gimbal", "position", "yaw=400", "roll=0", "pitch=0"], "gimbal.position: yaw must be -180..180 deg, not 400"),
         (["focus", "set", "position=x"], "focus.set: position must be 0..4095, not 'x'"),
         (["gimbal", "mode"], "gimbal.mode: give either a mode (lock, yaw, sport) or an action (recenter, selfie)"),

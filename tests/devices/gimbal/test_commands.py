@@ -22,7 +22,7 @@ class Bench:
     def __init__(self) -> None:
         self.far = FarEnd()
         self.said: list[str] = []
-        self.done: list[str] = []  # what the gimbal has confirmed
+        self.done: list[DeviceCommand] = []  # what the gimbal has confirmed
         self.dials: list[tuple[float, int]] = []
         self.sink = CommandSink(self.far.connection, self.said.append, self.done.append)
         self.now = 1.0
@@ -44,20 +44,20 @@ class Bench:
 def test_words_arrive_as_the_gimbals_command_and_its_answer_is_said() -> None:
     bench = Bench()
     bench.far.replies[gimbal.Mode] = lambda _mode: Result(0)
-    bench.tick(DeviceCommand("gimbal follow lock"))
-    bench.tick(DeviceCommand("follow sport"))
+    bench.tick(DeviceCommand("gimbal", "follow lock"))
+    bench.tick(DeviceCommand("gimbal", "follow sport"))
     bench.tick()
     modes = [message.mode for message in bench.far.heard if isinstance(message, gimbal.Mode)]
     assert modes == [FollowMode.LOCK, FollowMode.SPORT]
-    assert bench.said == ["gimbal follow lock: done", "follow sport: done"]
-    assert bench.done == ["gimbal follow lock", "follow sport"]
+    assert bench.said == ["gimbal follow lock: done", "gimbal follow sport: done"]
+    assert bench.done == [DeviceCommand("gimbal", "follow lock"), DeviceCommand("gimbal", "follow sport")]
 
 
 def test_a_refusal_and_silence_are_said_and_are_no_fault() -> None:
     bench = Bench()
     bench.far.replies[gimbal.Mode] = lambda _mode: Result(3)
-    bench.tick(DeviceCommand("gimbal follow lock"))
-    bench.tick(DeviceCommand("camera center focus"))
+    bench.tick(DeviceCommand("gimbal", "follow lock"))
+    bench.tick(DeviceCommand("camera", "center focus"))
     for _ in range(20):
         bench.tick()
     assert bench.said == ["gimbal follow lock: refused (return code 0x03)", "camera center focus: no answer"]
@@ -68,17 +68,18 @@ def test_a_refusal_and_silence_are_said_and_are_no_fault() -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("gimbal folow lock", "there is no command 'gimbal folow lock', did you mean 'gimbal follow lock'?"),
+        ("gimbal folow lock", "unknown command gimbal folow lock; did you mean gimbal follow lock?"),
         ("gimbal recenter", "refused: it would disturb the commands of the run"),
-        ("selfie", "refused: it would disturb the commands of the run"),
+        ("gimbal selfie", "refused: it would disturb the commands of the run"),
         ("gimbal speed yaw=10 roll=0 pitch=0", "refused: it would disturb the commands of the run"),
         ("focus set position=5", "refused: it would disturb the commands of the run"),
         ("gimbal dial speed=9999", "speed"),
     ],
 )
-def test_what_cannot_be_told_is_said_and_not_sent(words: str, said: str) -> None:
+def test_a_command_that_cannot_be_sent_is_refused_with_the_reason(words: str, said: str) -> None:
+    device, name, *arguments = words.split()
     bench = Bench()
-    bench.tick(DeviceCommand(words))
+    bench.tick(DeviceCommand(device, name, tuple(arguments)))
     assert bench.far.heard == []
     assert said in bench.said[0]
 
@@ -94,7 +95,7 @@ def test_what_cannot_be_told_is_said_and_not_sent(words: str, said: str) -> None
 def test_what_is_told_to_a_device_that_is_not_there_is_said(gimbal: bool, drone: bool, said: list[str]) -> None:
     heard: list[str] = []
     Unheard(gimbal, drone, heard.append).observe(
-        Tick(1.0, {}, {}, (DeviceCommand("drone engage"), DeviceCommand("gimbal follow lock")), {})
+        Tick(1.0, {}, {}, (DeviceCommand("drone", "engage"), DeviceCommand("gimbal", "follow lock")), {})
     )
     assert heard == said
 
@@ -127,7 +128,7 @@ def test_a_dial_that_turns_steadily_is_said_fifty_times_a_second() -> None:
 
 def test_what_has_no_reply_is_sent_and_none_is_missed() -> None:
     bench = Bench()
-    bench.tick(DeviceCommand("gimbal version push version=01.02.03.04"))
+    bench.tick(DeviceCommand("gimbal", "version push", ("version=01.02.03.04",)))
     for _ in range(20):
         bench.tick()
     assert gimbal.VersionPush("01.02.03.04") in bench.far.heard

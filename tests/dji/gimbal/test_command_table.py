@@ -77,8 +77,8 @@ def test_every_command_of_the_document_can_be_sent() -> None:
 @pytest.mark.parametrize(
     ("words", "error"),
     [
-        ("recentre", "there is no command 'recentre', did you mean 'recenter'?"),
-        ("xyzzy", "there is no command 'xyzzy'"),
+        ("recentre", "unknown command recentre; did you mean recenter?"),
+        ("xyzzy", "unknown command xyzzy"),
         ("gimbal recenter speed=1", "gimbal recenter takes no fields"),
         ("gimbal position", "gimbal.position: yaw, roll, pitch missing"),
         ("gimbal position time_for_action=1", "gimbal.position: yaw, roll, pitch missing"),

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from teleop.config.inputs_section import ControlSection
 from teleop.core.axes import Axis
+from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command, Held, Press
 from teleop.inputs.hid.mapping import Mapped
 from teleop.inputs.hid.state import Change, Sample
@@ -204,7 +205,7 @@ def test_directions_of_a_hat_press_or_nudge() -> None:
     assert hat.read({**values, "Hat switch up": button(True)}, (), 1).deflections == {Axis.TILT: 0.2}
     assert hat.read({**values, "Hat switch down": button(True)}, (), 2).deflections == {Axis.TILT: -0.2}
     told = hat.read(values, changes("Hat switch left", (3, button(True))), 3)
-    assert told.presses == [Press(Command.TELL, words="gimbal follow lock")]
+    assert told.presses == [Press(Command.TELL, device_command=DeviceCommand("gimbal", "follow lock"))]
 
 
 def test_the_enable_button_is_held_or_not_and_none_without_one() -> None:

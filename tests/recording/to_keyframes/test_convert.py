@@ -22,7 +22,7 @@ from teleop.planner.live import Live
 from teleop.recording.reader import Take, read_take
 from teleop.recording.replay import recorded_move
 from teleop.recording.to_keyframes.convert import keyframes
-from teleop.sequence.compile import CompiledSequence, load_performance
+from teleop.sequence.compile import CompiledSequence, load_sequence
 
 SIM = load_profile("sim").limits
 PAN, TILT, FOCUS = Axis.PAN, Axis.TILT, Axis.FOCUS
@@ -55,7 +55,7 @@ def stick_take(path: Path, speeds: list[tuple[float, float]], seconds: float) ->
 
 def played(text: str, take: Take, folder: Path) -> CompiledSequence:
     (folder / "fitted.yaml").write_text(text, encoding="utf-8")
-    return load_performance(str(folder / "fitted.yaml"), take.about.limits, "sim")
+    return load_sequence(str(folder / "fitted.yaml"), take.about.limits, "sim")
 
 
 def furthest(text: str, take: Take, folder: Path) -> dict[Axis, float]:
@@ -104,7 +104,7 @@ def test_rests_are_holds_or_stops_of_the_same_length(tmp_path: Path) -> None:
 
 def test_actions_of_the_camera_are_cues_and_numbers_are_for_people(tmp_path: Path) -> None:
     keys = {PAN: [Key(0, -1 / 3), Key(5, 100 / 3)]}
-    acts = {100: [Action.RECORD], 333: [Action.SHUTTER, DeviceCommand("gimbal recenter")], 500: [Action.STOP]}
+    acts = {100: [Action.RECORD], 333: [Action.SHUTTER, DeviceCommand("gimbal", "recenter")], 500: [Action.STOP]}
     move = plan(keys, SIM)
     path = write_take(tmp_path / "take.mcap", {PAN: move.tracks[PAN].at}, 5, acts=acts, limits={PAN: SIM[PAN]})
     text = keyframes(read_take(path), 0.2).text

@@ -33,7 +33,7 @@ def at_start(port: Port) -> StartTrigger:
 def test_it_fires_on_the_tick_at_which_the_timecode_comes(rate):
     port = Port()
     trigger = at_the_hour(port)
-    assert trigger.said(0.0) == "timecode 01:00:00:00; none has come yet"
+    assert trigger.waits_for(0.0) == "timecode 01:00:00:00; none received yet"
     fired = port.play(running(HOUR[rate] - 40, 100, rate, 1.0), trigger, 10.0)
     assert fired == pytest.approx(1.0 + 40 / RATES[rate], abs=0.011)
 
@@ -44,14 +44,14 @@ def test_it_fires_for_timecode_that_begins_there_and_not_for_what_is_past_it():
     port = Port()
     trigger = at_the_hour(port)
     assert port.play(running(HOUR[1] + 10, 50, 1, 1.0), trigger, 2.0) is None
-    assert trigger.said(port.now) == "timecode 01:00:00:00; it is past that"
+    assert trigger.waits_for(port.now) == "timecode 01:00:00:00; already past"
 
 
 def test_a_parked_timecode_is_not_a_start_and_a_jump_over_the_time_neither():
     port = Port()
     trigger = at_the_hour(port)
     assert port.play([(1.0, full_frame(HOUR[1], 1))], trigger, 3.0) is None
-    assert trigger.said(port.now).endswith("it stands")
+    assert trigger.waits_for(port.now).endswith("stopped")
     assert port.play(running(HOUR[1], 50, 1, 3.0), trigger, 6.0) == pytest.approx(3.08, abs=0.02)
     port = Port()
     trigger = at_the_hour(port)
@@ -98,7 +98,7 @@ def test_a_start_is_a_start_and_timecode_that_runs_already_has_to_stop_first():
     port = Port()
     trigger = at_start(port)
     assert port.name == "Tascam"
-    assert trigger.said(0.0) == "MIDI timecode to start"
+    assert trigger.waits_for(0.0) == "MIDI timecode to start"
     noise = [(0.5, mido.Message("note_on", note=60)), (0.6, mido.Message("quarter_frame", frame_type=3))]
     assert port.play(noise, trigger, 1.0) is None
     assert port.play(running(0, 20, 3, 1.0), trigger, 2.0) == pytest.approx(1.06, abs=0.02)
@@ -109,7 +109,7 @@ def test_a_start_is_a_start_and_timecode_that_runs_already_has_to_stop_first():
         port.now = now
         port._listener(message)
     trigger.arm(port.now)
-    assert trigger.said(port.now) == "MIDI timecode to stop and start again"
+    assert trigger.waits_for(port.now) == "MIDI timecode to stop and start again"
     assert port.play(coming[100:150], trigger, port.now + 0.5) is None
     assert port.play(running(9000, 20, 1, port.now), trigger, port.now + 1) is None  # a jump is no start
     assert port.play(running(0, 50, 1, 4.0), trigger, 6.0) == pytest.approx(4.07, abs=0.02)

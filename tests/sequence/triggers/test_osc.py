@@ -49,7 +49,7 @@ def test_its_message_fires_it(data):
     with ExitStack() as stack:
         trigger.open(stack)
         trigger.arm(0.0)
-        assert trigger.said(0.0) == f"OSC /go on 127.0.0.1:{port}"
+        assert trigger.waits_for(0.0) == f"OSC /go on 127.0.0.1:{port}"
         assert not trigger.fired(0.0)
         send(port, data)
         wait_until(lambda: trigger.fired(0.0), "the trigger")
@@ -155,7 +155,7 @@ def test_nothing_counts_before_it_is_armed_at_all():
 
 def test_a_socket_that_has_only_errors_is_not_asked_again_and_again(monkeypatch):
     asked = Asked()
-    monkeypatch.setattr("teleop.sequence.triggers.osc.LOOK", 0.02)
+    monkeypatch.setattr("teleop.sequence.triggers.osc.POLL_PERIOD", 0.02)
     monkeypatch.setattr("teleop.sequence.triggers.osc.select.select", lambda *_: ([1], [], []))
     monkeypatch.setattr("teleop.sequence.triggers.osc._taken", asked)
     with ExitStack() as stack:
