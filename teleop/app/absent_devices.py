@@ -69,7 +69,7 @@ def _silent(rig: Rig, clock: Clock) -> list[tuple[Device, TeleopError]]:
 
 
 def _answer(device: Device, now: float, begin: float) -> TeleopError | bool:
-    """Whether the device has said where its axes are, or why it is not there; False while that is open."""
+    """Whether the device has reported its axes, or its absence is explained; False until then."""
     assert device.reporter is not None
     try:
         readings = device.reporter.report(now)

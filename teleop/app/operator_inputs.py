@@ -28,7 +28,7 @@ def open_devices(
     begin: Callable[[], float] = lambda: math.inf,
     virtual: bool = False,
 ) -> tuple[Sequence[Input], str]:
-    """The joysticks and dials of the profile, open until the stack is left, and a note about them, "" for none.
+    """The joysticks and dials of the profile, open until the stack is left, and a line about what is absent.
 
     `recordings` are devices too, from `begin` on; in `virtual` time they are the only ones. Without `keys` a device has
     to be there: raises UsageError, whose text is `without`, when none is, and DeviceError when no device can be read.

@@ -1,4 +1,4 @@
-"""What a plan needs before it is played: its devices, somebody at the keys, limits wide enough to follow a take."""
+"""What a plan needs before it is played: its devices, an operator at the keys, limits wide enough to follow a take."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def waits(sequence: CompiledSequence) -> Sequence[float]:
 
 
 def attended(file: str, sequence: CompiledSequence, keys: bool, virtual: bool) -> CompiledSequence:
-    """The sequence without waits where nobody can end them: on the virtual clock.
+    """The sequence without waits on the virtual clock, where no key can end them.
 
     Raises UsageError for one that would wait for ever: in real time, without keys.
     """

@@ -106,7 +106,7 @@ def undisturbed() -> Iterator[None]:
     """
     interval = sys.getswitchinterval()
     gc.collect()
-    thaw = gc.get_freeze_count() == 0  # what somebody else has frozen stays so, and there is no thawing a part
+    thaw = gc.get_freeze_count() == 0  # what the caller has frozen stays frozen; a part cannot be unfrozen
     if thaw:
         gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
     sys.setswitchinterval(SWITCH_INTERVAL)

@@ -30,7 +30,7 @@ from teleop.devices.rig import Rig, open_rig
 from teleop.planner.ruckig_solver import PositionSolver
 
 SWITCH_INTERVAL = 0.0005  # s: how long another thread of the program may hold up the control thread
-CLOSING = 15.0  # s until a run that is told to end is left to itself; the loop's own deadlines are shorter
+CLOSING = 15.0  # s to wait for a run to end; the loop's own deadlines are shorter
 IMPATIENT = 2  # interrupts while closing, after which devices are released without a ramp
 CTRL_C = "Ctrl-C"
 

@@ -21,7 +21,7 @@ from teleop.cli.staging_options import joined
 from teleop.config.document import DocumentError, UnplayableError
 from teleop.core.errors import LeaveAtOnce, TeleopError, UsageError
 
-MOST_SAID = 50  # problems of a file: nobody mends more at a time
+MOST_SAID = 50  # problems of a file: more are not mended at a time
 DONE, FAILED, BAD_USAGE, INTERRUPTED = 0, 1, 2, 130
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
@@ -113,7 +113,7 @@ def run(arguments: Sequence[str]) -> int:
     except KeyboardInterrupt:
         print("teleop: interrupted", file=sys.stderr)
         return INTERRUPTED
-    except BrokenPipeError:  # the reader of our output has left; there is nobody to tell
+    except BrokenPipeError:  # the reader of our output has left
         sys.stderr.close()
         return FAILED
 

@@ -25,7 +25,7 @@ Understood = Annotated[
 
 
 def ask_to_fly(what: str, axes: Collection[Axis], understood: bool) -> None:
-    """Raises UsageError where `what` moves a drone and nobody said that it may."""
+    """Raises UsageError where `what` moves a drone without the operator's consent."""
     if not is_flown(axes) or understood:
         return
     if sys.stdin is None or sys.stdin.closed or not sys.stdin.isatty():

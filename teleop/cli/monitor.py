@@ -1,7 +1,7 @@
 """`teleop monitor`: what host and device say to each other, live, from a third party's place.
 
 On a CAN bus each id is a stream of bytes of its own, so each has a reader, and one transcriber remembers who asked
-what; a serial line is heard in one direction only, the device's. The JSON line of a frame is that of `teleop decode`;
+what; a serial line carries one direction only, the device's. The JSON line of a frame is that of `teleop decode`;
 the line for people is made of it, with the units that the message classes carry. The rest of the traffic on a gimbal's
 bus (DJI's own, some 400 frames/s) would bury both, so it is counted. Lines go to stdout; the status line, where there
 is a terminal, and the summary go to stderr.
@@ -41,7 +41,7 @@ POLL_PERIOD = 0.002  # s between looks at the bus, and so the precision of the t
 _MOST_NAMED = 5  # foreign ids in the summary
 _REDRAWS = 4  # of the status line, a second
 _HIDDEN: Mapping[str, str] = {"drone.activate": "app_id"}
-"""A secret by the command that carries it: somebody may be looking over the shoulder, or at a log."""
+"""The secret fields by the command that carries them: screens and logs are read by others."""
 
 
 def monitor(
@@ -92,9 +92,9 @@ def monitor(
 
 @dataclass(frozen=True)
 class Tap:
-    """A link to listen on: where it is, what the far end is called and speaks, and the directions that are heard.
+    """A link to listen on: where it is, the far end's name and protocol, and the directions it carries.
 
-    `directions` are by the key under which a listener hands over what it heard.
+    `directions` are by the listener's key for what it received.
     """
 
     url: str
@@ -105,7 +105,7 @@ class Tap:
 
     @property
     def is_bus(self) -> bool:
-        """Whether both directions are heard, and others' traffic too."""
+        """Whether both directions arrive, and others' traffic too."""
         return len(self.directions) > 1
 
     def __str__(self) -> str:
@@ -133,7 +133,7 @@ def tap(profile: Profile, link: str, model: str) -> Tap:
 
 
 class Watch:
-    """Tells each frame that a listener heard, as a line for people or of JSON, and counts."""
+    """Prints each frame that a listener received, as a line for people or of JSON, and counts."""
 
     def __init__(self, listener: Listener, tapped: Tap, as_json: bool) -> None:
         self._listener, self._tap, self._as_json = listener, tapped, as_json
@@ -142,14 +142,14 @@ class Watch:
         self._counts: Counter[str] = Counter()
 
     def look(self, time: float) -> None:
-        """Tell what has been heard up to `time` (s since the start). Raises LinkError when the bus is lost."""
+        """Print what has arrived up to `time` (s since the start). Raises LinkError when the bus is lost."""
         for key, data in self._listener.receive():
             self._tell(time, key, self._readers[key].feed(data, time))
         for key, reader in self._readers.items():
             self._tell(time, key, reader.flush(time))
 
     def summary(self) -> str:
-        """What was heard so far, in a line."""
+        """What has arrived so far, in a line."""
         counts, device = self._counts, self._tap.device
         came, damaged = counts[f"from {device}"], f"{counts['damage']} damaged"
         if self._tap.is_bus:

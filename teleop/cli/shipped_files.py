@@ -62,7 +62,7 @@ def copy(
     kind, source = _source(name)
     _refuse(file)
     try:
-        with file.open("xb") as target:  # exclusive: never over a file that somebody made meanwhile
+        with file.open("xb") as target:  # exclusive: never over a file made meanwhile
             target.write(source.read_bytes())
     except FileExistsError:
         raise UsageError(f"{file}: already exists; choose another name") from None

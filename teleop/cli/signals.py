@@ -65,7 +65,7 @@ class _Desk:
         self, interrupt: Callable[[str], object], release: Callable[[], object], say: Callable[[str], object]
     ) -> None:
         self._interrupt, self._release, self._say = interrupt, release, say
-        self.leaving = False  # the main thread has been told to leave, or is past the run
+        self.leaving = False  # the main thread was asked to leave, or is past the run
         self._seen = self._counted = 0  # by the main thread, by the pipe: signals that come together are one handler's
         self._owned = process.owned
         self._out, self._never = threading.Event(), threading.Event()  # the main thread is out of the run

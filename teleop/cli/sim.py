@@ -85,7 +85,7 @@ def serve(
     refusals: RefusalLines | None = None,
     foreign_traffic: bool = False,
 ) -> None:
-    """Pass bytes between links and devices until told to stop; raises LinkError when a link is lost."""
+    """Pass bytes between links and devices until stopped; raises LinkError when a link is lost."""
     due = clock.now()
     said = -STATUS
     strangers = _strangers(links, due) if foreign_traffic else []

@@ -28,7 +28,7 @@ _WHAT = {"time": re.compile(r"\d+:"), "timecode": re.compile(r"\d+:"), "osc": re
 @Parameter(name="*")
 @dataclass(frozen=True)
 class StagingOptions:
-    """What stands around the move; where nothing is said, the sequence's own."""
+    """Preroll, holds and repeats around the move; without an option, the sequence's own."""
 
     preroll: Annotated[
         str | None,

@@ -1,4 +1,4 @@
-"""The options of `teleop play` for a hand on the running sequence, and what is said of it at the end."""
+"""The options of `teleop play` for a trim of the running sequence, and its report at the end."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ _KEY: Final = "must be 64 hexadecimal digits, in quotes"
 
 @dataclass(frozen=True)
 class Credentials:
-    """What DJI gave the developer; None where nobody said. `place` is where a missing one could be put."""
+    """The developer's app id and key from DJI; None without. `place` is where a missing one could be put."""
 
     place: str
     app_id: int | None = field(default=None, repr=False)

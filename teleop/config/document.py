@@ -86,7 +86,7 @@ class Document:
     flaws: list[Flaw] = field(default_factory=list)
 
     def line(self, path: Location, text: str) -> str:
-        """One line for what is said elsewhere of something that stands at `path`."""
+        """One line of a message about the value at `path`."""
         return self._line(self.places[path], text)
 
     def problem(self, path: Location, text: str, *, key: bool = False) -> str:

@@ -160,7 +160,7 @@ def _created(name: Path) -> BinaryIO:
     """A new file to be called `name`: without a name for now, where the system can do that."""
     unnamed = getattr(os, "O_TMPFILE", None)
     if unnamed is not None and Path("/proc/self/fd").is_dir():
-        with suppress(OSError):  # a file system that cannot; what is wrong with the place is said below
+        with suppress(OSError):  # a file system that cannot; what is wrong with the place is reported below
             descriptor = os.open(name.parent, unnamed | os.O_WRONLY | os.O_CLOEXEC, 0o666)
             return cast(BinaryIO, open(descriptor, "wb"))
     return name.open("xb")

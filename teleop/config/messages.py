@@ -1,4 +1,4 @@
-"""What pydantic calls an error, in the words of whoever wrote the file."""
+"""Rewrites pydantic's errors in the words of the file."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@
       1: {pan: 10.0, tilt: -3.2, name: "wide"}
 
 The control thread only changes what is in memory; a thread of their own writes the file, whole and beside the old one,
-which it then replaces. A disk that is full costs the file and not the run, and is said once for each change.
+which it then replaces. A disk that is full costs the file and not the run, and is reported once for each change.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from teleop.config.messages import decimal_comma, missing_space
 from teleop.config.yaml_nodes import TooMuchError, compose
 
 MAX_BYTES = 4_000_000  # a sequence of 2000 keys is 0.2 MB
-MAX_VALUES = 100_000  # after aliases are followed: 14 000 keyframes of four axes, which nobody writes or can plan
+MAX_VALUES = 100_000  # after aliases are followed: 14 000 keyframes of four axes, more than can be planned
 MAX_NODES = 160_000  # keys counted, aliases not followed
 MAX_DEPTH = 32
 

@@ -30,7 +30,7 @@ def _sleep_until(moment: float) -> None:
 
 
 class VirtualClock:
-    """Time that passes only while somebody sleeps: hours of a run in seconds, and the same every time."""
+    """Time that passes only in `sleep_until`: hours of a run in seconds, and the same every time."""
 
     def __init__(self, now: float = 0.0) -> None:
         self._now = now

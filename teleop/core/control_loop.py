@@ -1,6 +1,6 @@
 """The tick: source -> planner -> sink, once per period, in one thread, until everything is at rest and given back.
 
-Ticks lie on a grid of absolute times, so a late one does not delay the next; the planner is told how many periods
+Ticks lie on a grid of absolute times, so a late one does not delay the next; the planner gets the number of periods
 went by and makes one legal step of that length. While nothing moves and no source will change its mind, the loop
 sleeps over ticks, but never past the keep-alive. Only this module decides what a fault means: whatever is raised
 anywhere in a tick, by whomever, becomes a reason to ramp to rest, release and end with a result that is not DONE.
@@ -8,7 +8,7 @@ Nothing a piece does can keep a run from ending: stopping and releasing (`releas
 a LeaveAtOnce, which a signal handler may raise out of a call that hangs, ends both.
 
 A tick is prepared a little before its moment (LEAD) and its commands leave at the moment itself: how long reading,
-planning and reporting took, which varies, is then not heard in their spacing.
+planning and reporting took, which varies, then does not show in their spacing.
 
 After a stall the planner no longer knows where the axes are (`whereabouts`): the ramp to rest then starts from what
 two fresh readings say, and nothing is commanded before they are in. An axis that no reading is found of gets no command
@@ -99,7 +99,7 @@ class ControlLoop:
         while self.supervisor.state is not RunState.OVER:
             try:
                 self.turn()
-            except KeyboardInterrupt:  # where nobody handles the signal it may come between any two lines
+            except KeyboardInterrupt:  # without a signal handler it may come between any two lines
                 self.interrupt("Ctrl-C")
             except LeaveAtOnce:
                 self.release_at_once()
@@ -262,7 +262,7 @@ class ControlLoop:
         self._report(now)
         tick = Tick(now, self._motion, demand, actions, self._reported)
         if self._calls.guarded(self._missed, now):
-            return  # nobody is to hear it so much later; the next tick finds that the computer stalled
+            return  # too late to send; the next tick finds that the computer stalled
         for sink in self._sinks:
             self._calls.guarded(sink.write, tick)
         for observer in self._observers:

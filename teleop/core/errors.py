@@ -20,7 +20,7 @@ class DeviceError(TeleopError):
 
 
 class Interrupted(TeleopError):  # noqa: N818 - the user's word for it, as in Ctrl-C
-    """The operator wants the run to end: it stops as smoothly as for a fault, and nothing has failed."""
+    """The operator ends the run: it stops as smoothly as for a fault, and nothing has failed."""
 
 
 class LeaveAtOnce(BaseException):

@@ -57,7 +57,7 @@ class Exposure(NamedTuple):
 
 
 class ShutterResult(NamedTuple):
-    """What the camera said to the press for a frame: a return code, 0 for done, None for nothing."""
+    """The camera's answer to the press for a frame: a return code, 0 for done, None without an answer."""
 
     frame: int
     code: int | None

@@ -24,7 +24,7 @@ class GuardedCalls:
     def guarded(self, call: Callable[..., Any], *arguments: Any, default: Any = None) -> Any:
         """What `call` returns, or `default` where it raises: the other devices are still served, and the run stops.
 
-        SystemExit too: a stage that wants to leave may not take the run with it. LeaveAtOnce goes through.
+        SystemExit too: a stage that exits may not take the run with it. LeaveAtOnce goes through.
         """
         try:
             return call(*arguments)

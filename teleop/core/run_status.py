@@ -47,7 +47,7 @@ class RunStatus:
     frames, as "12 of 720 frames", with `done` the share of it.
 
     `stop` is a latched STOP: "stopping" while an axis still moves, then "stopped" (see `stop_state`). `recording` is
-    what the camera was last told, None for nothing. `note` is a line for the operator, `question` one that waits for an
+    the camera's last command, None for none. `note` is a line for the operator, `question` one that waits for an
     answer. `number` is that of the pass, from 1, and `passes` how many there are, inf for until it is stopped.
     """
 

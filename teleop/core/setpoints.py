@@ -9,7 +9,7 @@ from teleop.core.axes import Axis
 
 
 class VelocityTarget(NamedTuple):
-    """Move at this velocity (unit/s) until told otherwise, as a stick asks.
+    """Move at this velocity (unit/s) until the next setpoint, as a stick asks.
 
     `acceleration` and `jerk` are an operator's gentler limits; None is the axis's own. They never exceed the axis's.
     """

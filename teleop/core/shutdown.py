@@ -15,7 +15,7 @@ from teleop.core.errors import TeleopError
 from teleop.core.interfaces import Sink
 
 RELEASE_PATIENCE = 0.5  # s to keep trying to give a device back over a link that fails
-RELEASE_LONGEST = 10.0  # s for all of giving back, whatever a sink still wants to do
+RELEASE_LONGEST = 10.0  # s for all releases together, whatever a sink still has to do
 
 
 class Shutdown:
@@ -37,7 +37,7 @@ class Shutdown:
         self._advance(now, guarded, again_until=self._end)
         if self._due and now > self._limit:
             self._due.clear()
-            raise TeleopError(f"not everything could be given back within {RELEASE_LONGEST:g} s")
+            raise TeleopError(f"shutdown timed out after {RELEASE_LONGEST:g} s: some devices were not released")
         return not self._due
 
     def once(self, now: float, guarded: Callable[..., Any]) -> bool:

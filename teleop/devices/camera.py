@@ -1,9 +1,9 @@
 """The camera that the gimbal's RSS cable controls.
 
-Recording is said again when no reply comes, because saying it twice does no harm. The shutter is not: a lost reply
-does not mean a lost command, and a frame shot twice is a fault nobody sees. A camera that refuses stops the run, since
+Recording is sent again when no reply comes, because sending it twice does no harm. The shutter is not: a lost reply
+does not mean a lost command, and a frame shot twice stays unnoticed. A camera that refuses stops the run, since
 a move that is not being filmed is not worth finishing. What this program has set recording it stops on leaving, however
-it leaves: nobody else knows that the card is filling. So it is with a focus that it holds.
+it leaves: otherwise the card fills unnoticed. So it is with a focus that it holds.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ COMMANDS: Mapping[Action, CameraCommand] = {
     Action.END_FOCUS: CameraCommand.END_CENTER_FOCUS,
 }
 ENDS: Mapping[Action, Action] = {Action.RECORD: Action.STOP, Action.FOCUS: Action.END_FOCUS}
-"""What lasts until something else is said, and what that is."""
+"""The actions that last until another one, and that other one."""
 
 LISTEN = 0.02  # s between looks for the answer on leaving
-TRIES = 3  # how often it is said without a reply; the shutter once
+TRIES = 3  # how often it is sent without a reply; the shutter once
 
 
 class CameraSink:

@@ -1,6 +1,6 @@
 """What the camera answers to an operator who has it record or shoot, in a line: it is not seen to do so otherwise.
 
-A run by hand goes on when the camera refuses or is absent: the operator is told, and drives on. A move that plays by
+A run by hand goes on when the camera refuses or is absent: the operator reads it and drives on. A move that plays by
 itself ends instead, because a move that is not filmed is not worth finishing.
 """
 

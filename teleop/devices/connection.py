@@ -44,7 +44,7 @@ class Answer:
 
 
 class Connection:
-    """`name` is what errors call the far end, `url` where it is; it is first expected to be heard after `now`.
+    """`name` is what errors call the far end, `url` where it is; the first frame from it is expected after `now`.
 
     `link_counts` are what the link counts of its own: how often it was full, what it dropped. `session` is that of the
     far end's protocol, a gimbal's unless given.

@@ -2,7 +2,7 @@
 
 Which class serves a type of sink is a row in a table. Devices that share a link share one connection, because two
 frames must never interleave on a bus. A simulated device is an ordinary one on a link that ends in this process.
-Whether a link ends at a gimbal or at a drone is said by the sinks that use it.
+Whether a link ends at a gimbal or at a drone follows from the sinks that use it.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ DRONE_FIRST_REPORT = 8.0  # s: an activation may be asked for three times, a sec
 class Device:
     """What serves one entry of a profile's sinks, and the axes it can move.
 
-    `follow` is how far from commanded these may be found, in units, None where nobody measures them, and `delay` how
+    `follow` is how far from commanded these may be found, in units, None where they are not measured, and `delay` how
     much later than that they move (s).
     """
 

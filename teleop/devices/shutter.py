@@ -1,4 +1,4 @@
-"""The shutter of a timelapse: pressed once for each frame, and what the camera said of it told on.
+"""The shutter of a timelapse: pressed once for each frame, and the camera's answer passed on.
 
 Unlike a film's camera (sinks/camera.py) one that does not shoot ends nothing here: what that means for the shoot is
 decided where the frames are counted. The press is never repeated, because a lost reply is no lost command. Letting go

@@ -25,7 +25,7 @@ __all__ = [
     "parse",
 ]
 
-FAR_END: Final = 0  # who speaks on a serial line, where nobody has a CAN id
+FAR_END: Final = 0  # the sender on a serial line, which has no CAN ids
 
 
 class ClosableLink(Link, Protocol):
@@ -60,7 +60,7 @@ class Listener(Protocol):
     counts: Counter[str]
 
     def receive(self) -> list[tuple[int, bytes]]:
-        """What was said since the last call, and by whom: a CAN id, or FAR_END. Raises LinkError when it is lost."""
+        """What has arrived since the last call, by sender: a CAN id, or FAR_END. Raises LinkError once it is lost."""
         ...
 
     def close(self) -> None: ...

@@ -60,7 +60,7 @@ class BufferedLink(ABC):
     def close(self) -> None:
         """Offers what was held back once more, then closes. Any later call raises LinkError; closing again is fine."""
         if self._lost is None:
-            with contextlib.suppress(LinkError), self._latching():  # counted as cut or dropped; nobody is left to tell
+            with contextlib.suppress(LinkError), self._latching():  # counted as cut or dropped; no caller is left
                 self._outbox.flush()
         self._outbox.abandon()
         self._lost = f"{self.address}: closed"

@@ -1,7 +1,7 @@
 """The far end of a serial line that exists in this computer alone: a pseudo-terminal, for a simulated device.
 
 Both ends are kept open, so that the program at the near end may come, be killed and come again as on a real line. What
-nobody reads is dropped, as a UART drops it: a device must never wait for its listener.
+is not read is dropped, as a UART drops it: a device must never wait for its listener.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ _READ = 65536  # bytes in one call, more than a kernel buffers
 
 
 class PtyLink:
-    """A link to whoever opens the serial port `path`. Raises OSError where there are no pseudo-terminals."""
+    """A link to the program that opens the serial port `path`. Raises OSError where there are no pseudo-terminals."""
 
     def __init__(self) -> None:
         try:

@@ -40,7 +40,7 @@ class Port(Protocol):
 
 
 class SerialPort:
-    """A Port on a serial line, 8N1, nobody else's. Raises OSError or ValueError when it cannot be opened."""
+    """A Port on a serial line, 8N1, opened exclusively. Raises OSError or ValueError when it cannot be opened."""
 
     def __init__(self, path: str, baud: int) -> None:
         self._port = serial.Serial(path, baud, timeout=0, write_timeout=0, exclusive=True)

@@ -1,7 +1,7 @@
 """Axes on their way to a position that an operator asked for by a press: a preset, or the center.
 
 It belongs to the input that asked, and stops with it. Targets are cut to the soft limits here as the planner
-would, because "there" has to be said exactly; on an axis that turns for ever they are the nearest turn's.
+would, because a recalled place has to be exact; on an axis that turns for ever they are the nearest turn's.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """How much later than commanded an axis moves, from what was commanded and what was measured meanwhile.
 
 The measured track is fitted, by least squares, with the commanded one shifted in time, scaled, and with an offset and a
-drift of its own: a gimbal that turns at 95 % of what it is told, or slowly sinks, is not later for that. The shift that
-leaves the least is the delay. A lag and a dead time cannot be told apart by slow moves, and need not be.
+drift of its own: a gimbal that turns at 95 % of its command, or slowly sinks, is not later for that. The shift that
+leaves the least is the delay. Slow moves do not separate a lag from a dead time, and need not be.
 """
 
 from __future__ import annotations

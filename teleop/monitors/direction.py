@@ -128,7 +128,7 @@ def _at(history: Sequence[tuple[float, float]], time: float) -> float:
 
 
 def _mirrored(seen: Sequence[Seen]) -> float:
-    """How far an axis was sent that goes the other way; 0 when it does not, or that cannot be told yet."""
+    """How far an axis was sent that goes the other way; 0 when it does not, or while that is unknown."""
     first, latest = seen[0], seen[-1]
     rested = _rested(seen)
     moved = latest.measured - rested

@@ -181,7 +181,7 @@ def recording(
 ) -> Iterator[Recorder | None]:
     """A recorder into a new file, None for no path; `limits` are those of the axes in use.
 
-    Raises UsageError, which begins with `option`, when the file cannot be made or already exists. Whoever runs the loop
+    Raises UsageError, which begins with `option`, when the file cannot be made or already exists. Its caller
     calls `finish`; a block that is left without has failed, and leaves no file when nothing had begun.
     """
     if path is None:

@@ -146,7 +146,7 @@ def panorama_rules(data: Any, fps: float | None) -> Iterator[Wrong]:
 
 
 def _counted(section: Mapping[str, Any], overlap: float) -> float | None:
-    """How many frames it would be, about; None where that cannot be said."""
+    """How many frames it would be, about; None where that is unknown."""
     fov, pan, tilt = (_pair(section, name) for name in ("fov", "pan", "tilt"))
     if not fov or not pan or not tilt or min(fov) <= 0:
         return None

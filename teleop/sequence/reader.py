@@ -29,7 +29,7 @@ MOST_FILES = 200  # each counted as often as it is included
 
 @dataclass
 class SequenceReader:
-    """Reads files for a rig. `problems` are of all of them, `more` are not told; `beyond_rig` are only the rig's."""
+    """Reads files for a rig. `problems` are of all of them, `more` only counted; `beyond_rig` are only the rig's."""
 
     limits: Mapping[Axis, Limits]
     rig: str
@@ -100,7 +100,7 @@ class SequenceReader:
             self.problems.append(document.problem(here, f"is too deep: at most {DEEPEST} files within files"))
         elif self._files > MOST_FILES:
             if self._files == MOST_FILES + 1:
-                self._files += 1  # said once
+                self._files += 1  # reported once
                 self.problems.append(document.problem(here, f"is too much: at most {MOST_FILES} files can be included"))
         else:
             line, column = document.places["include", index]

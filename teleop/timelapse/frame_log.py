@@ -1,6 +1,6 @@
 """What is written down of the frames of a shoot, and what a camera that took no picture means for it.
 
-A frame that the camera refused is known not to be shot and is due again; one of which it said nothing is in doubt, and
+A frame that the camera refused is known not to be shot and is due again; one without an answer is in doubt, and
 that run never presses it again. Whether either of them ends the shoot is the file's to say, up to a number in a row.
 """
 

@@ -3,7 +3,7 @@
 A frame is written down before its shutter and again after it, and the shutter waits until the first is on the disk. So
 what a killed process leaves behind is exact: a frame is shot, or it is not, or it is the one whose shutter was due just
 then. The journal knows the shoot by what its file says, and nothing of the rig: the same shoot may go on over another
-link. Whoever has it open holds SQLite's exclusive lock, which ends with the process, however that ends.
+link. The process that has it open holds SQLite's exclusive lock, which ends with that process, however it ends.
 
 A commit takes half a millisecond, but a disk may stall: a thread writes, and the control thread only looks whether it
 is done. Where time is virtual the disk has to be waited for, so there the caller writes.

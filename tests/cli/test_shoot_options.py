@@ -17,7 +17,7 @@ def test_they_go_with_a_timelapse(options):
     ("options", "name"), [(ShootOptions(resume=True), "--resume"), (ShootOptions(in_doubt="skip"), "--in-doubt")]
 )
 def test_they_go_with_nothing_else(options, name):
-    with pytest.raises(DocumentError, match=f"{name}: a.yaml is no timelapse"):
+    with pytest.raises(DocumentError, match=f"{name}: a.yaml is not a timelapse"):
         options.check("a.yaml", timelapse=False)
 
 

@@ -10,7 +10,7 @@ from teleop.config.profile import load_profile
 
 
 @pytest.mark.parametrize(
-    ("seconds", "shown"), [(12.5, "12.5 s"), (59.96, "60.0 s"), (245, "4 m 05 s"), (7380, "2 h 03 m")]
+    ("seconds", "shown"), [(12.5, "12.5 s"), (59.96, "60.0 s"), (245, "4 min 5 s"), (7380, "2 h 3 min")]
 )
 def test_a_time_is_as_exact_as_it_is_useful(seconds, shown):
     assert clock(seconds) == shown

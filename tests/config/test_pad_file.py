@@ -24,7 +24,7 @@ def test_another_kind_of_file_is_named_as_such(tmp_path):
 
 def test_every_mistake_in_a_pad_has_its_line(tmp_path):
     file = tmp_path / "pad.yaml"
-    file.write_text("name: Own\ndevices: [{name: x}]\ncontrols:\n  Button 1: {pres: stop}\n  X: 3\n")
+    file.write_text("name: Own\ndevices: [{name: x}]\ncontrols:\n  Button 1: {pressed_by: stop}\n  X: 3\n")
     with pytest.raises(DocumentError) as error:
         load_pad(str(file))
     assert any(problem.startswith(f"{file}:4:") for problem in error.value.problems)

@@ -412,7 +412,7 @@ def test_a_sink_that_never_ends_its_release_is_left_behind() -> None:
     clock, sink, endless = VirtualClock(), RecordingSink(steps=3), RecordingSink(steps=1_000_000)
     ended = loop_of([cruising(Axis.PAN, 10, 0.5)], [endless, sink], clock=clock).run()
     assert ended.result is Result.FAILED
-    assert ended.reasons == [f"not everything could be given back within {RELEASE_LONGEST:g} s"]
+    assert ended.reasons == [f"shutdown timed out after {RELEASE_LONGEST:g} s: some devices were not released"]
     assert len(sink.released) == 3
     assert clock.now() < RELEASE_LONGEST + 3
 

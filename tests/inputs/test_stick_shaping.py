@@ -1,5 +1,7 @@
 """The stick's curve: exact at its ends, no jump at the dead zone's edge, odd and rising."""
 
+from collections.abc import Sequence
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,6 +1,6 @@
 """`teleop decode onboard --parts`: what the drone's broadcast can hold, from the classes that decode it.
 
-A frame says neither units nor whether its data are raw or fused, so that whoever reads the JSON lines has to find them
+A frame says neither units nor whether its data are raw or fused, so a reader of the JSON lines has to find them
 somewhere.
 """
 

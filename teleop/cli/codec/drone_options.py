@@ -28,7 +28,7 @@ KeyFile = Annotated[
 
 
 def cipher_of(file: Path | None) -> MakeCipher | None:
-    """What gives the cipher when something is encrypted, None where nobody gave a key. Raises UsageError."""
+    """A function that gives the cipher once something is encrypted; None without a key. Raises UsageError."""
     key = _read(file) if file is not None else _kept()
     return None if key is None else cache(lambda: Cipher(key))
 

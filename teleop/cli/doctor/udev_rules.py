@@ -1,6 +1,6 @@
 """The udev rules that let a user open pads and serial adapters: as narrow as they can be, since a keyboard is HID too.
 
-`uaccess` gives a device to whoever sits at the machine; the group is for one that is reached by ssh, where nobody sits.
+`uaccess` gives a device to the user at the machine; the group is for a machine reached by ssh, where no user sits.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _TYPING = (b"\x05\x01\x09\x06", b"\x05\x01\x09\x02")  # a descriptor's first ite
 
 
 def hid_rule(device: Path) -> str:
-    """The rule for an entry of /sys/class/hidraw; "" for a keyboard or a mouse, which nobody wants opened.
+    """The rule for an entry of /sys/class/hidraw; "" for a keyboard or a mouse, which stay closed.
 
     It matches the HID device's own name (bus, vendor and product), which those on Bluetooth have too.
     """

@@ -1,7 +1,7 @@
 """What an operator sees while moving a rig by hand: a screen on a terminal, else a line each second.
 
 It is drawn by a thread of its own, ten times a second, from the latest tick and the operator's latest status, both of
-which nobody changes any more. A terminal that is slow, stopped or gone costs the picture and never the motion. All of
+which no longer changes. A terminal that is slow, stopped or gone costs the picture and never the motion. All of
 it goes to stderr; stdout is for the result.
 """
 

@@ -41,7 +41,7 @@ def stop_row(stop: StopState, then: str, width: int) -> Text:
 
 
 def banner(status: RunStatus, width: int) -> Text:
-    """What holds the run, or asks for an answer. The note says how to go on where whoever holds it knows."""
+    """What holds the run, or asks for an answer. The note says how to go on where that is known."""
     first = status.note.partition("\n")[0]
     if status.stop:
         return stop_row(status.stop, first if first.startswith("STOPPED") else STOPPED, width)

@@ -20,11 +20,11 @@ from teleop.cli.screens.picture import Picture, Rows
 from teleop.cli.screens.stderr_writer import MOST, StderrWriter
 from teleop.core.events import Tick
 
-NOTES = 5  # of what was said, that stand in the view
+NOTES = 5  # of the latest messages, shown in the view
 
 
 class Screen(ABC):
-    """A sink that only shows. `silent` is for programs: nothing then but what has to be said."""
+    """A sink that only shows. `silent` is for programs: then only warnings are printed."""
 
     def __init__(self, title: str, silent: bool) -> None:
         self._title, self._silent = title, silent

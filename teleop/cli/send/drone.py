@@ -168,7 +168,7 @@ class Exchange:
 
 
 def refusal(message: Message, record: Record) -> str:
-    """Why the drone did not do what it was told; nothing when it did, or was asked for its version only."""
+    """Why the drone did not obey the command; "" when it did, or when only its version was asked for."""
     if not record["reply"] or isinstance(message, drone.Version):
         return ""
     code = record["fields"].get("code", "an acknowledgement of unknown meaning")

@@ -178,7 +178,7 @@ def _reply(session: Session, link: Link, clock: Clock) -> Received | None:
 
 
 def refusal(record: Record) -> str:
-    """Why the device did not do what it was told; nothing when it did."""
+    """Why the device did not obey the command; "" when it did."""
     if not record["reply"]:
         return ""
     fields = record["fields"]

@@ -1,4 +1,4 @@
-"""What `teleop send` does for every device: the way there, and what is said of the outcome."""
+"""What `teleop send` does for every device: the way there, and the report of the outcome."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """A gimbal's own commands and its dial, as an operator gives them by hand.
 
-A command that cannot be given is said to the operator and ends nothing: a wrong button is no fault of the run. What
+A command that cannot be sent is a message to the operator and ends nothing: a wrong button is no fault of the run. What
 would move the gimbal by itself is not passed on, because the next command of the stream would take it back. The dial
 is a stream without answers, so its last word is always a zero, and giving the gimbal back says it too.
 """
@@ -22,7 +22,7 @@ DIAL_PERIOD = 0.02  # s between two words of the dial, at least
 
 
 class Unheard:
-    """Says of what is told to a device that this rig does not have that nobody hears it."""
+    """Reports each command for a device that this rig does not have."""
 
     def __init__(self, gimbal: bool, drone: bool, say: Callable[[str], object]) -> None:
         self._gimbal, self._drone, self._say = gimbal, drone, say
@@ -60,7 +60,7 @@ class CommandSink:
             elif isinstance(act, DialInput):
                 self._dial = round(max(-1.0, min(1.0, act.speed)) * FULL_DIAL)
         if self._asked:
-            self._connection.poll(tick.time)  # the gimbal may have no axis in this run, and so nobody else who does
+            self._connection.poll(tick.time)  # the gimbal may have no axis in this run, and so no other poll
         if (self._dial or self._sent_dial) and tick.time - self._sent_at > DIAL_PERIOD - 1e-6:
             self._sent_at = tick.time
             self._push_dial(self._dial)

@@ -1,11 +1,11 @@
 """The speed that takes an axis along its plan: feed-forward, plus what corrects the measured error (PI).
 
 The error is taken at the time of the reading, so that the age of a report does not look like lag, and an old one
-corrects nothing (design page planning.md, E).
+corrects nothing (docs/explanation/planning.md, E).
 
 A correction may never be a lunge, whatever the readings say (a gimbal that was rebooted, an axis held by hand): the
 error counts up to a bound, the correction changes no faster than the axis may accelerate, and it fades once the axis
-is told to halt.
+is to stop.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from teleop.core.setpoints import Stop
 class Gains(NamedTuple):
     """How hard the measured error is worked against: deg/s per deg, and deg/s2 per deg."""
 
-    proportional: float = 3.0  # planning.md, E
+    proportional: float = 3.0  # docs/explanation/planning.md, E
     integral: float = 2.0
 
 

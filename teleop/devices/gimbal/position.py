@@ -2,8 +2,8 @@
 
 The gimbal goes to each position at constant speed over `time_for_action` and drops it for the next one, so a command
 aims ahead, at where the axis will be that much later at its present velocity; on course, the gimbal then moves at just
-that velocity (design page planning.md, E). What is aimed at never lies beyond a soft limit, because it is where the
-gimbal ends up when the next command does not come.
+that velocity (docs/explanation/planning.md, E). The target never lies beyond a soft limit, because the gimbal ends up
+there when the next command does not come.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ REFUSALS = 5  # refused commands in a row before it is a fault: one may be damag
 
 
 class Angles:
-    """Asks the gimbal where it is, and tells it once a second who asks, as the document wants of its devices.
+    """Asks the gimbal where it is, and sends once a second who asks, as the document requires.
 
     Readings carry the time of the question: a gimbal samples within 5 ms of it. One that leaves questions unanswered is
     asked to push, and read from its pushes while it does not answer; they come seldom, and with no time of their own.
@@ -153,7 +153,7 @@ class PositionSink:
     def release(self, now: float) -> float | None:
         """Nothing was taken over; the last command is left the time to be carried out.
 
-        An axis that is far from it is told to stay where it is: it must not set out once whatever holds it lets go.
+        An axis that is far from it is sent to where it is: it must not set out once whatever holds it lets go.
         """
         if self._waited or self._unreached:
             return None

@@ -18,7 +18,7 @@ from teleop.devices.rate_divider import RateDivider
 from teleop.dji.gimbal import messages as gimbal
 
 ZEROS, BETWEEN_ZEROS = 3, 0.05  # how to stop: zero speed so often, so many s apart (docs/protocol-facts.md)
-GIVE_BACKS = 3  # times, at most, until the gimbal says that it has heard; more would not help one that is mute
+GIVE_BACKS = 3  # times at most, until the gimbal confirms; more would not help one that does not answer
 SETTLE = 0.5  # s for the last position command,
 SETTLE_WITHIN = 1.0  # deg of error at the most,
 SETTLE_FRESH = 1.0  # s since that was measured
@@ -47,7 +47,7 @@ class SpeedSink:
         self._refusals = Refusals(connection, gimbal.Speed)
         self._last: Tick | None = None
         self._taken_over = False
-        self._zeros = self._given_back = 0  # how often each was said
+        self._zeros = self._given_back = 0  # how often each was sent
         self._waiting = -1  # the sequence number of a giving back that has not been answered
         connection.on_answer(gimbal.Speed, self._answered)
 

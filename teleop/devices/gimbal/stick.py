@@ -1,4 +1,4 @@
-"""Makes a DJI gimbal follow the planner as if somebody held its joystick: pushes of 0x0A.
+"""Makes a DJI gimbal follow the planner as if its joystick were held: pushes of 0x0A.
 
 Some firmware ignores speed commands and obeys these (docs/protocol-facts.md). How fast full deflection
 is follows a setting on the gimbal, which the profile repeats; what that gets wrong, the correction has to make up.
