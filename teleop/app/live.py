@@ -6,6 +6,7 @@ Everything else goes through the `Operator`; what is recorded then drives the ax
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -25,6 +26,7 @@ from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.connection import Connection
 from teleop.devices.drone.state import DroneState
 from teleop.devices.rig import Rig, open_rig
+from teleop.inputs.hid.recording import AFTER, Recording
 from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.recorded_sticks import Sticks, SticksSource
 from teleop.inputs.stick_shaping import shape
@@ -52,23 +54,31 @@ MakeReplayScreen = Callable[[Mapping[Axis, Limits], Callable[[float], RunStatus]
 
 @dataclass(frozen=True)
 class LiveRun:
-    """`recorded` sticks drive beside the inputs; `keyboard` is None without a terminal, `virtual` without real time."""
+    """`recorded` sticks drive beside the inputs, `recordings` are inputs; `keyboard` is None without a terminal.
+
+    In `virtual` time only what is recorded counts.
+    """
 
     profile: Profile
     title: str
     clock: Clock
     keyboard: Keyboard | None
     recorded: Sticks | None = None
+    recordings: Sequence[Recording] = ()
     presets: Path | None = None
     take: Path | None = None
     virtual: bool = False
 
     def by_hand(self, make_screen: Callable[[LiveParts], Screen], signals: Signals) -> RunReport:
-        """Until the operator ends it. Raises TeleopError for what keeps it from beginning."""
+        """Until the operator or what is recorded ends it. Raises TeleopError for what keeps it from beginning."""
         profile, keyboard = self.profile, self.keyboard
-        replay, aboard = None if self.recorded is None else self.replay(self.recorded), Aboard()
+        sticks = self.recorded if not self.recordings else _until_end(self.recorded, self.recordings)
+        replay, aboard = None if sticks is None else self.replay(sticks), Aboard()
         with ExitStack() as stack:
-            inputs, note = open_devices(stack, profile, self.clock, keyboard is not None, NO_INPUT)
+            begin = (lambda: math.inf) if replay is None else (lambda: replay.begin)
+            inputs, note = open_devices(
+                *(stack, profile, self.clock, keyboard is not None, NO_INPUT, self.recordings, begin, self.virtual)
+            )
             rig, axes, left_out = self._opened(stack)
             limits = {axis: profile.limits[axis] for axis in axes}
             shelf = read_presets(self.presets or default_file(profile.name), limits, profile.name)
@@ -77,7 +87,7 @@ class LiveRun:
             operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, replay)
             for line in (*left_out, *([note] if note else [])):
                 operator.say(line)
-            recorder = self._recorder(stack, limits, lambda: aboard.status(operator.status), patient=False)
+            recorder = self._recorder(stack, limits, lambda: aboard.status(operator.status), patient=self.virtual)
             aboard.board(rig, axes, operator.say, by_script=False)
             screen = make_screen(LiveParts(limits, operator, rig.connections, recorder, aboard.state))
             observers, sinks = self._watched(rig, axes, operator, lenient=replay is None)
@@ -120,7 +130,8 @@ class LiveRun:
         """The rig, its axes, and a line for each that is absent; recorded sticks need all of theirs."""
         if self.recorded is None:
             return open_present(stack, self.profile, self.clock)
-        return stack.enter_context(open_rig(self.profile, self.clock)), self.recorded.axes, ()
+        axes = list(self.profile.axes) if self.recordings else self.recorded.axes
+        return stack.enter_context(open_rig(self.profile, self.clock)), axes, ()
 
     def _recorder(
         self, stack: ExitStack, limits: Mapping[Axis, Limits], status: Callable[[], object] | None, patient: bool
@@ -134,3 +145,14 @@ class LiveRun:
         observers, sinks = commands(rig, axes, operator.say, operator.confirmed)
         camera = CameraAnswers(rig.camera, operator.say, operator.camera_answered, lenient=lenient)
         return [*observers, camera, *([] if self.keyboard is None else [self.keyboard])], sinks
+
+
+def _until_end(sticks: Sticks | None, recordings: Sequence[Recording]) -> Sticks:
+    """The recorded sticks, or none, until a moment after the last row of the last recording of a device."""
+    end = max(each.end for each in recordings) + AFTER
+    if sticks is None:
+        return Sticks([], [0.0, end], [[], []])
+    if sticks.times[-1] >= end:
+        return sticks
+    rest = [0.0] * len(sticks.axes)
+    return Sticks(sticks.axes, [*sticks.times, end], [*sticks.deflections[:-1], rest, rest])

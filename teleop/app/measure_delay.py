@@ -75,6 +75,7 @@ def measure_delay(
     make_screen: MakeScreen,
     signals: Signals,
     warn: Callable[[str], object],
+    terminal: int | None,
     virtual: bool = False,
 ) -> DelayReport:
     """Move `axis` six degrees to one side and back, six times.
@@ -85,7 +86,7 @@ def measure_delay(
     swing, traces = CalibrationMove(axis, profile.limits[axis], REACH, SWINGS), Traces(axis)
     warnings: list[str] = []
     with ExitStack() as stack:
-        guard, keys = guarded(stack, swing, profile, clock, virtual, warn)
+        guard, keys = guarded(stack, swing, profile, clock, terminal, virtual, warn)
         screen = make_screen(mode, profile.limits[axis], lambda now: guard.over(swing.status(now)), bool(keys))
         guard.say = screen.say
         rig = stack.enter_context(open_rig(profile, clock))

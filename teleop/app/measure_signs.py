@@ -49,6 +49,7 @@ def measure_signs(
     signals: Signals,
     notify: Callable[[str], object],
     warn: Callable[[str], object],
+    terminal: int | None,
     virtual: bool = False,
 ) -> SignsReport:
     """Move `axis`, or each of the gimbal's, half a degree to one side and back.
@@ -62,7 +63,7 @@ def measure_signs(
         rig = stack.enter_context(open_rig(profile.in_use(axes), clock))
         probe = SignProbe(rig.connections[section.link], axes, section.wiring, limits, full)
         reporter = Angles(rig.connections[section.link], Wiring(section.axes), section.legacy_angles)
-        guard, keys = guarded(stack, probe, profile, clock, virtual, warn)
+        guard, keys = guarded(stack, probe, profile, clock, terminal, virtual, warn)
         guard.say = notify
         timing = LoopTiming()
         planner = Live(limits, timing.period)

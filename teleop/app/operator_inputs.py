@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 
 from teleop.config.inputs_section import DeviceSection
@@ -10,27 +11,42 @@ from teleop.config.profile import Profile
 from teleop.core.errors import DeviceError, UsageError
 from teleop.core.interfaces import Clock
 from teleop.core.operator_input import Input
-from teleop.inputs.hid.backend import Hidapi
+from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.hid.backend import HidBackend
 from teleop.inputs.hid.device import open_inputs
 from teleop.inputs.hid.reader import wanted
+from teleop.inputs.hid.recording import RecordedDevices, Recording
 
 
 def open_devices(
-    stack: ExitStack, profile: Profile, clock: Clock, keys: bool, without: str
+    stack: ExitStack,
+    profile: Profile,
+    clock: Clock,
+    keys: bool,
+    without: str,
+    recordings: Sequence[Recording] = (),
+    begin: Callable[[], float] = lambda: math.inf,
+    virtual: bool = False,
 ) -> tuple[Sequence[Input], str]:
     """The joysticks and dials of the profile, open until the stack is left, and a line about what is absent.
 
-    Without `keys` a device has to be there: raises UsageError, whose text is `without`, when none is, and DeviceError
-    when no device can be read.
+    `recordings` are devices too, from `begin` on; in `virtual` time they are the only ones. Without `keys` a device has
+    to be there: raises UsageError, whose text is `without`, when none is, and DeviceError when no device can be read.
     """
+    backend: HidBackend | None = None
     try:
-        backend = Hidapi()
+        backend = None if virtual else AllDevices()
     except DeviceError as error:
-        if not keys:
-            raise
-        return [], str(error)
+        if not recordings:
+            if not keys:
+                raise
+            return [], str(error)
+    if recordings or backend is None:
+        backend = RecordedDevices(recordings, clock.now, begin, backend)
     if not keys and not profile.inputs and not wanted(DeviceSection(), backend.enumerate(), None):
         raise UsageError(without)
     shaping = profile.sticks
-    opened = open_inputs(profile.inputs, clock.now, backend, dead_zone=shaping.dead_zone, expo=shaping.expo)
+    opened = open_inputs(
+        profile.inputs, clock.now, backend, dead_zone=shaping.dead_zone, expo=shaping.expo, polled=virtual
+    )
     return stack.enter_context(opened), ""

@@ -13,11 +13,11 @@ from teleop.config.inputs_section import InputSection
 from teleop.config.profile import Profile
 from teleop.core.errors import DeviceError
 from teleop.core.interfaces import Clock
-from teleop.inputs.hid.backend import Hidapi
+from teleop.inputs.evdev.backend import AllDevices
 from teleop.inputs.hid.device import HidInput, open_inputs
 from teleop.inputs.hid.pads import may_stop
 from teleop.inputs.hid.reader import wanted
-from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
 from teleop.manual.stop_guard import Relay, Resumable, StopGuard
 
@@ -33,7 +33,7 @@ def open_stop_inputs(
     if not sections:
         return []
     try:
-        backend = Hidapi()
+        backend = AllDevices()
         found = backend.enumerate()
     except (DeviceError, OSError) as error:
         if profile.inputs:
@@ -52,11 +52,11 @@ def guarded(
     source: Resumable,
     profile: Profile,
     clock: Clock,
-    fast: bool,
+    terminal: int | None,
+    virtual: bool,
     warn: Callable[[str], object],
 ) -> tuple[StopGuard, Sequence[Keyboard]]:
     """`source` under every STOP that there is, and the keys of the terminal, which are to be entered."""
-    descriptor = None if fast else terminal()
-    keys = [] if descriptor is None else [Keyboard(descriptor, PlayKeys(RUN_KEYS))]
-    devices = [] if fast else open_stop_inputs(stack, profile, clock, warn)
+    keys = [] if terminal is None else [Keyboard(terminal, PlayKeys(RUN_KEYS))]
+    devices = [] if virtual else open_stop_inputs(stack, profile, clock, warn)
     return StopGuard(source, [Relay(each) for each in (*devices, *keys)]), keys

@@ -33,7 +33,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "copy": ("teleop.cli.shipped_files:copy", "Copy a shipped move, rig or pad to a file of yours."),
     "take": ("teleop.cli.take.commands:app", "List, report, export and repair recorded runs."),
     "calibrate": ("teleop.cli.calibrate:app", "Measure the delay and the signs of a gimbal for its profile."),
-    "devices": ("teleop.cli.devices:devices", "List CAN interfaces, serial ports and HID devices."),
+    "devices": ("teleop.cli.record_device:app", "List CAN interfaces, serial ports and HID devices."),
     "doctor": ("teleop.cli.doctor.command:doctor", "Check what this machine can do, and what it lacks."),
     "send": ("teleop.cli.send.gimbal:send", "Send one command to a gimbal, camera, focus motor or drone."),
     "monitor": ("teleop.cli.monitor:monitor", "Show the traffic between host and device on a link."),
@@ -48,6 +48,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
 _GROUPS = (
     "teleop.cli.take.commands:app",
     "teleop.cli.calibrate:app",
+    "teleop.cli.record_device:app",
     "teleop.cli.codec.decode:app",
     "teleop.cli.codec.encode:app",
 )

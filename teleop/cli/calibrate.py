@@ -11,6 +11,7 @@ from cyclopts import App
 from teleop.app.measure_delay import DelayReport, measure_delay
 from teleop.cli.calibrate_signs import signs
 from teleop.cli.examples import examples
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, the_clock
 from teleop.cli.running import stopped
@@ -54,7 +55,8 @@ def delay(*, axis: Angle = "pan", fast: Fast = False, options: Options = DEFAULT
             command="teleop calibrate",
         )
 
-    report = measure_delay(profile, moved, the_clock(fast, profile.in_use([moved])), view, signals_to, warn, fast)
+    clock, terminal = the_clock(fast, profile.in_use([moved])), None if fast else key_terminal()
+    report = measure_delay(profile, moved, clock, view, signals_to, warn, terminal, fast)
     for warning in report.warnings:
         complain(warning)
     if report.result is not Result.DONE:

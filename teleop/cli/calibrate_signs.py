@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from teleop.app.measure_signs import SignsReport, measure_signs
 from teleop.app.sign_probe import REACH
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, the_clock
 from teleop.cli.running import stopped
@@ -35,7 +36,8 @@ def signs(*, axis: Angle | None = None, fast: Fast = False, options: Options = D
             if keyed:
                 complain("space STOP   p pause   q end")
 
-    report = measure_signs(profile, axis, the_clock(fast, profile), begun, signals_to, complain, warn, fast)
+    clock, terminal = the_clock(fast, profile), None if fast else key_terminal()
+    report = measure_signs(profile, axis, clock, begun, signals_to, complain, warn, terminal, fast)
     if report.result is not Result.DONE:
         return stopped(report.result, report.reasons, options.json)
     _print(report, options.json)

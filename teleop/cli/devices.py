@@ -19,6 +19,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from teleop.inputs.evdev.backend import INSTALL, has_package
+from teleop.inputs.evdev.nodes import DEV, SYS, event_nodes
+from teleop.inputs.hid.backend import usb_port
 from teleop.links.url import CAN_INTERFACES, R_SDK_BITRATE
 
 _ARPHRD_CAN = "280"  # Linux's if_arp.h: what /sys/class/net/*/type says of a CAN interface
@@ -63,7 +66,7 @@ def devices(*, as_json: Annotated[bool, Parameter(name="--json", negative="", sh
         One JSON object, for programs.
     """
     listing = Listing()
-    for look in (kernel_can, vendor_can, serial_ports, hid_devices):
+    for look in (kernel_can, vendor_can, serial_ports, hid_devices, event_devices):
         listing.extend(look())
     if as_json:
         print(json.dumps(asdict(listing)))
@@ -121,6 +124,8 @@ def hid_devices(backends: Iterable[str] = _HID_BACKENDS) -> Listing:
     """HID devices by vendor:product and name, as far as hidapi's two backends see them."""
     listing = Listing()
     seen: dict[tuple[str, str], str] = {}
+    ports: dict[tuple[str, str], list[str]] = {}
+    by_events = {os.fsencode(path) for node in event_nodes() if node.is_preferred for path in node.hidraw}
     for backend in backends:
         try:
             found = importlib.import_module(backend).enumerate()
@@ -131,12 +136,40 @@ def hid_devices(backends: Iterable[str] = _HID_BACKENDS) -> Listing:
             listing.notes.append(f"HID: {backend} cannot list devices: {error}")
             continue
         for each in found:
-            name = f"{each['vendor_id']:04x}:{each['product_id']:04x}"
-            seen.setdefault((name, _described(each["product_string"])), backend)
+            if each["path"] in by_events:
+                continue
+            model = f"{each['vendor_id']:04x}:{each['product_id']:04x}", _described(each["product_string"])
+            if seen.setdefault(model, backend) == backend and (port := usb_port(each["path"])):
+                ports.setdefault(model, []).append(port)
             listing.notes += _unreadable(each["path"])
-    listing.devices = [Device("hid", (name,), f"{product} ({backend})") for (name, product), backend in seen.items()]
+    for (name, product), backend in seen.items():
+        description = f"{product} ({backend}{_at(ports.get((name, product), ()))})"
+        listing.devices.append(Device("hid", (name,), description))
     listing.notes = list(dict.fromkeys(listing.notes))
     return listing
+
+
+def event_devices(sys_: Path = SYS, dev: Path = DEV) -> Listing:
+    """The pads that are read by their event devices, and the driver that keeps each from hidraw."""
+    listing = Listing()
+    for node in event_nodes(sys_, dev):
+        if node.is_preferred:
+            name = f"{node.vendor:04x}:{node.product:04x}"
+            place = f"driver {node.driver}, {node.path}{_at([node.port])}"
+            listing.devices.append(Device("evdev", (name,), f"{node.name} ({place})"))
+            if not node.is_readable:
+                note = (
+                    f"evdev: no permission to open {node.path}: join the group input, or add the rule of teleop doctor"
+                )
+                listing.notes.append(note)
+    if listing.devices and not has_package():
+        listing.notes.append(f"evdev: no package evdev: {INSTALL}")
+    return listing
+
+
+def _at(ports: Iterable[str]) -> str:
+    """The USB ports of the devices of one model, each once: what tells them apart in a profile."""
+    return "".join(f", port {port}" for port in dict.fromkeys(ports) if port)
 
 
 def _unreadable(path: bytes) -> list[str]:

@@ -32,6 +32,10 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
     "calibrate delay": ["teleop calibrate delay --axis tilt --rig rs2"],
     "calibrate signs": ["teleop calibrate signs --rig rs5 --link gimbal=socketcan:can0"],
     "devices": ["teleop devices", "teleop devices --json"],
+    "devices record": [
+        "teleop devices record -o pad.jsonl",
+        "teleop devices record 046d:c216 -o pad.jsonl --seconds 20",
+    ],
     "doctor": ["teleop doctor"],
     "send": [
         "teleop send recenter",

@@ -15,11 +15,13 @@ from teleop.config.inputs_section import DeviceSection
 from teleop.core.axes import Axis
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError, UsageError
-from teleop.inputs.hid.backend import DeviceInfo, Hidapi, HidBackend, HidDevice, described
+from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, described
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.learn import Found, Kind, Learned, Question, Watch, other_way, questions, still
 from teleop.inputs.hid.reader import wanted
 from teleop.inputs.hid.state import HidState
+from teleop.inputs.keyboard import has_keys
 
 QUIET = 0.5  # s without a movement: everything has been let go
 HELD = 2.0  # s: what is away from its rest for longer was put there, and is not merely held
@@ -43,6 +45,8 @@ class Terminal:
     def __init__(self) -> None:
         if not sys.stdin.isatty():
             raise UsageError("--learn asks questions: run it on a terminal")
+        if not has_keys():
+            raise UsageError("--learn cannot see Enter on this system: use Linux or macOS, or copy a shipped mapping")
 
     def say(self, text: str) -> None:
         print(text, file=sys.stderr, flush=True)
@@ -66,7 +70,7 @@ def learn(
 
     Raises UsageError without a terminal or a joystick, DeviceError when the joystick cannot be read or is unplugged.
     """
-    backend, asker, now = backend or Hidapi(), asker or Terminal(), now or SystemClock().now
+    backend, asker, now = backend or AllDevices(), asker or Terminal(), now or SystemClock().now
     found = wanted(DeviceSection(), backend.enumerate(), None)
     if not found:
         raise UsageError("--learn: no joystick found: plug one in; `teleop devices` lists the devices")

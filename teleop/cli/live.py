@@ -11,6 +11,7 @@ from cyclopts import Parameter
 from teleop.app.drone_flight import refuse_offsets
 from teleop.app.live import LiveParts, LiveRun
 from teleop.cli.drone_run import Understood, ask_to_fly
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, Take, the_clock
 from teleop.cli.running import print_report
@@ -24,7 +25,8 @@ from teleop.core.axes import Axis, Limits
 from teleop.core.errors import UsageError
 from teleop.core.events import Action
 from teleop.core.run_status import RunStatus
-from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.hid.recording import read_recording
+from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.recorded_sticks import Sticks, SticksSource, read_sticks
 from teleop.recording.writer import Recorder
 
@@ -33,6 +35,14 @@ def live(
     *,
     sticks: Annotated[
         Path | None, Parameter(metavar="FILE", help="CSV: time in s, and a deflection of -1..1 for each axis.")
+    ] = None,
+    input_recording: Annotated[
+        list[Path] | None,
+        Parameter(
+            metavar="FILE",
+            consume_multiple=False,
+            help="Device recorded by `teleop devices record`, as if it were plugged in; may be repeated.",
+        ),
     ] = None,
     presets: Annotated[
         Path | None, Parameter(metavar="FILE", help="File of the presets; without it, one for each rig.")
@@ -50,17 +60,19 @@ def live(
     if learn:
         return _learn(profile)
     refuse_offsets(profile)
-    if sticks is None and fast:
-        raise UsageError("--fast: an operator works in real time; only --sticks can be replayed fast")
+    if sticks is None and not input_recording and fast:
+        raise UsageError("--fast: needs --sticks or --input-recording: an operator's inputs are in real time")
     recorded = None if sticks is None else read_sticks(sticks, list(profile.axes))
+    recordings = [read_recording(file, number) for number, file in enumerate(input_recording or [], 1)]
     title = profile.name if sticks is None else sticks.name
     keyboard = None if fast else _keyboard()
-    if recorded is not None:
-        profile = profile.in_use(recorded.axes, () if keyboard is None else [Action.RECORD])
-    run = LiveRun(profile, title, the_clock(fast, profile), keyboard, recorded, presets, take, fast)
-    if recorded is not None and keyboard is None:
-        ask_to_fly(title, recorded.axes, i_understand)
-        return _unattended(run, recorded, options)
+    alone = None if recordings else recorded
+    if alone is not None:
+        profile = profile.in_use(alone.axes, () if keyboard is None else [Action.RECORD])
+    run = LiveRun(profile, title, the_clock(fast, profile), keyboard, recorded, recordings, presets, take, fast)
+    if alone is not None and keyboard is None:
+        ask_to_fly(title, alone.axes, i_understand)
+        return _unattended(run, alone, options)
     return _by_hand(run, options)
 
 
@@ -88,7 +100,7 @@ def _unattended(run: LiveRun, recorded: Sticks, options: Options) -> int:
 
 def _keyboard() -> Keyboard | None:
     """The keys of the terminal that this was started on, if there is one."""
-    descriptor = terminal()
+    descriptor = key_terminal()
     return None if descriptor is None else Keyboard(descriptor)
 
 

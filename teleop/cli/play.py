@@ -16,6 +16,7 @@ from teleop.app.planning import Plan, is_take
 from teleop.app.play import attended, devices_in_use, following, source_of
 from teleop.app.sequence_run import SequenceRun
 from teleop.cli.drone_run import Understood, ask_to_fly
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
 from teleop.cli.running import EXIT_CODES, Extra, print_report
 from teleop.cli.screens.folded import after_the_run, warn
@@ -35,7 +36,7 @@ from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.errors import UsageError
 from teleop.core.run_state import Result
 from teleop.core.run_status import RunStatus
-from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.playback_keymap import FLOWN_KEYS, KEYS, TRIM_KEYS, PlayKeys
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.time_scaling import NoRunUp
@@ -117,7 +118,7 @@ def _play(
 ) -> int:
     staging, trim = ordered.staging, ordered.trim
     profile = devices_in_use(plan, shoots=False)
-    descriptor = None if fast else terminal()
+    descriptor = None if fast else key_terminal()
     has_keys = descriptor is not None and not plan.is_flown  # a drone does not stand still while a move waits
     sequence = attended(file, plan.sequence, has_keys, fast)
     if len(sequence.cues) < len(plan.sequence.cues):

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from teleop.app.shoot import ShootReport, ShootRun
 from teleop.app.shoot_runner import Shooting
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import Options
 from teleop.cli.running import EXIT_CODES, axes_facts, print_links, print_reasons, print_take
 from teleop.cli.screens.folded import complain, tell, warn
@@ -21,7 +22,7 @@ from teleop.config.profile import Profile
 from teleop.core.clock import VirtualClock
 from teleop.core.interfaces import Clock
 from teleop.core.run_state import Result
-from teleop.inputs.keyboard import Keyboard, terminal
+from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
 from teleop.recording.writer import Recorder
 from teleop.timelapse.compile import Timelapse
@@ -38,7 +39,7 @@ def shoot(
 ) -> int:
     """Shoot it on the rig, from the first frame or from where it stopped; the exit code."""
     virtual = isinstance(time, VirtualClock)
-    descriptor = None if virtual else terminal()
+    descriptor = None if virtual else key_terminal()
     keys = None if descriptor is None else Keyboard(descriptor, PlayKeys(RUN_KEYS))
 
     def view(shooting: Shooting, journal: Path, recorder: Recorder | None) -> ShootView:

@@ -74,7 +74,8 @@ class _Desk:
 
     def __enter__(self) -> None:
         self._reading, self._writing = os.pipe()
-        os.set_blocking(self._writing, False)
+        if hasattr(os, "set_blocking"):  # Windows has it from Python 3.12 on; it only asks it of sockets
+            os.set_blocking(self._writing, False)
         self._before = signal.set_wakeup_fd(self._writing, warn_on_full_buffer=False)
         self._thread = threading.Thread(target=self._count, name="signals", daemon=True)
         self._thread.start()

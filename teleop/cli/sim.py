@@ -13,6 +13,7 @@ from teleop.cli.signals import signals_to
 from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, DroneSim, GimbalSim
 from teleop.config.document import DocumentError
 from teleop.core.clock import SystemClock
+from teleop.core.errors import DeviceError
 from teleop.links import ClosableLink, open_link, parse
 from teleop.links.can import CanLink
 from teleop.sim.drone.device import SimulatedDrone
@@ -51,7 +52,11 @@ def sim(*, drone: DroneSim = DRONE_DEFAULTS, gimbal: GimbalSim = GIMBAL_DEFAULTS
             from teleop.links.pty import PtyLink
 
             devices["drone"] = drone.made(clock.now())
-            links["drone"] = line = PtyLink()
+            try:
+                links["drone"] = line = PtyLink()
+            except OSError as error:
+                text = f"the simulated drone cannot have a serial line here: {error}: a profile with sim: needs none"
+                raise DeviceError(text) from None
             _ready("drone", f"serial:{line.path}@{BAUD}", options.json)
         with signals_to(lambda _reason: stop.set()):
             serve(links, devices, clock, stop, refusals, gimbal.foreign_traffic)

@@ -141,12 +141,14 @@ def _replacement(target: Path) -> Iterator[BinaryIO]:
             yield stream
             stream.flush()
             if before:
-                with suppress(OSError):  # another's file becomes its writer's where the system insists
+                with suppress(OSError, AttributeError):  # another's file becomes its writer's where the system insists
                     os.fchown(stream.fileno(), before.st_uid, before.st_gid)
-                os.fchmod(stream.fileno(), stat.S_IMODE(before.st_mode))
+                with suppress(AttributeError):  # Windows has neither
+                    os.fchmod(stream.fileno(), stat.S_IMODE(before.st_mode))
             os.fsync(stream.fileno())
             if not name.exists():  # it has none yet
                 _give_name(stream, name)
+            stream.close()  # Windows renames no open file
             name.replace(target)
         except BaseException:  # an interrupt too leaves nothing behind
             name.unlink(missing_ok=True)

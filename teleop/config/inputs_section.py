@@ -36,7 +36,7 @@ _AXES = frozenset(axis.value for axis in Axis)
 
 
 class DeviceSection(Section):
-    """A device by its ids, or by its name with * for any letters; with neither, any joystick."""
+    """A device by its ids, name, serial number or port; without any of these, any joystick."""
 
     vendor: Id | None = None
     """USB vendor id, 0 to 0xFFFF."""
@@ -44,16 +44,31 @@ class DeviceSection(Section):
     """USB product id, 0 to 0xFFFF; any product of the vendor without it."""
     name: Annotated[str, Field(min_length=1)] | None = None
     """Name of the device; * matches any letters."""
+    serial: Annotated[str, Field(min_length=1)] | None = None
+    """Serial number, for one of several devices of a model."""
+    port: Annotated[str, Field(min_length=1)] | None = None
+    """USB port as `teleop devices` shows it (1-2.3), for one of several devices without a serial number."""
+    interface: Annotated[int, Field(ge=0, le=255)] | None = None
+    """USB interface, where a device has several."""
 
     @property
     def any(self) -> bool:
-        return self.vendor is None and self.name is None
+        return not self.keys_given
+
+    @property
+    def keys_given(self) -> int:
+        """How many keys it is told by: one with more is meant more exactly."""
+        keys = (self.vendor, self.product, self.name, self.serial, self.port, self.interface)
+        return sum(key is not None for key in keys)
 
     def __str__(self) -> str:
         ids = (
             "" if self.vendor is None else f"{self.vendor:04x}:{'*' if self.product is None else f'{self.product:04x}'}"
         )
-        return " ".join(part for part in (self.name or "", ids) if part) or "joystick"
+        serial = f"serial {self.serial}" if self.serial else ""
+        port = f"port {self.port}" if self.port else ""
+        interface = "" if self.interface is None else f"interface {self.interface}"
+        return " ".join(part for part in (self.name or "", ids, serial, port, interface) if part) or "joystick"
 
 
 class ActionSection(Section):
@@ -148,12 +163,19 @@ class InputSection(_MappedSection):
         return {} if value == "any" else value
 
 
+class PadDeviceSection(DeviceSection):
+    """A device that a shipped mapping is for."""
+
+    driver: str | None = None
+    """Linux driver that names its controls, read by its event device: xpad; without it the device's own names."""
+
+
 class PadSection(_MappedSection):
     """A shipped mapping: the devices it is for, or why they cannot be read."""
 
     name: str
     """Name of the pad."""
-    devices: Annotated[list[DeviceSection], Field(min_length=1)]
+    devices: Annotated[list[PadDeviceSection], Field(min_length=1)]
     """The devices that the mapping is for."""
     unreadable: str = ""
     """Why the reports of these devices cannot be read; empty where they can."""
@@ -165,7 +187,7 @@ def input_rules(data: Any) -> Iterator[Wrong]:
     for index, section in enumerate(sequence(data, "inputs")):
         here: Location = ("inputs", index)
         device = mapping(section, "device")
-        if isinstance(mapping(section).get("device"), dict) and not device.keys() & {"vendor", "product", "name"}:
+        if isinstance(mapping(section).get("device"), dict) and not device.keys() & DeviceSection.model_fields.keys():
             yield (*here, "device"), "must be any, or have a vendor and product, or a name"
         if "product" in device and "vendor" not in device:
             yield (*here, "device", "product"), "needs a vendor beside it"

@@ -37,9 +37,18 @@ def terminal() -> int | None:
 def is_ours(descriptor: int) -> bool:
     """Whether it is a terminal that this program may read: in the background, that would suspend it."""
     try:
-        return os.isatty(descriptor) and os.tcgetpgrp(descriptor) == os.getpgrp()
+        return has_keys() and os.isatty(descriptor) and os.tcgetpgrp(descriptor) == os.getpgrp()
     except OSError:
         return False
+
+
+def has_keys() -> bool:
+    """Whether this system hands over single keys of a terminal: Windows does it otherwise."""
+    try:
+        import termios  # noqa: F401
+    except ImportError:
+        return False
+    return hasattr(os, "tcgetpgrp")
 
 
 class KeyInput(Protocol):

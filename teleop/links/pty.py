@@ -16,8 +16,10 @@ class PtyLink:
     """A link to the program that opens the serial port `path`. Raises OSError where there are no pseudo-terminals."""
 
     def __init__(self) -> None:
-        import tty  # where there is one
-
+        try:
+            import tty
+        except ImportError:
+            raise OSError("this system has no pseudo-terminals") from None
         self.counts: Counter[str] = Counter()
         self._master, self._slave = os.openpty()
         tty.setraw(self._slave)  # before anybody opens it: an echo would come back as received

@@ -34,7 +34,7 @@ def profile_with(tmp_path: Path, inputs: str) -> Profile:
 
 
 def opened(stack: ExitStack, profile: Profile, backend: FakeBackend, monkeypatch: pytest.MonkeyPatch) -> list:
-    monkeypatch.setattr(stop_inputs, "Hidapi", lambda: backend)
+    monkeypatch.setattr(stop_inputs, "AllDevices", lambda: backend)
     return list(stop_inputs.open_stop_inputs(stack, profile, SystemClock(), warn))
 
 
@@ -91,7 +91,7 @@ def test_a_system_that_reads_no_devices_blocks_nothing(
     def refuse() -> FakeBackend:
         raise DeviceError("hidapi is not there")
 
-    monkeypatch.setattr(stop_inputs, "Hidapi", refuse)
+    monkeypatch.setattr(stop_inputs, "AllDevices", refuse)
     with ExitStack() as stack:
         assert stop_inputs.open_stop_inputs(stack, profile_with(tmp_path, ""), SystemClock(), warn) == []
         assert capsys.readouterr().err == ""

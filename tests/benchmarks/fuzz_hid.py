@@ -13,8 +13,9 @@ import sys
 from pathlib import Path
 from time import perf_counter
 
+from teleop.inputs.hid.descriptor.fields import Field
 from teleop.inputs.hid.descriptor.items import LONGEST, split
-from teleop.inputs.hid.descriptor.parser import MAX_FIELDS, MAX_REPORT_FIELDS, Descriptor, Field, parse_descriptor
+from teleop.inputs.hid.descriptor.parser import MAX_FIELDS, MAX_REPORT_FIELDS, Descriptor, parse_descriptor
 from teleop.inputs.hid.descriptor.report import Control, read_report
 
 _VECTORS = json.loads((Path(__file__).parents[1] / "data" / "hid.json").read_text())

@@ -5,10 +5,12 @@ import types
 from pathlib import Path
 
 import pytest
+from fake_evdev import FakeEvents, FakeMachine
 from pty_lines import NullModem
 
 from teleop.cli import devices, run
-from teleop.cli.devices import Device, hid_devices, kernel_can, serial_ports, vendor_can
+from teleop.cli.devices import Device, event_devices, hid_devices, kernel_can, serial_ports, vendor_can
+from teleop.inputs.evdev.nodes import event_nodes
 from teleop.links import parse
 
 
@@ -96,6 +98,13 @@ def test_a_pad_that_both_backends_see_is_listed_once(monkeypatch: pytest.MonkeyP
     assert listing.notes == []
 
 
+def test_pads_of_one_model_are_told_apart_by_their_ports(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = [pad(path) for path in (b"1-2:1.3", b"1-2:1.0", b"1-4.1:1.3")]
+    monkeypatch.setitem(sys.modules, "hid", types.SimpleNamespace(enumerate=lambda: found))
+    [device] = hid_devices(["hid"]).devices
+    assert device.description == "Wireless Controller (hid, port 1-2, port 1-4.1)"
+
+
 def test_what_keeps_hid_devices_from_being_listed_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "hidraw", None)
     monkeypatch.setitem(sys.modules, "hid", types.SimpleNamespace(enumerate=lambda: [pad(b"/dev/hidraw7")]))
@@ -107,13 +116,41 @@ def test_what_keeps_hid_devices_from_being_listed_is_said(monkeypatch: pytest.Mo
     ]
 
 
+def test_a_wired_pad_is_listed_with_the_driver_that_has_it_and_what_keeps_it_shut(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    machine = FakeMachine(tmp_path)
+    path = machine.plug(FakeEvents())
+    machine.plug(FakeEvents(), 7, parent="0003:046D:C216.0001", driver="hid-generic", hidraw=["hidraw0"])
+    expected = Device("evdev", ("045e:02ea",), f"Microsoft X-Box One pad (driver xpad, {path}, port 1-1)")
+    assert event_devices(machine.sys, machine.dev) == devices.Listing([expected])
+    monkeypatch.setattr(os, "access", lambda node, mode: node != path)
+    assert event_devices(machine.sys, machine.dev).notes == [
+        f"evdev: no permission to open {path}: join the group input, or add the rule of teleop doctor"
+    ]
+    monkeypatch.setattr(devices, "has_package", lambda: False)
+    [*_, note] = event_devices(machine.sys, machine.dev).notes
+    assert note == "evdev: no package evdev: pip install 'rs-teleop[evdev]'"
+
+
+def test_a_pad_that_is_read_by_its_event_device_is_no_hid_device_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    machine = FakeMachine(tmp_path)
+    machine.plug(FakeEvents(), parent="0005:054C:0CE6.0001", driver="playstation", bus=5, hidraw=["hidraw0"])
+    monkeypatch.setattr(devices, "event_nodes", lambda: event_nodes(machine.sys, machine.dev))
+    path = bytes(machine.dev / "hidraw0")
+    monkeypatch.setitem(sys.modules, "hidraw", types.SimpleNamespace(enumerate=lambda: [pad(path)]))
+    assert hid_devices(["hidraw"]).devices == []
+
+
 def test_json_is_one_object_and_the_table_names_everything(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     interface(tmp_path, "can0", "280", "0x1")
     can0 = kernel_can(tmp_path)
     monkeypatch.setattr(devices, "kernel_can", lambda: can0)
-    for other in ("vendor_can", "serial_ports", "hid_devices"):
+    for other in ("vendor_can", "serial_ports", "hid_devices", "event_devices"):
         monkeypatch.setattr(devices, other, devices.Listing)
     assert run(["devices", "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == {

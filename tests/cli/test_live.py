@@ -125,7 +125,7 @@ def test_recorded_sticks_on_a_terminal_end_by_themselves_and_keys_can_stop_them(
     ("arguments", "said"),
     [
         (["live"], "no joystick and no terminal: plug in a joystick"),
-        (["live", "--fast"], "--fast: an operator works in real time; only --sticks can be replayed fast"),
+        (["live", "--fast"], "--fast: needs --sticks or --input-recording: an operator's inputs are in real time"),
         (["live", "--learn"], "--learn asks questions: run it on a terminal"),
     ],
 )

@@ -18,9 +18,10 @@ from pathlib import Path
 import pytest
 import yaml
 
-from teleop.config.inputs_section import PadSection
+from teleop.config.inputs_section import ControlSection, PadSection
 from teleop.config.profile import load_profile
 from teleop.config.resources import folder
+from teleop.core.operator_input import Command
 
 ROOT = Path(__file__).parents[2]
 FILES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("[!.]*/README.md")]
@@ -114,6 +115,17 @@ def test_pads(page: str) -> None:
     for _, mark, text in blocks(page):
         if mark == "pad":
             PadSection.model_validate(yaml.safe_load(text))
+
+
+def test_every_action_and_key_of_a_control_has_a_line_and_an_example() -> None:
+    page = "docs/how-to/pads.md"
+    examples = "".join(text for _, mark, text in blocks(page) if mark in ("rig=sim", "pad"))
+    for command in set(Command) - {Command.ENABLE}:  # a key alone: of a device a button is held
+        assert f"`{command}`" in PAGES[page]
+        assert re.search(rf"(press|hold): {command}\b", examples), command
+    for key in ControlSection.model_fields:
+        assert f"`{key}" in PAGES[page]
+        assert f"{key}: " in examples, key
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -1,10 +1,12 @@
 """The stick's curve: exact at its ends, no jump at the dead zone's edge, odd and rising."""
 
+from collections.abc import Sequence
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teleop.inputs.stick_shaping import Centre, deflect, shape
+from teleop.inputs.stick_shaping import Center, deflect, shape
 
 deflections = st.floats(-1, 1)
 dead_zones = st.floats(0, 0.3)
@@ -40,46 +42,55 @@ ends = st.tuples(st.integers(-32768, 65535), st.integers(1, 65535)).map(lambda p
 
 
 @given(ends, st.floats(0, 1), st.floats(-1, 2), st.floats(-1, 2), st.booleans())
-def test_a_deflection_has_its_ends_its_centre_and_no_way_back(
+def test_a_deflection_has_its_ends_its_center_and_no_way_back(
     between: tuple[int, int], at: float, one: float, other: float, turned: bool
 ) -> None:
     low, high = reversed(between) if turned else between
-    centre = low + at * (high - low)
+    center = low + at * (high - low)
     lower, higher = sorted((one, other))
-    below, above = (deflect(low + place * (high - low), low, centre, high) for place in (lower, higher))
+    below, above = (deflect(low + place * (high - low), low, center, high) for place in (lower, higher))
     assert -1 <= below <= above <= 1
-    assert deflect(centre, low, centre, high) == 0
-    if centre not in (low, high):
-        assert (deflect(low, low, centre, high), deflect(high, low, centre, high)) == (-1, 1)
+    assert deflect(center, low, center, high) == 0
+    if center not in (low, high):
+        assert (deflect(low, low, center, high), deflect(high, low, center, high)) == (-1, 1)
 
 
-def found(values: list[float], low: float = 0, high: float = 255) -> Centre:
-    centre = Centre(low, high)
+def found(values: Sequence[float], low: float = 0, high: float = 255) -> Center:
+    center = Center(low, high)
     for index, value in enumerate(values):
-        centre.see(value, 100 + index * 0.01)
-    return centre
+        center.see(value, 100 + index * 0.01)
+    return center
 
 
-def test_a_centre_is_where_the_stick_lies_for_a_moment() -> None:
+def test_a_center_is_where_the_stick_lies_for_a_moment() -> None:
     assert found([131] * 25).value is None
-    centre = found([131] * 30)
-    assert (centre.value, centre.centred) == (131, True)
-    centre.see(255, 200)
-    assert centre.value == 131
+    center = found([131] * 30)
+    assert (center.value, center.centered, center.learned) == (131, True, True)
+    center.see(255, 200)
+    assert center.value == 131
 
 
-@pytest.mark.parametrize(("value", "centred"), [(0, False), (255, False), (95, False), (97, True), (159, True)])
-def test_what_rests_far_from_the_middle_is_no_stick(value: float, centred: bool) -> None:
-    centre = found([value] * 30)
-    assert (centre.centred, centre.value) == (centred, value if centred else 127.5)
+@pytest.mark.parametrize(
+    ("value", "centered"), [(0, False), (255, False), (158, False), (114, False), (115, True), (140, True)]
+)
+def test_a_center_is_learned_only_within_a_tenth_of_the_middle(value: float, centered: bool) -> None:
+    center = found([value] * 30)
+    assert (center.centered, center.learned, center.value) == (centered, centered, value if centered else 127.5)
 
 
 def test_a_stick_that_is_moved_meanwhile_has_the_middle_of_its_range() -> None:
-    centre = found([128 + index * 4 for index in range(30)])
-    assert (centre.value, centre.centred) == (127.5, True)
+    center = found([118 + index for index in range(20)] + [138] * 10)
+    assert (center.value, center.centered, center.learned) == (127.5, True, False)
 
 
-def test_a_centre_that_is_given_is_not_looked_for() -> None:
-    centre = Centre(0, 255, given=120)
-    centre.see(255, 0)
-    assert (centre.value, centre.centred) == (120, True)
+def test_a_stick_that_was_held_at_first_learns_its_center_once_it_rests_near_the_middle() -> None:
+    assert not found([200] * 30 + [131] * 24).learned
+    assert not found([200] * 30 + [131, 160] * 30).learned
+    center = found([200] * 30 + [131] * 27)
+    assert (center.value, center.centered, center.learned) == (131, False, True)
+
+
+def test_a_center_that_is_given_is_kept() -> None:
+    center = Center(0, 255, given=120)
+    center.see(255, 0)
+    assert (center.value, center.centered) == (120, True)

@@ -15,12 +15,13 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from teleop.cli.doctor.devices import can_adapters, hid, serial
+from teleop.cli.doctor.event_pads import event_pads
 from teleop.cli.doctor.finding import Finding, Findings, State
 from teleop.cli.doctor.machine import disk, packages, python, terminal
 from teleop.cli.doctor.timing import lateness, scheduling
 
 CHECKS: Sequence[Callable[[], Findings]] = (
-    python, packages, hid, serial, can_adapters, scheduling, lateness, disk, terminal
+    python, packages, hid, event_pads, serial, can_adapters, scheduling, lateness, disk, terminal
 )  # fmt: skip
 
 

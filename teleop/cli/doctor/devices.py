@@ -7,10 +7,11 @@ import sys
 from pathlib import Path
 
 from teleop.cli.devices import kernel_can, vendor_can
-from teleop.cli.doctor.finding import Finding, Findings, State
+from teleop.cli.doctor.event_pads import xbox_without_driver
+from teleop.cli.doctor.finding import RELOAD, RULES, Finding, Findings, State
 from teleop.cli.doctor.udev_rules import HIDRAW, SERIAL, hid_rule, serial_rule
+from teleop.inputs.evdev.nodes import event_nodes
 
-RULES = "/etc/udev/rules.d/70-teleop.rules"  # before 73, where systemd looks for uaccess
 _PLUG = "plug a pad in and ask again, for the udev rule it needs"
 
 
@@ -19,7 +20,9 @@ def hid() -> Findings:
     if sys.platform != "linux":
         yield Finding("hid", State.NOTE, "hidraw is Linux's; here libusb or the system's own is asked")
         return
-    devices = sorted(HIDRAW.glob("hidraw*"))
+    nodes = list(event_nodes())
+    by_events = {path.name for node in nodes if node.is_preferred for path in node.hidraw}
+    devices = [device for device in sorted(HIDRAW.glob("hidraw*")) if device.name not in by_events]
     shut = [device for device in devices if not os.access(Path("/dev") / device.name, os.R_OK | os.W_OK)]
     rules = list(dict.fromkeys(rule for device in shut if (rule := hid_rule(device))))
     if rules:
@@ -29,6 +32,8 @@ def hid() -> Findings:
         yield Finding("hid", State.NOTE, "only keyboards and mice here: they need no permission", _PLUG)
     elif devices:
         yield Finding("hid", State.OK, f"{len(devices) - len(shut)} of {len(devices)} hidraw devices may be opened")
+    elif nodes or xbox_without_driver():
+        yield Finding("hid", State.NOTE, "no hidraw device here; the pads here have other drivers")
     else:
         yield Finding("hid", State.NOTE, "no hidraw device here", _PLUG)
 
@@ -61,4 +66,4 @@ def can_adapters() -> Findings:
 
 
 def _write_rules() -> str:
-    return f"write these lines into {RULES}, then: sudo udevadm control --reload && sudo udevadm trigger"
+    return f"write these lines into {RULES}, then: {RELOAD}"

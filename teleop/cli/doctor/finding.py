@@ -6,6 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+RULES = "/etc/udev/rules.d/70-teleop.rules"  # before 73, where systemd looks for uaccess
+RELOAD = "sudo udevadm control --reload && sudo udevadm trigger"
+
 
 class State(StrEnum):
     OK = "ok"

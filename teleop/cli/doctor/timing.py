@@ -28,7 +28,7 @@ def scheduling() -> Findings:
     except PermissionError:
         todo = f"for quieter timing: echo '{_user()} - rtprio 50' | sudo tee /etc/security/limits.d/teleop.conf"
         yield Finding("scheduling", State.NOTE, f"{cores} cores, SCHED_FIFO not permitted", f"{todo}; log in again")
-    if (nice := os.nice(0)) > 0:
+    if hasattr(os, "nice") and (nice := os.nice(0)) > 0:
         yield Finding(
             "scheduling", State.NOTE, f"nice {nice}: everything else here comes first", "start it without nice"
         )

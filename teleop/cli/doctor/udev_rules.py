@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from teleop.inputs.evdev.nodes import EventNode
+
 HIDRAW, SERIAL = Path("/sys/class/hidraw"), Path("/sys/class/tty")
 _ID = re.compile(r"^HID_ID=([0-9A-F]{4}):[0-9A-F]{4}([0-9A-F]{4}):[0-9A-F]{4}([0-9A-F]{4})$", re.MULTILINE)
 _GRANT = 'MODE="0660", GROUP="{group}", TAG+="uaccess"'
@@ -28,6 +30,12 @@ def hid_rule(device: Path) -> str:
         return ""
     bus, vendor, product = found.groups()
     return f'KERNEL=="hidraw*", KERNELS=="{bus}:{vendor}:{product}.*", {_GRANT.format(group="input")}'
+
+
+def event_rule(node: EventNode) -> str:
+    """The rule for the event device of a pad, by the pad's ids."""
+    ids = f'ATTRS{{id/vendor}}=="{node.vendor:04x}", ATTRS{{id/product}}=="{node.product:04x}"'
+    return f'SUBSYSTEM=="input", KERNEL=="event*", {ids}, {_GRANT.format(group="input")}'
 
 
 def serial_rule() -> str:

@@ -10,18 +10,24 @@ from __future__ import annotations
 
 import importlib
 import os
+import re
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 from teleop.core.errors import DeviceError
 
 _BACKENDS = ("hidraw", "hid")
 _LONGEST = 4096  # bytes of one report: more than any transport here carries
+_PORT = re.compile(r"(?:^|/)(\d+-[\d.]+):\d+\.\d+(?=/|$)")  # of a USB interface in sysfs, or libusb's path of it
 _NAMELESS = frozenset({"", "n/a"})
 
 
 class DeviceInfo(NamedTuple):
-    """A device that is plugged in. `usage_page` and `usage` are what it is for, 0 where the system does not say."""
+    """A device that is plugged in. `usage_page` and `usage` are what it is for, 0 where the system does not say.
+
+    `port` is the USB port that it is in, as the kernel names it (`1-2.3`), "" where that is not known.
+    """
 
     path: bytes
     vendor_id: int
@@ -31,6 +37,9 @@ class DeviceInfo(NamedTuple):
     usage_page: int
     usage: int
     interface: int
+    port: str = ""
+    driver: str = ""
+    """Kernel driver that named its controls (xpad); "": its own descriptor did."""
 
 
 class HidDevice(Protocol):
@@ -113,7 +122,34 @@ def _info(each: Mapping[str, Any]) -> DeviceInfo:
         usage_page=each["usage_page"],
         usage=each["usage"],
         interface=each["interface_number"],
+        port=usb_port(each["path"]),
     )
+
+
+def usb_port(path: bytes, sysfs: Path = Path("/sys/class/hidraw")) -> str:
+    """The USB port of the device at this path of hidapi's; "" for one that is not on USB."""
+    place = os.fsdecode(path)
+    if place.startswith("/dev/"):
+        place = os.path.realpath(sysfs / place.rpartition("/")[2] / "device")
+    ports = _PORT.findall(place)
+    return ports[-1] if ports else ""
+
+
+Unit = tuple[int, int, str]
+
+
+def unit(info: DeviceInfo) -> Unit:
+    """What a device has in common with itself before and after an unplugging: its ids and its serial number."""
+    return info.vendor_id, info.product_id, info.serial
+
+
+def same_unit(one: DeviceInfo, two: DeviceInfo) -> bool:
+    """Whether these are surely one device: by serial number, without one by port, without that by path."""
+    if unit(one) != unit(two) or one.interface != two.interface:
+        return False
+    if one.serial:
+        return True
+    return one.port == two.port if one.port and two.port else one.path == two.path
 
 
 def described(info: DeviceInfo) -> str:
@@ -121,5 +157,9 @@ def described(info: DeviceInfo) -> str:
     return info.name or f"{info.vendor_id:04x}:{info.product_id:04x}"
 
 
-def where(path: bytes) -> str:
-    return os.fsdecode(path)
+def identified(info: DeviceInfo) -> str:
+    """The device with all that tells it from others of its model."""
+    ids = f"{info.vendor_id:04x}:{info.product_id:04x}"
+    parts = [f"serial {info.serial}" if info.serial else "", f"port {info.port}" if info.port else ""]
+    interface = f"interface {info.interface}" if info.interface > 0 else ""
+    return ", ".join(part for part in (f"{described(info)} ({ids})", *parts, interface) if part)

@@ -17,11 +17,11 @@ from teleop.config.inputs_section import ActionSection, ControlSection
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Command, Press
 from teleop.inputs.hid.state import Change, Sample
-from teleop.inputs.stick_shaping import Centre, deflect, shape, share
+from teleop.inputs.stick_shaping import Center, deflect, shape, share
 
 HOLD = 1.0  # s: pressed for longer is held
 CLICKS_WITHIN = 0.25  # s over which clicks are counted to a speed: a wheel turned slowly still clicks in it
-MOVED = 0.01  # of its range: a slider says nothing before it has been moved that far, so that nothing jumps to it
+MOVED = 0.01  # of its range: a slider is not moved before it has been moved that far, so that nothing jumps to it
 CLICK: Mapping[Axis, float] = {Axis.PAN: 1.0, Axis.TILT: 1.0, Axis.ROLL: 1.0, Axis.FOCUS: 0.01}
 """What a click of a wheel moves an axis by, in its units, where a profile says nothing; others: a hundredth."""
 
@@ -50,62 +50,102 @@ class ControlValues:
 class ControlReader(Protocol):
     """Reads one control; `fine`: its fine button is held."""
 
-    def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, said: ControlValues) -> None: ...
+    def read(
+        self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, values: ControlValues
+    ) -> None: ...
 
 
 class Stick:
-    """Deflects its axis by where it is: a stick from its middle, a trigger or a button from its end."""
+    """Deflects its axis by where it is: a stick from its middle, a trigger or a button from its end.
 
-    def __init__(self, section: ControlSection, dead_zone: float, expo: float, guessed: bool) -> None:
-        self._section, self._guessed = section, guessed
+    `known` is its center from before it was unplugged. `guessed`: nobody wrote its mapping, so it has to be seen
+    centered. `puck`: it is a part of a multi-axis controller, whose rest is 0.
+    """
+
+    def __init__(
+        self,
+        section: ControlSection,
+        dead_zone: float,
+        expo: float,
+        guessed: bool,
+        known: float | None = None,
+        puck: bool = False,
+    ) -> None:
+        self._section, self._guessed, self._known, self._puck = section, guessed, known, puck
         self._dead_zone = dead_zone if section.dead_zone is None else section.dead_zone
         self._expo = expo if section.expo is None else section.expo
-        self._centre: Centre | None = None
+        self.center: Center | None = None
+        self.is_trigger = False  # by its guessed mapping, and where it first was
+        self.is_inside = False  # deflected, and not to the end of its range
 
     @property
     def finding(self) -> bool:
-        return self._centre is not None and self._centre.value is None
+        return self.center is not None and self.center.value is None
 
     @property
-    def uncentred(self) -> bool:
-        return self._centre is not None and not self._centre.centred
+    def uncentered(self) -> bool:
+        return self.center is not None and not self.center.centered
 
-    def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, said: ControlValues) -> None:  # noqa: ARG002
+    @property
+    def is_locked(self) -> bool:
+        """Whether it moves nothing: where nobody wrote what it is, it has to be seen centered once."""
+        if self.center is None:
+            return False
+        return self.center.value is None or (self._guessed and (self.is_trigger or self._unseen))
+
+    @property
+    def _unseen(self) -> bool:
+        return self.center is not None and not self.center.centered and not self.center.learned
+
+    def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, values: ControlValues) -> None:  # noqa: ARG002
         section = self._section
+        self.is_inside = False
         low, high = section.range or (sample.minimum, sample.maximum)
         if sample.null or low == high:
             return
         if (section.rest or ("low" if (low, high) == (0, 1) else "middle")) == "middle":
-            self._centre = self._centre or Centre(low, high, section.center)
-            self._centre.see(sample.value, now)
-            if self._centre.value is None or (self._guessed and not self._centre.centred):
+            self.center = self.center or Center(low, high, self._given(low, high))
+            self.center.see(sample.value, now)
+            if self.is_locked or self.center.value is None:
                 return
-            deflection = deflect(sample.value, low, self._centre.value, high)
+            deflection = deflect(sample.value, low, self.center.value, high)
         elif section.rest == "high":
             deflection = share(sample.value, high, low)
         else:
             deflection = share(sample.value, low, high)
-        worth = section.fine if fine else section.coarse
-        said.deflect(section, _limited((worth or 1.0) * shape(deflection, self._dead_zone, self._expo)))
+        factor = section.fine if fine else section.coarse
+        shaped = shape(deflection, self._dead_zone, self._expo)
+        self.is_inside = bool(shaped) and abs(deflection) < 1
+        values.deflect(section, _limited((factor or 1.0) * shaped))
+
+    def _given(self, low: float, high: float) -> float | None:
+        if self._section.center is not None:
+            return self._section.center
+        if self._puck and min(low, high) < 0 < max(low, high):
+            return 0.0
+        return self._known
 
 
 class Lever:
-    """Says where its axis is to be, as a share of the way between its soft limits, once it has been moved."""
+    """Where its axis is to be, as a share of the way between its soft limits.
+
+    Until it has been moved it is where it was first seen; the axis follows only a change (see `Interlock.slid`), which
+    the first throw of a switch is.
+    """
 
     def __init__(self, section: ControlSection) -> None:
         self._section = section
         self._first: float | None = None
         self._moved = False
 
-    def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, said: ControlValues) -> None:  # noqa: ARG002
+    def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, values: ControlValues) -> None:  # noqa: ARG002
         low, high = self._section.range or (sample.minimum, sample.maximum)
         if sample.null or low == high or self._section.axis is None:
             return
         position = share(sample.value, high, low) if self._section.invert else share(sample.value, low, high)
         self._first = position if self._first is None else self._first
         self._moved = self._moved or abs(position - self._first) >= MOVED
-        if self._moved:
-            said.positions[self._section.axis] = position
+        values.positions[self._section.axis] = position if self._moved else self._first
 
 
 class Wheel:
@@ -119,7 +159,7 @@ class Wheel:
         self._at: float | None = None  # where a running counter was
         self._recent: deque[tuple[float, float]] = deque()
 
-    def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, said: ControlValues) -> None:
+    def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, values: ControlValues) -> None:
         clicks = [(change.time, self._clicks(change.sample)) for change in changes]
         if self._at is None:
             self._at = sample.value
@@ -127,18 +167,18 @@ class Wheel:
         if self._steps and self._section.axis is not None:
             sign, click, axis = -1 if self._section.invert else 1, self._section.speed * worth, self._section.axis
             moved = sign * click * sum(count for _, count in clicks)
-            said.steps[axis] = said.steps.get(axis, 0.0) + moved
-            said.click[axis] = max(said.click.get(axis, 0.0), click if moved else 0.0)
+            values.steps[axis] = values.steps.get(axis, 0.0) + moved
+            values.click[axis] = max(values.click.get(axis, 0.0), click if moved else 0.0)
             return
         self._recent.extend(clicks)
         while self._recent and self._recent[0][0] <= now - CLICKS_WITHIN:
             self._recent.popleft()
         rate = sum(count for _, count in self._recent) / CLICKS_WITHIN
-        said.deflect(self._section, _limited(worth * rate))
+        values.deflect(self._section, _limited(worth * rate))
 
     def _clicks(self, sample: Sample) -> float:
         if not self._counter:
-            return sample.value
+            return sample.value if sample.relative else 0.0  # where a stick is, is no number of clicks
         before, self._at = self._at, sample.value
         if before is None or sample.null:
             return 0.0
@@ -155,24 +195,24 @@ class Button:
         self._pressed: bool | None = None
         self._since = math.inf  # when it was pressed and has not asked for anything yet
 
-    def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, said: ControlValues) -> None:  # noqa: ARG002
+    def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, values: ControlValues) -> None:  # noqa: ARG002
         if self._pressed is None:
             self._pressed = _pressed_before(changes) if changes else sample.pressed
         for change in changes:
             if change.sample.pressed != self._pressed:
                 self._pressed = change.sample.pressed
-                self._turned(change.time, said)
+                self._turned(change.time, values)
         if now - self._since >= HOLD and self._hold:
-            said.presses.append(self._hold)
+            values.presses.append(self._hold)
             self._since = math.inf
 
-    def _turned(self, time: float, said: ControlValues) -> None:
+    def _turned(self, time: float, values: ControlValues) -> None:
         if self._pressed and self._hold:
             self._since = time
         elif self._pressed and self._press:
-            said.presses.append(self._press)
+            values.presses.append(self._press)
         elif not self._pressed and self._press and self._since < math.inf:
-            said.presses.append(self._hold if self._hold and time - self._since >= HOLD else self._press)
+            values.presses.append(self._hold if self._hold and time - self._since >= HOLD else self._press)
             self._since = math.inf
 
 

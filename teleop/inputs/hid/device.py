@@ -1,8 +1,9 @@
 """A HID device in an operator's hand, as an Input: what it says, and whether that is still true.
 
-Three troubles take it out of the hand: unplugged, silent for 0.2 s, and frozen, the very same report for 10 s while
-something is deflected. A device that reports only changes is silent by nature: at rest that is no trouble, and while it
-is deflected it is asked. Which kind a device is, its reports show (`HidState.steady`) unless the profile says it.
+Three troubles lock it: unplugged, silent for 0.2 s, and frozen, the very same report for 10 s while something is
+deflected and not at the end of its range. A device that reports only changes is silent by nature: at rest that is no
+trouble, and while it is deflected it is asked. One that repeats itself more rarely is silent only when a repetition is
+missing. Which kind a device is, its reports show (`HidState.steady`, `interval`) unless the profile says it.
 
 Reading here never waits: a thread of the reader's does all that may.
 """
@@ -18,13 +19,14 @@ from teleop.config.inputs_section import DIRECTIONS, ActionSection, ControlSecti
 from teleop.config.operator_settings import DEAD_ZONE, EXPO
 from teleop.config.pad_file import load_pad
 from teleop.core.operator_input import Command, Held
-from teleop.inputs.hid.backend import Hidapi, HidBackend, described
+from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, Unit, described, identified, unit
+from teleop.inputs.hid.claims import Claims
 from teleop.inputs.hid.mapping import Mapped
-from teleop.inputs.hid.pads import Chosen, may_stop, shipped
-from teleop.inputs.hid.reader import Claims, HidReader, Plugged
-from teleop.inputs.hid.state import HidState
+from teleop.inputs.hid.pads import MULTI_AXIS, Chosen, may_stop, shipped
+from teleop.inputs.hid.reader import HidReader, Plugged
+from teleop.inputs.hid.state import SILENT, HidState
 
-SILENT = 0.2  # s without a report, after which a device is not trusted
 RUN_COMMANDS = {Command.STOP, Command.CLEAR, Command.PAUSE, Command.GO, Command.QUIT}  # of a run that moves by itself
 
 
@@ -46,14 +48,16 @@ class HidInput:
         dead_zone: float | None = None,
         expo: float | None = None,
         stop_only: bool = False,
+        polled: bool = False,
     ) -> None:
         if section.pad:
             load_pad(section.pad)
-        self._section, self._stop_only = section, stop_only
+        self._section, self._stop_only, self._polled = section, stop_only, polled
         self._dead_zone = DEAD_ZONE if dead_zone is None else dead_zone
         self._expo = EXPO if expo is None else expo
         self._reader = HidReader(section, backend, now, claims or Claims(), self._mapped)
         self._plugged: Plugged | None = None  # the one that was read last
+        self._centers: dict[Unit, Mapping[str, float]] = {}
         self._has_stop = may_stop(section)
         self._misnamed = ""  # why its enable cannot be one
         self._judged: set[str] = set()  # the sticks of which it has been said that they were not in their middle
@@ -65,7 +69,8 @@ class HidInput:
         return self._section.name or (described(last) if last else str(self._section.device))
 
     def start(self) -> None:
-        self._reader.start()
+        if not self._polled:
+            self._reader.start()
 
     def close(self) -> None:
         self._reader.close()
@@ -78,6 +83,8 @@ class HidInput:
         self.close()
 
     def read(self, now: float) -> Held:
+        if self._polled:
+            self._reader.poll(now)
         held = self._read(now)
         return replace(held, stop=self._stop_trouble(now))
 
@@ -85,8 +92,12 @@ class HidInput:
         plugged = self._reader.plugged
         notes: list[str] = []
         if plugged is not self._plugged:
+            if self._plugged is not None:
+                self._keep_centers(self._plugged)
             last_words = self._plugged and self._look(self._plugged, now)
             self._plugged, self._judged, self._misnamed = plugged, set(), self._enable_trouble(plugged)
+            if plugged is not None and (self._reader.rivals or self._is_spare(plugged)):
+                notes.append(f"{self._section.name or self._section.device}: using {identified(plugged.info)}")
             if plugged is not None and plugged.missing and not plugged.chosen.guessed:
                 notes.append(f"{self.name}: no control {', '.join(plugged.missing)}: its mapping is ignored")
             if last_words and last_words.presses:  # a stop on the way out still is one
@@ -111,8 +122,10 @@ class HidInput:
             return None
         if stops <= set(plugged.missing):
             return f"{self.name}: no control {', '.join(sorted(stops))}"
-        if not plugged.on_change and now - state.last > SILENT:
-            return f"{self.name}: no report for {SILENT:g} s"
+        if undescribed := _undescribed(plugged, now):
+            return f"{self.name}: {undescribed}"
+        if not plugged.on_change and now - state.last > state.patience:
+            return f"{self.name}: no report for {state.patience:g} s"
         return ""
 
     @property
@@ -130,11 +143,34 @@ class HidInput:
             return ""
         return enable_trouble(self._section.enable, plugged.state.names, plugged.chosen.controls)
 
-    def _mapped(self, chosen: Chosen, state: HidState) -> Mapped:
+    def _mapped(self, chosen: Chosen, state: HidState, info: DeviceInfo) -> Mapped:
         enable = self._section.enable
         if self._stop_only:
             return Mapped(_run_controls(chosen.controls), relative=state.relative)
-        return Mapped(chosen.controls, enable, state.relative, self._dead_zone, self._expo, guessed=chosen.guessed)
+        return Mapped(
+            chosen.controls,
+            enable,
+            state.relative,
+            self._dead_zone,
+            self._expo,
+            guessed=chosen.guessed,
+            centers=self._known_centers(info),
+            puck=state.purpose == MULTI_AXIS,
+        )
+
+    def _known_centers(self, info: DeviceInfo) -> Mapping[str, float]:
+        """Those from before the device was unplugged; of another unit nothing is known."""
+        last = self._plugged  # the control thread may not have seen yet that it was unplugged
+        if last is not None and unit(last.info) == unit(info):
+            return last.mapped.centers
+        return self._centers.get(unit(info), {})
+
+    def _keep_centers(self, plugged: Plugged) -> None:
+        self._centers[unit(plugged.info)] = dict(plugged.mapped.centers)
+
+    def _is_spare(self, plugged: Plugged) -> bool:
+        """Whether another device was used before."""
+        return bool(self._centers) and unit(plugged.info) not in self._centers
 
     @staticmethod
     def _look(plugged: Plugged, now: float) -> Held:
@@ -145,25 +181,44 @@ class HidInput:
         if self._misnamed:
             return self._misnamed
         deflected = bool(held.dial) or any(held.deflections.values())
+        if undescribed := _undescribed(plugged, now):
+            return undescribed
         if not plugged.mapped.names & state.values.keys():
             return "no report yet"
         if plugged.mapped.finding:
             return "finding its center: release the sticks"
-        if now - state.last > SILENT and (deflected or not plugged.on_change):
-            return f"no report for {SILENT:g} s"
-        if deflected and now - state.differed > plugged.chosen.stuck_timeout:
-            return f"reports unchanged for {plugged.chosen.stuck_timeout:g} s"
+        if now - state.last > state.patience and (deflected or not plugged.on_change):
+            return f"no report for {state.patience:g} s"
+        unchanged = now - state.differed > plugged.chosen.stuck_timeout
+        if unchanged and plugged.mapped.is_inside and not state.has_heartbeat:
+            return f"reports unchanged for {plugged.chosen.stuck_timeout:g} s; stuck_timeout in the profile changes it"
         return ""
 
     def _judge(self, plugged: Plugged) -> Iterator[str]:
         """What is to be said of sticks that were not in their middle, once."""
-        found = set() if plugged.mapped.finding else set(plugged.mapped.uncentred) - self._judged
+        found = set() if plugged.mapped.finding else set(plugged.mapped.uncentered) - self._judged
         self._judged |= found
         names = ", ".join(sorted(found))
         if own := ", ".join(sorted(found & self._section.controls.keys())):
             yield f"{self.name}: {own} was not centered; a trigger or a throttle needs rest: low or high"
         elif plugged.chosen.guessed and found & {"X", "Y"}:
-            yield f"{self.name}: {names} was not centered and is ignored; release it and plug the device in again"
+            yield f"{self.name}: {names} was not centered and is ignored until it is: release it"
+
+
+def _undescribed(plugged: Plugged, now: float) -> str:
+    """Why only reports come that nothing can be read of: on Bluetooth a program has switched the pad to longer ones.
+
+    Once its calibration has been read a DualSense sends 0x31, a DualShock 0x11. Beside readable reports such a one is
+    no trouble, nor is a vendor's own beside the silence of a device that reports changes.
+    """
+    state = plugged.state
+    if state.opaque is None or now - state.last <= SILENT or now - state.opaque[1] > SILENT:
+        return ""
+    number = state.opaque[0]
+    if plugged.on_change and state.values and state.is_described(number):
+        return ""
+    text = f"sends report {number:#04x}, which its descriptor does not describe"
+    return f"{text}: connect it by cable, or turn it off and on with no other program using it"
 
 
 def _run_controls(controls: Mapping[str, ControlSection]) -> dict[str, ControlSection]:
@@ -190,16 +245,26 @@ def open_inputs(
     dead_zone: float | None = None,
     expo: float | None = None,
     stop_only: bool = False,
+    polled: bool = False,
 ) -> Iterator[list[HidInput]]:
     """The devices of a profile, started, in its order; without sections any joystick.
 
-    Raises DeviceError when HID devices cannot be read here at all, DocumentError when a pad cannot be used.
+    `polled`: on the virtual clock, from a backend of recordings. Raises DeviceError when no device can be read here at
+    all, DocumentError when a pad cannot be used.
     """
-    devices, claims = backend or Hidapi(), Claims()
+    devices, sections = backend or AllDevices(), sections or [InputSection()]
+    claims = Claims(sections)
     shipped()  # read now: once the loop runs nothing shall keep it waiting
     with ExitStack() as stack:
         inputs = [
-            HidInput(section, devices, now, claims=claims, dead_zone=dead_zone, expo=expo, stop_only=stop_only)
-            for section in sections or [InputSection()]
+            HidInput(
+                *(section, devices, now),
+                claims=claims,
+                dead_zone=dead_zone,
+                expo=expo,
+                stop_only=stop_only,
+                polled=polled,
+            )
+            for section in sections
         ]
         yield [stack.enter_context(each) for each in inputs]

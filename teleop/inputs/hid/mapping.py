@@ -1,4 +1,4 @@
-"""From a device's controls to what an operator's hand says: a mapping, laid over the device that is plugged in.
+"""From a device's controls to what an operator asks for: a mapping, laid over the device that is plugged in.
 
 Several controls may move one axis (two triggers, one each way): their deflections add up. Exchanging two axes is
 exchanging their names in the mapping.
@@ -14,12 +14,15 @@ from teleop.inputs.hid.controls import Button, ControlReader, ControlValues, Lev
 from teleop.inputs.hid.pads import stops
 from teleop.inputs.hid.state import Change, Sample
 
+PAIRS = (("Rx", "Ry"), ("Z", "Rz"))  # of a guess: a right stick or two triggers; X and Y are a stick on every pad
+
 
 class Mapped:
     """A mapping on one device, from its plugging in to its unplugging.
 
     `relative` are the controls that the descriptor calls so, `dead_zone` and `expo` those of controls without their
-    own. `guessed`: nobody wrote this mapping, so that what does not rest in its middle is no stick and is left out.
+    own. `guessed`: nobody wrote this mapping, so that what does not rest in its middle is locked until it does.
+    `centers` are those known from before an unplugging; `puck`: it is a multi-axis controller, which rests at 0.
     `names` are the controls that it needs, `stops` those that are a STOP, `watched` those whose every change counts,
     `counting` whether those that the descriptor describes wrongly report counts.
     """
@@ -32,12 +35,14 @@ class Mapped:
         dead_zone: float = 0.0,
         expo: float = 0.0,
         guessed: bool = False,
+        centers: Mapping[str, float] | None = None,
+        puck: bool = False,
     ) -> None:
         flat = _flat(controls)
-        self._enable = enable
+        self._enable, self._guessed = enable, guessed
         self._fine = {name: section.fine_button for name, section in flat.items()}
         self._sticks = {
-            name: Stick(section, dead_zone, expo, guessed)
+            name: Stick(section, dead_zone, expo, guessed, (centers or {}).get(name), puck)
             for name, section in flat.items()
             if _is_stick(section, name in relative)
         }
@@ -55,33 +60,54 @@ class Mapped:
 
     @property
     def finding(self) -> bool:
-        """Whether the centre of some stick is still being found."""
+        """Whether the center of some stick is still being found."""
         return any(stick.finding for stick in self._sticks.values())
 
     @property
-    def uncentred(self) -> Collection[str]:
+    def uncentered(self) -> Collection[str]:
         """Sticks that were not in their middle when first seen."""
-        return [name for name, stick in self._sticks.items() if stick.uncentred]
+        return [name for name, stick in self._sticks.items() if stick.uncentered]
+
+    @property
+    def is_inside(self) -> bool:
+        """Whether a stick is deflected, and not to the end of its range."""
+        return any(stick.is_inside for stick in self._sticks.values())
+
+    @property
+    def centers(self) -> Mapping[str, float]:
+        """The centers that were learned."""
+        known = {name: stick.center for name, stick in self._sticks.items()}
+        return {name: of.value for name, of in known.items() if of and of.learned and of.value is not None}
+
+    def _find_triggers(self) -> None:
+        """Two controls that were not centered, one of them at its low end, are triggers: the other may be held."""
+        for pair in PAIRS:
+            sticks = [self._sticks[name] for name in pair if name in self._sticks]
+            if any(stick.center is not None and stick.center.at_low for stick in sticks):
+                for stick in sticks:
+                    stick.is_trigger = stick.uncentered
 
     def read(self, values: Mapping[str, Sample], changes: Iterable[Change], now: float) -> Held:
-        """What the controls say at `now`; of a control that has not reported, or has no value, nothing."""
-        said = ControlValues()
+        """What the controls ask for at `now`; of a control that has not reported, or has no value, nothing."""
+        read = ControlValues()
         changed: dict[str, list[Change]] = {}
         for change in changes:
             changed.setdefault(change.name, []).append(change)
         for name, reader in self._readers.items():
             if (sample := values.get(name)) is not None:
                 fine = _pressed(values, self._fine[name])
-                reader.read(sample, changed.get(name, ()), now, fine, said)
+                reader.read(sample, changed.get(name, ()), now, fine, read)
+        if self._guessed:
+            self._find_triggers()
         enabled = None if self._enable is None else _pressed(values, self._enable)
         return Held(
-            said.deflections,
-            said.steps,
-            said.dial,
-            said.presses,
+            read.deflections,
+            read.steps,
+            read.dial,
+            read.presses,
             enabled,
-            positions=said.positions,
-            click=said.click,
+            positions=read.positions,
+            click=read.click,
         )
 
 

@@ -1,4 +1,4 @@
-"""Which mapping a device gets: a shipped one by its ids, or one that is guessed from the controls it has.
+"""Which mapping a device gets: a shipped one by its ids or its driver, or one that is guessed from the controls it has.
 
 The guess for a pad nobody described: the left stick (X, Y) is pan and tilt, the right one (Rx and Ry, or Z and Rz,
 whichever rests in its middle) roll and focus; a joystick's twist (Rz without a Z) is roll. The puck of a multi-axis
@@ -21,6 +21,7 @@ from teleop.config.inputs_section import (
     ControlSection,
     DeviceSection,
     InputSection,
+    PadDeviceSection,
     PadSection,
 )
 from teleop.config.pad_file import load_pad
@@ -29,7 +30,6 @@ from teleop.core.axes import Axis
 from teleop.core.operator_input import Command
 from teleop.inputs.hid.backend import DeviceInfo
 
-STICKS = frozenset({(0x01, 0x04), (0x01, 0x05), (0x01, 0x08)})  # joystick, gamepad, multi-axis controller
 MULTI_AXIS = (0x01, 0x08)
 _BUTTONS = (
     ("Button 1", Command.STOP),
@@ -60,16 +60,24 @@ def shipped() -> Sequence[PadSection]:
 
 def pad_for(info: DeviceInfo) -> PadSection | None:
     """The shipped mapping for this very device."""
-    return next((pad for pad in shipped() if any(fits(device, info) for device in pad.devices)), None)
+    return next((pad for pad in shipped() if any(_is_for(device, info) for device in pad.devices)), None)
+
+
+def _is_for(device: PadDeviceSection, info: DeviceInfo) -> bool:
+    """A mapping by the names of a descriptor is for no device whose controls a driver has named, nor the other way."""
+    return (device.driver or "") == info.driver and fits(device, info)
 
 
 def fits(device: DeviceSection, info: DeviceInfo) -> bool:
-    """Whether this is the device, by its ids and its name; of a section for any device nothing is asked."""
+    """Whether this is the device, by its ids, its name and where it is; a section for any device fits all."""
     from fnmatch import fnmatch
 
     return (
         device.vendor in (None, info.vendor_id)
         and device.product in (None, info.product_id)
+        and device.serial in (None, info.serial)
+        and device.port in (None, info.port)
+        and device.interface in (None, info.interface)
         and (device.name is None or fnmatch(info.name.casefold(), device.name.casefold()))
     )
 
@@ -89,7 +97,7 @@ def may_stop(section: InputSection) -> bool:
 
 
 def choose(section: InputSection, info: DeviceInfo, names: Collection[str]) -> Chosen:
-    """What the device does that `section` stands for and that has these controls."""
+    """What the device does that `section` is for; a guess is made for the controls of these `names`."""
     named = load_pad(section.pad) if section.pad else None
     pad = named or (None if section.controls else pad_for(info))
     if pad is None and not section.controls:

@@ -1,8 +1,9 @@
 """The thread that finds one device, reads it until it is unplugged, and finds it again.
 
 Everything that may take its time is done here: listing what is plugged in, opening, reading, asking. The control
-thread sees a `Plugged` or None, and asks that for what it holds. Several readers share their `Claims`, so that two do
-not take the same device.
+thread sees a `Plugged` or None, and asks that for its values. Several readers share their `Claims`, so that two do not
+take the same device. What waits is kept apart from what is done between the waits (`Steps`), so that recorded devices
+are read by the same code on the virtual clock.
 
 Between two openings there is always a pause. One that opens and then fails at its first read (EIO) was never there:
 it is not handed over, the next device is tried, and the pause grows with each round that found nothing else.
@@ -10,16 +11,21 @@ it is not handed over, the next device is tried, and the pause grows with each r
 
 from __future__ import annotations
 
+import math
 import threading
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Generator, Sequence
+from typing import NamedTuple
 
 from teleop.config.inputs_section import DeviceSection, InputSection
-from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, described
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, described, same_unit, unit
+from teleop.inputs.hid.claims import Claims
+from teleop.inputs.hid.descriptor.identity import STICKS
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.mapping import Mapped
-from teleop.inputs.hid.pads import STICKS, Chosen, choose, fits, pad_for
+from teleop.inputs.hid.pads import Chosen, choose, fits, pad_for
 from teleop.inputs.hid.state import HidState
 
+EPSILON = 1e-9  # s
 LOOK_EVERY = 1.0  # s between two looks for a device that is missing
 LOOKS_APART = 8  # times as far apart as that, at most, while the only device there cannot be read
 WAIT = 0.05  # s for a report, after which the thread looks whether it is to end
@@ -28,22 +34,21 @@ _UNASKED = 64  # bytes: the longest report of a full-speed USB device, where a d
 _OTHER_HANDS = frozenset({(0x01, 0x02), (0x01, 0x06), (0x01, 0x07)})  # mouse, keyboard, keypad
 
 
-class Claims:
-    """Which devices are taken, by their paths."""
+class Pause(NamedTuple):
+    """Wait for so many seconds."""
 
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._taken: set[bytes] = set()
+    seconds: float
 
-    def take(self, path: bytes) -> bool:
-        with self._lock:
-            free = path not in self._taken
-            self._taken.add(path)
-            return free
 
-    def give_back(self, path: bytes) -> None:
-        with self._lock:
-            self._taken.discard(path)
+class Read(NamedTuple):
+    """Wait for a report of this device, for so many seconds at most."""
+
+    device: HidDevice
+    seconds: float
+
+
+Steps = Generator[Pause | Read, bytes, bool]
+"""What a reader does between its waits: it yields what it waits for, and is sent the report, or its OSError thrown."""
 
 
 class Plugged:
@@ -79,7 +84,10 @@ class Plugged:
 
 
 class HidReader:
-    """`plugged` is the device while it is there; `refused` why one that is there cannot be used, "" otherwise."""
+    """`plugged` is the device while it is there; `refused` why one that is there cannot be used, "" otherwise.
+
+    It waits in a thread of its own once `start`ed. On a virtual clock it has none: `poll` does what is due by then.
+    """
 
     def __init__(
         self,
@@ -87,97 +95,218 @@ class HidReader:
         backend: HidBackend,
         now: Callable[[], float],
         claims: Claims,
-        mapped: Callable[[Chosen, HidState], Mapped],
+        mapped: Callable[[Chosen, HidState, DeviceInfo], Mapped],
     ) -> None:
         self._section, self._backend, self._now, self._claims, self._mapped = section, backend, now, claims, mapped
         self.plugged: Plugged | None = None
         self.last: DeviceInfo | None = None  # the device that was there, which is taken again before any other
+        self.rivals = 0  # other devices that fitted when it was taken
         self._stayed: frozenset[bytes] | None = None  # what was plugged in when it was unplugged, and still is
         self.refused = ""
         self._refusal = ""  # what `refused` will be after this round
         self._broken = False  # whether a device of this round opened and could not be read
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"hid {section.device}", daemon=True)
+        self._polled: PolledSteps | None = None
 
     def start(self) -> None:
         self._thread.start()
 
+    def poll(self, now: float) -> None:
+        """Do all that is due by `now`, without waiting; only devices that know when they report are read so."""
+        if self._polled is None:
+            self._polled = PolledSteps(self._steps(), now)
+            self._now = lambda: self._polled.time if self._polled else now
+        self._polled.advance(now)
+
     def close(self) -> None:
-        """Returns when the thread has ended, or is stuck in a driver; a daemon, it then keeps nobody from leaving."""
+        """Returns when the thread has ended, or is stuck in a driver; as a daemon it does not keep the program."""
         self._stop.set()
+        if self._polled is not None:
+            self._polled.close()
         if self._thread.is_alive():
             self._thread.join(2 * WAIT + LOOK_EVERY)
 
     def _run(self) -> None:
-        apart = 1  # times LOOK_EVERY
+        steps = self._steps()
         try:
+            request = next(steps)
             while not self._stop.is_set():
-                self._broken = False
-                self._serve()
-                apart = min(2 * apart, LOOKS_APART) if self._broken else 1
-                self._stop.wait(apart * LOOK_EVERY)
+                try:
+                    report = self._wait(request)
+                except OSError as error:
+                    request = steps.throw(error)
+                else:
+                    if not self._stop.is_set():
+                        request = steps.send(report)
         except Exception as fault:  # noqa: BLE001 - a thread that ends unseen would leave a device that never reports
             self.refused = f"its reader failed: {fault or type(fault).__name__}"
         finally:
+            steps.close()
             self.plugged = None
 
-    def _serve(self) -> None:
-        """Find the device and read it until it is gone."""
+    def _wait(self, request: Pause | Read) -> bytes:
+        if isinstance(request, Read):
+            return request.device.read(request.seconds)
+        self._stop.wait(request.seconds)
+        return b""
+
+    def _steps(self) -> Steps:
+        apart = 1  # times LOOK_EVERY
+        while True:
+            self._broken = False
+            yield from self._serve()
+            apart = min(2 * apart, LOOKS_APART) if self._broken else 1
+            yield Pause(apart * LOOK_EVERY)
+
+    def _serve(self) -> Steps:
+        """Find the device and read it until it is gone; whether there was one."""
         try:
             found = self._backend.enumerate()
         except OSError as error:
             self.refused = f"devices cannot be listed: {error}"
-            return
+            return False
         self._refusal = ""
         if self.last is not None:
             there = frozenset(info.path for info in found)
             self._stayed = there if self._stayed is None else self._stayed & there
-        any(self._try(info) for info in wanted(self._section.device, found, self.last, self._stayed or ()))
+        fitting = wanted(self._section.device, found, self.last, self._stayed or ())
+        free = [info for info in fitting if not self._claims.is_for_another(self._section, info)]
+        groups = together(free)
+        self.rivals = len(groups) - 1
+        was_there = False
+        for group in groups:
+            was_there = was_there or (yield from self._try(group))
         self.refused = self._refusal  # only now: while it is tried again, nothing has changed
+        return was_there
 
-    def _try(self, info: DeviceInfo) -> bool:
-        """Read this device until it is gone, unless another reader has it; whether it could be read."""
-        if self._stop.is_set() or not self._claims.take(info.path):
-            return False
-        try:
-            return self._open(info)
-        finally:
-            self._claims.give_back(info.path)
+    def _try(self, infos: Sequence[DeviceInfo]) -> Steps:
+        """Read this device until it is gone, unless another reader has it; whether it could be read.
 
-    def _open(self, info: DeviceInfo) -> bool:
+        Of a device with several interfaces the one that reports is read.
+        """
+        taken = [info for info in infos if self._claims.take(info.path)]
+        opened: list[tuple[HidDevice, Plugged]] = []
         try:
-            device = self._backend.open(info.path)
-        except OSError as error:
-            self._refusal = f"{described(info)} cannot be opened ({error}): check its udev rule: teleop doctor"
-            return False
-        try:
-            state = HidState(parse_descriptor(device.get_report_descriptor()))
-            chosen = choose(self._section, info, state.names)
-            if chosen.unreadable:
-                self._refusal = f"{described(info)} cannot be used: {chosen.unreadable}"
-                return False
-            plugged = Plugged(info, state, chosen, self._mapped(chosen, state))
-            report = device.read(WAIT)
-            self.plugged, self.last, self._stayed, self.refused, self._broken = plugged, info, None, "", False
-            self._read(device, plugged, report)
-        except OSError as error:  # unplugged, unless it was never there
-            if self.plugged is None:
-                self._broken = True
-                self._refusal = f"{described(info)} opens, but cannot be read ({error}): unplug it and plug it in again"
-            return self.plugged is not None
+            opened += [one for info in taken if (one := self._open(info))]
+            return (yield from self._first_to_report(opened)) if opened else False
         finally:
             self.plugged = None
-            device.close()
-        return True
+            for device, _plugged in opened:
+                device.close()
+            for info in taken:
+                self._claims.release(info.path)
 
-    def _read(self, device: HidDevice, plugged: Plugged, report: bytes) -> None:
-        """From the first report on until it is unplugged, which is an OSError, or until the end."""
-        while not self._stop.is_set():
+    def _open(self, info: DeviceInfo) -> tuple[HidDevice, Plugged] | None:
+        device: HidDevice | None = None
+        try:
+            device = self._backend.open(info.path)
+            descriptor = device.get_report_descriptor()
+        except OSError as error:
+            if device is None:
+                self._refusal = f"{described(info)} cannot be opened ({error}): check its udev rule: teleop doctor"
+            else:
+                device.close()
+                self._fail(info, error)
+            return None
+        state = HidState(parse_descriptor(descriptor))
+        chosen = choose(self._section, _as_guessed(info, state), state.guessable)
+        if chosen.unreadable:
+            self._refusal = f"{described(info)} cannot be used: {chosen.unreadable}"
+            device.close()
+            return None
+        return device, Plugged(info, state, chosen, self._mapped(chosen, state, info))
+
+    def _fail(self, info: DeviceInfo, error: OSError) -> None:
+        self._broken = True
+        self._refusal = f"{described(info)} opens, but cannot be read ({error}): unplug it and plug it in again"
+
+    def _first_to_report(self, opened: list[tuple[HidDevice, Plugged]]) -> Steps:
+        """Wait until one of these interfaces has reported a control of the mapping, and read that one."""
+        trying = list(opened)
+        while trying:
+            for each in list(trying):
+                device, plugged = each
+                try:
+                    report = yield Read(device, WAIT / len(trying))
+                    if self.plugged is None:
+                        self._hand_over(plugged)
+                    if report and len(trying) > 1:
+                        plugged.state.take(report, self._now())
+                    if len(trying) == 1 or plugged.mapped.names & plugged.state.values.keys():
+                        self._close_others(opened, device)
+                        self._hand_over(plugged)
+                        yield from self._read(device, plugged, b"" if len(trying) > 1 else report)
+                except OSError as error:  # unplugged, unless it was never there
+                    trying.remove(each)
+                    if self.plugged is plugged:
+                        return True
+                    self._fail(plugged.info, error)
+        return False
+
+    def _hand_over(self, plugged: Plugged) -> None:
+        self.plugged, self.last, self._stayed, self.refused, self._broken = plugged, plugged.info, None, "", False
+        self._claims.remember(self._section, plugged.info)
+
+    def _close_others(self, opened: list[tuple[HidDevice, Plugged]], device: HidDevice) -> None:
+        """Leave the other interfaces to other inputs."""
+        for other, plugged in [each for each in opened if each[0] is not device]:
+            other.close()
+            self._claims.release(plugged.info.path)
+        opened[:] = [each for each in opened if each[0] is device]
+
+    def _read(self, device: HidDevice, plugged: Plugged, report: bytes) -> Steps:
+        """From the first report on until it is unplugged, which is an OSError."""
+        while True:
             if report:
                 plugged.state.take(report, self._now())
             else:
                 plugged.ask(device, self._now)
-            report = device.read(WAIT)
+            report = yield Read(device, WAIT)
+
+
+class PolledSteps:
+    """A reader's steps on a clock that does not wait for it; `time` is how far they have come."""
+
+    def __init__(self, steps: Steps, now: float) -> None:
+        self.time = now
+        self._steps = steps
+        self._request = next(steps)
+
+    def advance(self, now: float) -> None:
+        """Take all steps that are due by `now`. Raises what the reader does."""
+        while True:
+            request = self._request
+            end = self.time + request.seconds
+            due = getattr(request.device, "next_report", math.inf) if isinstance(request, Read) else math.inf
+            if min(due, end) > now + EPSILON:
+                return
+            self.time = max(self.time, min(due, end))
+            try:
+                report = request.device.read(0) if isinstance(request, Read) and due <= end else b""
+            except OSError as error:
+                self._request = self._steps.throw(error)
+            else:
+                self._request = self._steps.send(report)
+
+    def close(self) -> None:
+        self._steps.close()
+
+
+def together(infos: Sequence[DeviceInfo]) -> list[list[DeviceInfo]]:
+    """The devices, each with its other interfaces behind the one that comes first."""
+    groups: list[list[DeviceInfo]] = []
+    for info in infos:
+        for group in groups:
+            first = group[0]
+            one_device = unit(info) == unit(first) and info.port == first.port and (info.port or info.serial)
+            if info.path == first.path or (one_device and info.interface not in [each.interface for each in group]):
+                if info.path not in [each.path for each in group]:
+                    group.append(info)
+                break
+        else:
+            groups.append([info])
+    return groups
 
 
 def wanted(
@@ -193,13 +322,20 @@ def wanted(
     if last is not None:
         fitting = [info for info in fitting if _alike(info, last) or info.path not in stayed]
 
-    def rank(info: DeviceInfo) -> tuple[bool, bool, bool, bool, bytes]:
+    def rank(info: DeviceInfo) -> tuple[bool, bool, bool, bool, bool, bytes]:
         usage = (info.usage_page, info.usage)
         other = last is not None and not _alike(info, last)
+        same = last is None or same_unit(info, last)
         serial = last.serial if last is not None else ""
-        return other, info.serial != serial, usage not in STICKS, usage in _OTHER_HANDS, info.path
+        return other, info.serial != serial, not same, usage not in STICKS, usage in _OTHER_HANDS, info.path
 
     return sorted(fitting, key=rank)
+
+
+def _as_guessed(info: DeviceInfo, state: HidState) -> DeviceInfo:
+    """The device, for the collection that a guess is made for: the system lists one that it is for by chance."""
+    page, usage = state.purpose
+    return info._replace(usage_page=page, usage=usage) if page else info
 
 
 def _alike(one: DeviceInfo, two: DeviceInfo) -> bool:

@@ -5,8 +5,8 @@ looks: every change of a button, every count of a wheel. Assigning an attribute 
 Python, so that neither side needs a lock.
 
 Whether a device reports all the time or only when something changes is seen from the reports themselves: only the
-first kind says the same twice, and then many times. Vendors' fields are left out of this and of all else: a pad has
-clocks and gyroscopes there.
+first kind repeats itself, and then many times. How often it does is learned too: `patience` is how long a silence of
+this device is normal. Vendors' fields are left out of this and of all else: a pad has clocks and gyroscopes there.
 """
 
 from __future__ import annotations
@@ -17,17 +17,20 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from teleop.inputs.hid.descriptor.names import usage_name
-from teleop.inputs.hid.descriptor.parser import Descriptor, Field
+from teleop.inputs.hid.descriptor.fields import VENDOR_PAGES, Field
+from teleop.inputs.hid.descriptor.identity import LONGEST_ARRAY
+from teleop.inputs.hid.descriptor.parser import Descriptor
 from teleop.inputs.hid.descriptor.report import Control, read_report
+from teleop.inputs.hid.hat import DIRECTIONS, HAT, Hat, points_to
 
+SILENT = 0.2  # s without a report, after which a device is not trusted that was not seen to report more rarely
+REPEATS = 9  # the latest repetitions whose interval is looked at
+FEW_REPEATS = 3  # enough of them to know the interval
+SLOWEST_REPEAT = 1.0  # s: what is repeated after longer is no sign of life to be expected
+LATE = 2.5  # times the usual interval: then a report is missing
+HEARTBEAT = 0.15  # s: what repeats itself more rarely reports changes at once, and lives between them
 STEADY = 20  # reports in a row without a change: more than any device that reports changes sends for one
 MAX_CHANGES = 4096  # nobody asks for them while nothing runs
-_VENDOR = 0xFF00  # the first usage page of vendors
-_HAT = (0x01, 0x39)
-_LONGEST_ARRAY = 1024  # names that are made of an array's usages
-_DIRECTIONS = (("up", 0), ("right", 90), ("down", 180), ("left", 270))
-_WITHIN = 60  # degrees: of eight places the two next to a direction count for it as well
 
 
 class Sample(NamedTuple):
@@ -61,20 +64,37 @@ class HidState:
     """
 
     def __init__(self, descriptor: Descriptor) -> None:
-        fields = [field for field in descriptor.fields if field.usage_page < _VENDOR]
+        fields = [field for field in descriptor.fields if field.usage_page < VENDOR_PAGES]
         self._descriptor = replace(descriptor, fields=tuple(fields))
         self.names = frozenset(name for field in fields for name in _names(field))
+        self.guessable = frozenset(name for field in self._descriptor.primary_fields for name in _names(field))
+        self.purpose = descriptor.purpose
         self.relative = frozenset(name for field in fields if field.relative for name in _names(field))
         self.watched: Collection[str] = frozenset()
         self.counting: Mapping[str, bool] = {}
         self.vital: Collection[int] = frozenset(field.report_id for field in fields)
         self.values: Mapping[str, Sample] = {}
         self.last = self.differed = -math.inf  # when a report came, and when one was unlike the one before it
+        self.opaque: tuple[int, float] | None = None  # id and time of a report without controls
         self._changes: deque[Change] = deque(maxlen=MAX_CHANGES)
         self._ids = {name: field.report_id for field in reversed(fields) for name in _names(field)}
         self._reports: dict[int, bytes] = {}
         self._held: dict[int, Mapping[str, Sample]] = {}
         self._same = 0
+        self._hats: dict[str, Hat] = {}
+        self._arrived = -math.inf  # when the last report came by itself
+        self._intervals: deque[float] = deque(maxlen=REPEATS)  # before reports that repeated the one before
+        self.interval = 0.0  # s, the usual one of these, 0 until it is known
+
+    @property
+    def patience(self) -> float:
+        """s without a report after which one is missing."""
+        return max(SILENT, LATE * self.interval)
+
+    @property
+    def has_heartbeat(self) -> bool:
+        """Whether it reports changes at once and, between them, that it lives."""
+        return self.interval > HEARTBEAT
 
     @property
     def steady(self) -> bool:
@@ -84,6 +104,10 @@ class HidState:
     def report_ids(self, names: Collection[str]) -> Sequence[int]:
         """The reports that these controls are in."""
         return sorted({self._ids[name] for name in names if name in self._ids})
+
+    def is_described(self, report_id: int) -> bool:
+        """Whether the descriptor has such a report at all, if only as a vendor's own."""
+        return report_id in self._descriptor.lengths
 
     def length(self, report_id: int) -> int:
         """Bytes of a report, its id included where the device numbers its reports."""
@@ -97,23 +121,49 @@ class HidState:
             self.differed = now
         held: dict[str, Sample] = {}
         for control in read_report(self._descriptor, report):
-            for name, sample in _expand(control):
-                if name in self.counting:
-                    sample = sample._replace(relative=self.counting[name])
-                held.setdefault(name, sample)  # a name stands for the first control that has it
+            if control.usage_page >= VENDOR_PAGES:
+                continue  # an array's usage: fields of these pages are left out already
+            for name, sample in self._samples(control):
+                held[name] = sample._replace(relative=self.counting[name]) if name in self.counting else sample
         if not held:
+            self.opaque = number, now
             return
         if number in self.vital:
             self.last = now
         before = self._held.get(number, {})
         held.update(_released(before.keys() - held.keys(), before))
-        if not asked and self._same < STEADY:
-            self._same = self._same + 1 if held == before and not any(map(_counts, held.values())) else 0
+        if not asked:
+            self._learn_interval(held == before and not any(map(_counts, held.values())), now)
         self._held[number] = held
         for name, sample in held.items():
             if name in self.watched and (sample.value if sample.relative else sample != before.get(name, sample)):
                 self._changes.append(Change(now, name, sample))
         self.values = {**self.values, **held} if len(self._held) > 1 else held
+
+    def _learn_interval(self, repeats: bool, now: float) -> None:
+        """`repeats`: this report is the one before it once more."""
+        interval, self._arrived = now - self._arrived, now
+        if repeats and interval <= SLOWEST_REPEAT:
+            self._intervals.append(interval)
+            if len(self._intervals) >= FEW_REPEATS:
+                self.interval = sorted(self._intervals)[len(self._intervals) // 2]
+        if self._same < STEADY:
+            self._same = self._same + 1 if repeats and interval <= SLOWEST_REPEAT else 0
+
+    def _samples(self, control: Control) -> Iterator[tuple[str, Sample]]:
+        """The control, and of a hat its four directions as buttons."""
+        if control.raw is not None:
+            yield control.name, Sample(1, 0, 1)
+            return
+        yield control.name, Sample(control.value, control.minimum, control.maximum, control.relative, control.null)
+        if (control.usage_page, control.usage) != HAT:
+            return
+        hat = self._hats.setdefault(control.name, Hat())
+        angle = hat.angle(control)
+        for direction, at in DIRECTIONS:
+            name = f"{control.name} {direction}"
+            pressed = hat.first == direction if name in self.watched else points_to(angle, at)
+            yield name, Sample(int(pressed), 0, 1)
 
     def changes(self) -> Iterator[Change]:
         """What has been queued since the last call."""
@@ -127,26 +177,11 @@ def _counts(sample: Sample) -> bool:
 
 def _names(field: Field) -> list[str]:
     if field.usages is not None:
-        return [usage_name(*usage) for usage in field.usages.of(min(len(field.usages), _LONGEST_ARRAY))]
-    name = usage_name(field.usage_page, field.usage)
-    if (field.usage_page, field.usage) == _HAT:
-        return [name, *(f"{name} {direction}" for direction, _ in _DIRECTIONS)]
+        return [field.array_name(*usage) for usage in field.usages.of(min(len(field.usages), LONGEST_ARRAY))]
+    name = field.name
+    if (field.usage_page, field.usage) == HAT:
+        return [name, *(f"{name} {direction}" for direction, _ in DIRECTIONS)]
     return [name]
-
-
-def _expand(control: Control) -> Iterator[tuple[str, Sample]]:
-    """The control, and of a hat its four directions as buttons, two of them pressed when it points between them."""
-    if control.raw is not None:
-        yield control.name, Sample(1, 0, 1)
-        return
-    yield control.name, Sample(control.value, control.minimum, control.maximum, control.relative, control.null)
-    if (control.usage_page, control.usage) == _HAT:
-        places = control.maximum - control.minimum + 1
-        let_go = control.null or not control.minimum <= control.value <= control.maximum or places <= 0
-        angle = 0.0 if let_go else (control.value - control.minimum) * 360 / places
-        for direction, at in _DIRECTIONS:
-            towards = not let_go and abs((angle - at + 180) % 360 - 180) < _WITHIN
-            yield f"{control.name} {direction}", Sample(int(towards), 0, 1)
 
 
 def _released(gone: Collection[str], before: Mapping[str, Sample]) -> Iterator[tuple[str, Sample]]:

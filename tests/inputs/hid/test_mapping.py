@@ -79,7 +79,7 @@ def test_nothing_is_said_of_a_stick_while_its_centre_is_found_and_of_one_without
 def test_a_stick_that_is_held_when_first_seen_counts_from_the_middle_unless_the_mapping_is_a_guess() -> None:
     held = settled(mapped({"X": {"axis": "pan"}}), {"X": byte(255)})
     assert look(held, X=byte(255)).deflections == {Axis.PAN: 1}
-    assert list(held.uncentred) == ["X"]
+    assert list(held.uncentered) == ["X"]
     guessed = settled(mapped({"X": {"axis": "pan"}}, guessed=True), {"X": byte(255)})
     assert look(guessed, X=byte(255)).deflections == {}
 
@@ -99,10 +99,10 @@ def test_a_range_in_the_devices_numbers_replaces_its_own() -> None:
     assert look(ring, Wheel=Sample(0, -128, 127)).deflections == {Axis.PAN: 0}
 
 
-def test_a_slider_says_a_position_once_it_has_been_moved() -> None:
+def test_a_slider_is_where_it_was_first_seen_until_it_has_been_moved() -> None:
     slider = mapped({"Slider": {"axis": "focus", "by": "position"}})
-    assert look(slider, Slider=byte(51)).positions == {}
-    assert look(slider, Slider=byte(52)).positions == {}
+    assert look(slider, Slider=byte(51)).positions == {Axis.FOCUS: 0.2}
+    assert look(slider, Slider=byte(52)).positions == {Axis.FOCUS: 0.2}
     assert look(slider, Slider=byte(102)).positions == {Axis.FOCUS: 0.4}
     assert look(slider, Slider=byte(51)).positions == {Axis.FOCUS: 0.2}
 
@@ -245,3 +245,25 @@ def test_no_mapping_says_more_than_full(sections: Mapping[str, Any], reported: l
         assert all(-1 <= deflection <= 1 for deflection in held.deflections.values())
         assert all(0 <= position <= 1 for position in held.positions.values())
         assert -1 <= held.dial <= 1
+
+
+def test_where_a_stick_is_counts_as_no_clicks() -> None:
+    wheel = mapped({"X": {"axis": "pan", "by": "position"}}, relative=["X"])
+    assert not wheel.read({"X": byte(200)}, changes("X", (1.0, byte(200))), 1.0).steps[Axis.PAN]
+
+
+def test_a_puck_rests_at_zero() -> None:
+    puck = Mapped({"Rz": ControlSection(axis=Axis.PAN)}, puck=True)
+    held = puck.read({"Rz": Sample(70, -350, 350)}, (), 0.0)
+    assert held.deflections == {Axis.PAN: pytest.approx(0.2)}
+    assert not puck.finding
+    assert puck.read({"Rz": Sample(0, -350, 350)}, (), 1.0).deflections == {Axis.PAN: 0}
+
+
+def test_a_guessed_trigger_that_is_held_at_the_start_never_becomes_a_stick() -> None:
+    guessed = mapped({"Rx": {"axis": "roll"}, "Ry": {"axis": "focus"}}, guessed=True)
+    for index in range(60):
+        guessed.read({"Rx": byte(0), "Ry": byte(255)}, (), index / 100)
+    for index in range(60, 120):
+        assert not guessed.read({"Rx": byte(0), "Ry": byte(128)}, (), index / 100).deflections
+    assert not guessed.read({"Rx": byte(0), "Ry": byte(0)}, (), 2.0).deflections

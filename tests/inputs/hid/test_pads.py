@@ -51,7 +51,7 @@ def test_the_known_devices_with_a_shipped_mapping_are_these() -> None:
 
 
 def test_every_device_has_one_shipped_mapping() -> None:
-    devices = [(device.vendor, device.product) for pad in shipped() for device in pad.devices]
+    devices = [(device.vendor, device.product, device.driver) for pad in shipped() for device in pad.devices]
     assert len(devices) == len(set(devices))
 
 

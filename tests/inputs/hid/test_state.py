@@ -138,3 +138,23 @@ def test_nonsense_is_no_report() -> None:
     state = state_of("Sony DualShock 4", "usb")
     take(state, "", "ff", "6300112233")
     assert state.values == {}
+
+
+@pytest.mark.parametrize(("interval", "patience"), [(0.01, 0.2), (0.25, 0.625), (0.5, 1.25), (30.0, 0.2)])
+def test_how_long_a_silence_is_normal_is_learned_from_the_device(interval: float, patience: float) -> None:
+    state = HidState(parse_descriptor(bytes.fromhex(real("Logitech F310")["descriptor"])))
+    for index in range(12):
+        state.take(bytes.fromhex("7f7f7f7f08000000"), index * interval)
+    assert state.patience == pytest.approx(patience)
+    assert state.has_heartbeat is (0.2 < interval < 1)
+
+
+def test_a_roll_onto_a_diagonal_queues_no_press_of_the_neighbor() -> None:
+    state = HidState(parse_descriptor(bytes.fromhex(real("Logitech F310")["descriptor"])))
+    state.watched = {"Hat switch up", "Hat switch right"}
+    for hat in ("08", "00", "01", "02", "08"):
+        state.take(bytes.fromhex(f"7f7f7f7f{hat}000000"), 0)
+    assert [(change.name, change.sample.value) for change in state.changes()] == [
+        ("Hat switch up", 1),
+        ("Hat switch up", 0),
+    ]

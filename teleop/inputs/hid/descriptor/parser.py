@@ -3,7 +3,7 @@
 A descriptor is a program for a small machine: global items set its registers (which Push and Pop save), local items
 collect usages, and each Input item turns the two into fields, one behind the other in the report whose id is in force.
 Devices get it wrong in many ways, so nothing here raises: what can be read is read, and what cannot is a warning that
-names the byte. Outputs, features, collections, units and physical ranges move nothing that we read.
+names the byte. Outputs, features, units and physical ranges move nothing that we read.
 
 Sizes and counts are four bytes wide and a mad descriptor means them, so that fields are made up to a limit that no
 device comes near, while offsets go on being counted.
@@ -16,6 +16,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from teleop.inputs.hid.descriptor.fields import Field
+from teleop.inputs.hid.descriptor.identity import named, primary
 from teleop.inputs.hid.descriptor.items import Item, Kind, split
 from teleop.inputs.hid.descriptor.usages import Local, Usages
 
@@ -24,34 +26,9 @@ MAX_FIELD = 4_096  # bits; vendors' blobs are some hundreds
 MAX_REPORT_FIELDS = 8_192  # the fullest report seen has 546
 MAX_FIELDS = 65_536
 MAX_WARNINGS = 20
+MAX_COLLECTIONS = 256  # a receiver has a dozen
 
 _CONSTANT, _VARIABLE, _RELATIVE, _NULL = 1, 2, 4, 64  # bits of an Input item (6.2.2.5)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Field:
-    """One control of a report, or for an array the numbers that say which of its controls are on.
-
-    `bit` counts from behind the report's id byte, `size` is in bits; the value is little-endian, two's complement when
-    `signed`. `minimum` and `maximum` are the logical range. An array is `count` numbers of `size` bits, and has
-    `usages`: number `minimum` means the first of them; its own `usage_page` and `usage` are those of the first.
-    """
-
-    report_id: int
-    bit: int
-    size: int
-    usage_page: int
-    usage: int
-    minimum: int
-    maximum: int
-    relative: bool
-    has_null: bool
-    count: int = 1
-    usages: Usages | None = None
-
-    @property
-    def signed(self) -> bool:
-        return self.minimum < 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,13 +36,27 @@ class Descriptor:
     """The input fields in the order of the descriptor; those without a usage and constants are left out.
 
     When `numbered`, the first byte of every report is its id; otherwise the only report has id 0. `lengths` is the
-    bytes of each input report, its id included, as the descriptor has them.
+    bytes of each input report, its id included, as the descriptor has them. `collections` are the usages (page, usage)
+    of the top-level collections, (0, 0) for fields outside of any.
     """
 
     fields: Sequence[Field]
     numbered: bool
     warnings: Sequence[str] = ()
     lengths: Mapping[int, int] = field(default_factory=dict)
+    collections: Sequence[tuple[int, int]] = ()
+
+    @property
+    def purpose(self) -> tuple[int, int]:
+        """The usage of the collection that a mapping is guessed for, (0, 0) where there is none."""
+        index = primary(self.collections)
+        return (0, 0) if index is None else self.collections[index]
+
+    @property
+    def primary_fields(self) -> Sequence[Field]:
+        """The fields of that collection."""
+        index = primary(self.collections)
+        return [each for each in self.fields if each.collection == index]
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +95,8 @@ class _Machine:
         self._saved: list[_Global] = []
         self._local = Local(self._warn)
         self._open = 0  # collections
+        self._collections: list[tuple[int, int]] = []  # the top-level ones, by their usages
+        self._collection: int | None = None  # the index of the one that is open
         self._pending = False  # whether items have come that the next main item is to use
         self._fields: list[Field] = []
         self._per_report: Counter[int] = Counter()  # fields
@@ -140,7 +133,8 @@ class _Machine:
             warnings.append("inputs come before the first report id and are in no report of this device")
         prefix = 1 if self._numbered else 0
         lengths = {number: prefix + min((bits + 7) // 8, MAX_REPORT) for number, bits in self._bits.items()}
-        return Descriptor(tuple(self._fields), self._numbered, tuple(warnings), lengths)
+        fields = tuple(named(self._fields, self._collections))
+        return Descriptor(fields, self._numbered, tuple(warnings), lengths, tuple(self._collections))
 
     def _warn(self, text: str) -> None:
         self._warnings.setdefault(text, self._at)
@@ -152,6 +146,8 @@ class _Machine:
             case 0x8:
                 self._input(item.unsigned, usages)
             case 0xA:
+                if not self._open:
+                    self._begin_collection(usages)
                 self._open += 1
             case 0xC:
                 self._end_collection()
@@ -160,10 +156,19 @@ class _Machine:
             case _:
                 self._warn("a reserved main item; skipped")
 
+    def _begin_collection(self, usages: Usages) -> None:
+        if len(self._collections) >= MAX_COLLECTIONS:
+            self._warn(f"more than {MAX_COLLECTIONS} collections: the rest count as one")
+        else:
+            self._collections.append(usages.at(0) or (0, 0))
+        self._collection = len(self._collections) - 1
+
     def _end_collection(self) -> None:
         if not self._open:
             self._warn("a collection ends that did not begin")
         self._open = max(self._open - 1, 0)
+        if not self._open:
+            self._collection = None
 
     def _set(self, item: Item) -> None:
         number, state = item.unsigned, self._global
@@ -225,10 +230,17 @@ class _Machine:
         count = self._room(bit, state)
         if not count:
             return
+        if self._collection is None:  # an input outside of any collection
+            self._collections.append((0, 0))
+            self._collection = len(self._collections) - 1
         low, high = state.range
         if high < low:
             self._warn(f"a logical maximum of {high} is below the minimum of {low}")
-        traits = {"relative": bool(flags & _RELATIVE), "has_null": bool(flags & _NULL)}
+        traits = {
+            "relative": bool(flags & _RELATIVE),
+            "has_null": bool(flags & _NULL),
+            "collection": self._collection,
+        }
 
         def made(bit: int, page: int, usage: int, **array: Any) -> Field:
             return Field(state.report_id, bit, state.size, page, usage, low, high, **traits, **array)

@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-from teleop.inputs.hid.descriptor.names import usage_name
-from teleop.inputs.hid.descriptor.parser import Descriptor, Field
+from teleop.inputs.hid.descriptor.fields import Field
+from teleop.inputs.hid.descriptor.parser import Descriptor
 
 
 class Control(NamedTuple):
@@ -96,7 +96,7 @@ def _on(field: Field, number: int) -> Control | None:
     found = field.usages.at(number - low)
     if found is None or not found[1]:
         return None
-    return Control(field.report_id, *found, usage_name(*found), 1, low, high, field.relative, False, number)
+    return Control(field.report_id, *found, field.array_name(*found), 1, low, high, field.relative, False, number)
 
 
 @lru_cache(maxsize=64)  # devices plugged in at one time; a descriptor is itself, so that looking it up costs nothing
@@ -108,7 +108,7 @@ def _plans(descriptor: Descriptor) -> Mapping[int, Sequence[_Row]]:
 
 
 def _rows(field: Field) -> list[_Row]:
-    name = usage_name(field.usage_page, field.usage)
+    name = field.name
     sign = 1 << (field.size - 1) if field.signed else 0
     ready = None
     if field.size == 1 and field.usages is None:

@@ -51,7 +51,7 @@ def test_only_what_is_odd_about_a_published_descriptor_is_warned_of() -> None:
     ("descriptor", "report", "controls"),
     [
         pytest.param("0930 81 02".join((JOYSTICK + BYTE + "01", "c0")), "07", [("X", 7)], id="plain"),
-        pytest.param(f"{JOYSTICK}{BYTE}02 0930 8102", "0708", [("X", 7), ("X", 8)], id="the last usage is repeated"),
+        pytest.param(f"{JOYSTICK}{BYTE}02 0930 8102", "0708", [("X", 7), ("X 2", 8)], id="the last usage is repeated"),
         pytest.param(f"{JOYSTICK}{BYTE}01 0930 0931 8102", "07", [("X", 7)], id="more usages than fields"),
         pytest.param(f"{JOYSTICK}{BYTE}01 8102 0930 8102", "0708", [("X", 8)], id="no usage: left out, its bits count"),
         pytest.param(f"{JOYSTICK}{BYTE}01 0931 8103 0930 8102", "0708", [("X", 8)], id="a constant with a usage"),
@@ -67,7 +67,7 @@ def test_only_what_is_odd_about_a_published_descriptor_is_warned_of() -> None:
         pytest.param(f"0509 {BYTE}03 1b30000100 2b32000100 8102", "070809", [("X", 7), ("Y", 8), ("Z", 9)], id="a range with its page"),  # noqa: E501
         pytest.param(f"0501 {BYTE}03 1930 2931 0935 8102", "070809", [("X", 7), ("Y", 8), ("Rz", 9)], id="a range, then a usage"),  # noqa: E501
         pytest.param(f"0501 {BYTE}03 0935 2931 1930 8102", "070809", [("Rz", 7), ("X", 8), ("Y", 9)], id="the maximum first"),  # noqa: E501
-        pytest.param(f"0501 {BYTE}03 1930 2931 8102", "070809", [("X", 7), ("Y", 8), ("Y", 9)], id="a range too short"),
+        pytest.param(f"0501 {BYTE}03 1930 2931 8102", "070809", [("X", 7), ("Y", 8), ("Y 2", 9)], id="a range too short"),  # noqa: E501
         pytest.param(f"0509 {BYTE}02 2903 8102", "0708", [("Button 0x9:0x0", 7), ("Button 1", 8)], id="a maximum only"),
         pytest.param(f"0501 {BYTE}01 1930 29ff 8102", "07", [("X", 7)], id="a range too long"),
         pytest.param(f"0501 {BYTE}02 0930 0502 09c5 8102", "0708", [("X", 7), ("Brake", 8)], id="pages between usages"),
