@@ -27,7 +27,7 @@ from teleop.app.planning import plan_content, plan_file
 from teleop.app.program import BusyError, EventJob, JogJob, MoveJob, StoppedError
 from teleop.app.session import Session, shortest_seconds
 from teleop.app.session_play import AxisReport, Report, play
-from teleop.config.document import DocumentError, UnplayableError
+from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.config.profile import Profile, load_profile
 from teleop.core.axes import STICKS, Axis, State
 from teleop.core.errors import DeviceError, LinkError, TeleopError, UsageError

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from teleop.config.base_model import Section
+from teleop.config.documents.base_model import Section
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from teleop.app.move import Move
 from teleop.app.program import SourceJob, StoppedError
 from teleop.app.session import Session
-from teleop.config.document import UnplayableError
+from teleop.config.documents.document import UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError, LinkError, UsageError
 from teleop.core.events import Action

@@ -13,7 +13,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Literal
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import CameraSection
 from teleop.core.control_loop import ControlLoop, StallError

@@ -18,7 +18,7 @@ import teleop
 from teleop.cli.examples import examples
 from teleop.cli.signals import process
 from teleop.cli.staging_options import joined
-from teleop.config.document import DocumentError, UnplayableError
+from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.errors import LeaveAtOnce, TeleopError, UsageError
 
 MOST_SAID = 50  # problems of a file: more are not mended at a time
@@ -32,7 +32,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "list": ("teleop.cli.shipped_files:list_shipped", "List the shipped moves, rigs and pads."),
     "copy": ("teleop.cli.shipped_files:copy", "Copy a shipped move, rig or pad to a file of yours."),
     "take": ("teleop.cli.take.commands:app", "List, report, export and repair recorded runs."),
-    "calibrate": ("teleop.cli.calibrate:app", "Measure the delay and the signs of a gimbal for its profile."),
+    "calibrate": ("teleop.cli.calibration.delay:app", "Measure the delay and the signs of a gimbal for its profile."),
     "devices": ("teleop.cli.record_device:app", "List CAN interfaces, serial ports and HID devices."),
     "doctor": ("teleop.cli.doctor.command:doctor", "Check what this machine can do, and what it lacks."),
     "send": ("teleop.cli.send.gimbal:send", "Send one command to a gimbal, camera, focus motor or drone."),
@@ -47,7 +47,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
 # These have examples of their own, and so has send, whose help is made in send_help.
 _GROUPS = (
     "teleop.cli.take.commands:app",
-    "teleop.cli.calibrate:app",
+    "teleop.cli.calibration.delay:app",
     "teleop.cli.record_device:app",
     "teleop.cli.codec.decode:app",
     "teleop.cli.codec.encode:app",

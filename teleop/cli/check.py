@@ -16,7 +16,7 @@ from teleop.app.planning import Plan
 from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
 from teleop.cli.screens.folded import tell
 from teleop.cli.shipped_files import named
-from teleop.cli.timelapse_summary import facts, summary
+from teleop.cli.shooting.timelapse_summary import facts, summary
 
 
 def check(

@@ -26,7 +26,7 @@ from teleop.cli.codec.drone_options import Model, cipher_of
 from teleop.cli.codec.format_message import line
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.signals import signals_to
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.core.clock import SystemClock
 from teleop.dji.drone.onboard_sdk import MODELS

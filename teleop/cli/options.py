@@ -14,7 +14,7 @@ from cyclopts import Parameter, Token
 from teleop.app.planning import Plan, plan_file
 from teleop.cli.completion import offered
 from teleop.cli.screens.folded import complain, tell
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.files import is_stdout
 from teleop.config.profile import Profile, load_profile
 from teleop.recording.writer import ENDING

@@ -25,11 +25,11 @@ from teleop.cli.screens.run_rows import NO_KEYS, RUN_HINTS
 from teleop.cli.screens.run_view import RunView
 from teleop.cli.screens.take_summary import take_words
 from teleop.cli.shipped_files import named
-from teleop.cli.shoot_options import NOTHING_ASKED, ShootOptions
+from teleop.cli.shooting.options import NOTHING_ASKED, ShootOptions
 from teleop.cli.signals import signals_to
 from teleop.cli.staging_options import NO_STAGING, StagingOptions
 from teleop.cli.trim_options import NO_TRIM, TrimOptions, TrimReport
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.clock import SystemClock, VirtualClock
@@ -104,7 +104,7 @@ AS_WRITTEN = Ordered("100%", NO_STAGING, NO_TRIM)
 def _shoot(
     file: str, plan: Plan, ordered: Ordered, shooting: ShootOptions, fast: bool, take: Path | None, options: Options
 ) -> int:
-    from teleop.cli.shoot import shoot
+    from teleop.cli.shooting.shoot import shoot
 
     if ordered != AS_WRITTEN:
         raise DocumentError([f"{file} is a timelapse: --speed, --trim and the options of passes need --rehearse"])

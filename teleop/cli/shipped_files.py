@@ -12,8 +12,8 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from teleop.config.document import DocumentError
-from teleop.config.messages import nearest
+from teleop.config.documents.document import DocumentError
+from teleop.config.documents.messages import nearest
 from teleop.config.resources import described, folder, is_bare
 from teleop.core.errors import DeviceError, UsageError
 

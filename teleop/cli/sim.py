@@ -11,7 +11,7 @@ from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.screens.refusal_lines import RefusalLines
 from teleop.cli.signals import signals_to
 from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, DroneSim, GimbalSim
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError
 from teleop.links import ClosableLink, open_link, parse

@@ -14,9 +14,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import Final
 
-from teleop.config.document import Document, DocumentError
+from teleop.config.documents.document import Document, DocumentError
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.folders import config_folder
-from teleop.config.yaml_loader import read_document
 from teleop.dji.drone.encryption import Cipher, CipherError, key_from_hex
 from teleop.dji.drone.messages import Activate
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from teleop.config.messages import nearest
+from teleop.config.documents.messages import nearest
 from teleop.core.events import DeviceCommand
 from teleop.dji.gimbal.command_table import RIG, find
 

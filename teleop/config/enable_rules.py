@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
-from teleop.config.document import DocumentError, Wrong, mapping, sequence
+from teleop.config.documents.document import DocumentError, Wrong, mapping, sequence
 from teleop.config.inputs_section import DIRECTIONS, ControlSection
 from teleop.config.pad_file import load_pad
 from teleop.core.operator_input import Command

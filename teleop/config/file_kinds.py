@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from teleop.config.document import Document, DocumentError
+from teleop.config.documents.document import Document, DocumentError
 
 MARKS: Mapping[str, frozenset[str]] = {
     "sequence": frozenset({"keyframes", "panorama", "include"}),

@@ -12,9 +12,9 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, field_validator
 
-from teleop.config.base_model import Finite, Section
 from teleop.config.device_commands import DRONE, parse_command
-from teleop.config.document import DocumentError, Location, Wrong, mapping, sequence
+from teleop.config.documents.base_model import Finite, Section
+from teleop.config.documents.document import DocumentError, Location, Wrong, mapping, sequence
 from teleop.config.resources import find
 from teleop.core.axes import STICKS, Axis
 from teleop.core.operator_input import Command

@@ -10,8 +10,8 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, model_validator
 
-from teleop.config.base_model import Section
-from teleop.config.json_types import Time
+from teleop.config.documents.base_model import Section
+from teleop.config.documents.json_types import Time
 from teleop.config.quantities import seconds
 
 DEAD_ZONE = 0.06  # of a stick in use, when the profile has none

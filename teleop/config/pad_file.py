@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import PADS, PadSection, control_rules
 from teleop.config.resources import find
-from teleop.config.yaml_loader import read_document
 
 
 def load_pad(name: str) -> PadSection:

@@ -20,11 +20,11 @@ from typing import Any
 
 from pydantic import Field
 
-from teleop.config.base_model import PositionsSection, Section
-from teleop.config.document import Wrong, mapping, number
+from teleop.config.documents.base_model import PositionsSection, Section
+from teleop.config.documents.document import Wrong, mapping, number
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.files import OutputError, write_text
 from teleop.config.folders import state_folder
-from teleop.config.yaml_loader import read_document
 from teleop.core.axes import Axis, Limits
 
 DIGITS = 4  # behind the point: finer than any gimbal measures

@@ -14,9 +14,10 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from teleop.config.base_model import Finite, Section
 from teleop.config.device_commands import DRONE
-from teleop.config.document import Document, DocumentError, Wrong, mapping, number
+from teleop.config.documents.base_model import Finite, Section
+from teleop.config.documents.document import Document, DocumentError, Wrong, mapping, number
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.enable_rules import enable_rules
 from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import InputSection, input_rules
@@ -32,7 +33,6 @@ from teleop.config.sinks_section import (
     SinkSection,
     VirtualRcSection,
 )
-from teleop.config.yaml_loader import read_document
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Action, DeviceCommand, Exposure
 from teleop.links.url import LinkUrlError, parse

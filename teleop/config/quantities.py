@@ -8,8 +8,8 @@ import math
 import re
 from typing import Any
 
+from teleop.config.documents.messages import decimal_comma, shown
 from teleop.config.frame_rates import drops, exact, exact_rate, frame_of, is_dropped, shown_rate, whole_rate
-from teleop.config.messages import decimal_comma, shown
 
 _PARTS = re.compile(r"(?:([0-9]+(?:\.[0-9]+)?)h)?(?:([0-9]+(?:\.[0-9]+)?)m)?(?:([0-9]+(?:\.[0-9]+)?)s)?")
 _FRAMES = re.compile(r"([0-9]+)f")

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from teleop.config.document import DocumentError
-from teleop.config.messages import nearest
+from teleop.config.documents.document import DocumentError
+from teleop.config.documents.messages import nearest
 
 _PACKAGE = Path(__file__).parents[1]
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from teleop.config.document import Location, Wrong, mapping, number, sequence
+from teleop.config.documents.document import Location, Wrong, mapping, number, sequence
 from teleop.config.sinks_section import DRONES, FLIGHT_MODES, MOVES, combination_of
 from teleop.core.axes import STICKS, Axis
 from teleop.links.url import LinkUrlError, parse

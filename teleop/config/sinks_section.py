@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from teleop.config.base_model import NoTruth, Section
+from teleop.config.documents.base_model import NoTruth, Section
 from teleop.config.wiring import Wiring
 from teleop.core.axes import STICKS, Axis
 from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, ReferenceFrame, Vertical, Yaw

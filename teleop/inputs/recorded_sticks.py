@@ -14,8 +14,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from teleop.config.document import DocumentError
-from teleop.config.messages import nearest
+from teleop.config.documents.document import DocumentError
+from teleop.config.documents.messages import nearest
 from teleop.core.axes import Axis, Motion
 from teleop.core.events import TickEvent
 from teleop.core.interfaces import Feedback

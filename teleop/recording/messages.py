@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis, Limits
 from teleop.recording.format import ABOUT, CUT, END, FORMAT, LIMITS, About
 from teleop.recording.records import Progress, whole_records

@@ -12,7 +12,7 @@ from pathlib import Path
 from struct import error as StructError  # noqa: N812 - it is an error
 from typing import TYPE_CHECKING
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 
 if TYPE_CHECKING:
     from mcap.records import McapRecord

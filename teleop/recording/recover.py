@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.recording.format import ABOUT, CUT, END, ending_record
 from teleop.recording.messages import Messages, about, reading_errors
 from teleop.recording.records import Progress, whole_records

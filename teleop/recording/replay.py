@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from teleop.config.document import UnplayableError
+from teleop.config.documents.document import UnplayableError
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.events import Action

@@ -11,7 +11,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from teleop.config.document import ENTRIES, DocumentError, UnplayableError, path_text
+from teleop.config.documents.document import ENTRIES, DocumentError, UnplayableError, path_text
 from teleop.config.quantities import seconds
 from teleop.config.resources import find
 from teleop.core.axes import Axis, Limits

@@ -13,10 +13,10 @@ from typing import Any, Literal, NamedTuple
 
 from pydantic import ConfigDict
 
-from teleop.config.base_model import Section
 from teleop.config.device_commands import parse_command
-from teleop.config.document import Location, Wrong, mapping
-from teleop.config.json_types import Time
+from teleop.config.documents.base_model import Section
+from teleop.config.documents.document import Location, Wrong, mapping
+from teleop.config.documents.json_types import Time
 from teleop.core.axes import Axis
 from teleop.core.events import Action, DeviceCommand, TickEvent
 from teleop.dji.gimbal import camera, focus

@@ -9,8 +9,8 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from teleop.config.document import Wrong, mapping, sequence
-from teleop.config.messages import nearest, shown
+from teleop.config.documents.document import Wrong, mapping, sequence
+from teleop.config.documents.messages import nearest, shown
 from teleop.config.quantities import seconds
 from teleop.core.axes import Axis
 from teleop.planner.keyframes.ramp import LONGEST_SHARE, NAMES, SMOOTH, Ramp

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from teleop.config.document import Document, numbered
+from teleop.config.documents.document import Document, numbered
 from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.keys import Key

@@ -7,9 +7,9 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, ConfigDict, Field
 
-from teleop.config.base_model import Finite, PositionsSection, Section
+from teleop.config.documents.base_model import Finite, PositionsSection, Section
+from teleop.config.documents.json_types import Ease, Percentage, Time
 from teleop.config.frame_rates import exact_rate
-from teleop.config.json_types import Ease, Percentage, Time
 from teleop.core.axes import Axis
 from teleop.planner.keyframes.repeat import Repeat
 from teleop.sequence.cues import CueSection

@@ -14,9 +14,9 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import Field
 
-from teleop.config.base_model import Finite, Section
-from teleop.config.document import Wrong, mapping, number, numbered, sequence
-from teleop.config.json_types import MOST_OVERLAP, Overlap, Time
+from teleop.config.documents.base_model import Finite, Section
+from teleop.config.documents.document import Wrong, mapping, number, numbered, sequence
+from teleop.config.documents.json_types import MOST_OVERLAP, Overlap, Time
 from teleop.config.quantities import percentage, seconds
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.keys import Key

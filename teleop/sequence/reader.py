@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from teleop.config.document import Document, DocumentError, mapping, numbered, sequence
+from teleop.config.documents.document import Document, DocumentError, mapping, numbered, sequence
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.quantities import percentage, seconds
 from teleop.config.resources import find, is_bare
-from teleop.config.yaml_loader import read_document
 from teleop.core.axes import STICKS, Axis, Limits
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.rules import file_rules, rig_rules

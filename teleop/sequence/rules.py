@@ -7,8 +7,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from typing import Any
 
-from teleop.config.document import Location, Wrong, mapping, number, numbered, sequence
-from teleop.config.messages import ALIASES, missing_space
+from teleop.config.documents.document import Location, Wrong, mapping, number, numbered, sequence
+from teleop.config.documents.messages import ALIASES, missing_space
 from teleop.config.quantities import frame_rate, frames, percentage, seconds
 from teleop.core.axes import STICKS, Axis, Limits
 from teleop.sequence.cues import cue_rules

@@ -11,10 +11,10 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from teleop.config.base_model import Section
-from teleop.config.document import Location, Wrong, mapping, number, sequence
-from teleop.config.json_types import Interval, Settle, Time
-from teleop.config.messages import shown
+from teleop.config.documents.base_model import Section
+from teleop.config.documents.document import Location, Wrong, mapping, number, sequence
+from teleop.config.documents.json_types import Interval, Settle, Time
+from teleop.config.documents.messages import shown
 from teleop.config.quantities import frame_rate, frames, seconds
 
 MOST = 100_000  # frames: more than an hour of clip

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from teleop.config.document import Document, Location, numbered
+from teleop.config.documents.document import Document, Location, numbered
 from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Action

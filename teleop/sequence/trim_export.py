@@ -12,10 +12,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from teleop.config.document import Document, DocumentError, Location, mapping, number, sequence
+from teleop.config.documents.document import Document, DocumentError, Location, mapping, number, sequence
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.files import check_place, is_stream, write_text
 from teleop.config.resources import find
-from teleop.config.yaml_loader import read_document
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.errors import UsageError
 

@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teleop.config.document import Document, DocumentError, UnplayableError
+from teleop.config.documents.document import Document, DocumentError, UnplayableError
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.frame_rates import shown_rate
 from teleop.config.quantities import seconds
 from teleop.config.resources import find
-from teleop.config.yaml_loader import read_document
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.findings import Infeasible
 from teleop.planner.keyframes.planner import Key, stretch

@@ -9,7 +9,7 @@ import pytest
 from command import teleop
 
 from teleop.app.absent_devices import open_present
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile, load_profile
 from teleop.core.axes import STICKS, Axis
 from teleop.core.clock import VirtualClock

@@ -13,10 +13,10 @@ from command import teleop
 from jsonschema import Draft202012Validator
 
 from teleop.app.json_schema import KINDS, schema
-from teleop.config.document import Document, DocumentError
+from teleop.config.documents.document import Document, DocumentError
+from teleop.config.documents.yaml_loader import parse_document
 from teleop.config.profile import Profile
 from teleop.config.resources import folder
-from teleop.config.yaml_loader import parse_document
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.rules import file_rules
 from teleop.sequence.timeline import Timeline

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from teleop.app.planning import is_take, plan_content, plan_file
-from teleop.config.document import DocumentError, UnplayableError
+from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.config.profile import load_profile
 
 KEYS = [{"at": 0, "pan": 0}, {"at": 1, "pan": 20}]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from teleop.cli.options import Options, announce, announce_json
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 
 
 def test_a_link_replaces_the_profiles_own():

@@ -8,7 +8,7 @@ import pytest
 
 from teleop.cli import run
 from teleop.cli.play import percentage, the_clock
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import load_profile
 from teleop.core.clock import SystemClock, VirtualClock
 

@@ -10,11 +10,11 @@ import pytest
 from sequences import RIGS
 from teleop.cli import run
 from teleop.cli.shipped_files import FOLDERS
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.pad_file import load_pad
 from teleop.config.profile import load_profile
 from teleop.config.resources import described, folder
-from teleop.config.yaml_loader import read_document
 from teleop.sequence.compile import load_sequence
 
 EVERYTHING = [(kind, name) for kind, place in FOLDERS.items() for name in described(place)]

@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from sequences import LIMITS, load, problems_of
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.sequence.compile import load_sequence
 
 SOON = 4.0  # s of this thread's own work, whatever else the machine does; each takes less than one

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from teleop.config.credentials import Credentials, default_file, load_credentials
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.dji.drone.messages import Activate
 
 ID, KEY = 1030093, "00112233445566778899aabbccddeeff0123456789abcdeffedcba9876543210"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.file_kinds import kind_of
 from teleop.config.pad_file import load_pad
 from teleop.config.profile import load_profile

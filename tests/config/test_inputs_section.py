@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile, load_profile
 from teleop.core.operator_input import Command
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.pad_file import load_pad
 from teleop.config.resources import described
 

@@ -11,7 +11,7 @@ from hands import LIMITS
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.presets import Preset, Presets, default_file, read_presets, write_presets
 from teleop.core.axes import Axis
 from teleop.core.errors import UsageError

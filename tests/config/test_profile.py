@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import load_profile
 from teleop.config.resources import find, folder
 from teleop.core.axes import STICKS, Axis

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from drone_fault_bench import READY, VIRTUAL_RC, DroneFaultBench, drone_fault_bench
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.operator_input import Command
 from teleop.core.run_state import Result
 from teleop.devices.drone.engagement import LAST_NEUTRALS, Stage

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from fakes import NO_FEEDBACK
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis, State
 from teleop.core.setpoints import VelocityTarget
 from teleop.inputs.recorded_sticks import MAX_PROBLEMS, SticksSource, read_sticks

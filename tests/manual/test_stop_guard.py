@@ -11,7 +11,7 @@ from hands import FakeInput
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teleop.app.calibration_move import CalibrationMove
+from teleop.app.calibration.calibration_move import CalibrationMove
 from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.errors import DeviceError, Interrupted
 from teleop.core.events import Action, DeviceCommand, TickEvent

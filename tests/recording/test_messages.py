@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from made_takes import LIMITS, STARTED, at_rest, write_take
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis, Limits
 from teleop.recording.format import CUT, About
 from teleop.recording.messages import Ending, Messages, about, ending, was_cut

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_takes import at_rest, write_take
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis
 from teleop.recording.records import Progress, whole_records
 

@@ -17,7 +17,7 @@ from made_takes import write_take
 from mcap.reader import make_reader
 from waiting import wait_until
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis, State
 from teleop.core.events import Action
 from teleop.recording.reader import read_take

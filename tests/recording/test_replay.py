@@ -9,7 +9,7 @@ import pytest
 from command import teleop
 from mcap.reader import make_reader
 
-from teleop.config.document import DocumentError, UnplayableError
+from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
 from teleop.recording.reader import read_take

@@ -7,7 +7,7 @@ import pytest
 
 import teleop
 from sequences import RIGS, load, problems_of
-from teleop.config.document import UnplayableError
+from teleop.config.documents.document import UnplayableError
 from teleop.config.profile import load_profile
 from teleop.config.resources import folder
 from teleop.core.axes import Axis

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from sequences import load, problems_of
-from teleop.config.document import DocumentError, UnplayableError
+from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action, DeviceCommand
 from teleop.sequence.cues import Cue, Wait

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import wire
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import load_profile
 from teleop.core.clock import VirtualClock
 from teleop.core.run_state import Result

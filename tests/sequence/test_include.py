@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from sequences import LIMITS, load, problems_of
-from teleop.config.document import DocumentError, UnplayableError
+from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
 from teleop.sequence.compile import load_sequence

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sequences import load, problems_of
-from teleop.config.document import UnplayableError
+from teleop.config.documents.document import UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
 from teleop.sequence.panorama import centers, grid

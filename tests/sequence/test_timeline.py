@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sequences import LIMITS
-from teleop.config.yaml_loader import read_document
+from teleop.config.documents.yaml_loader import read_document
 from teleop.core.axes import Axis
 from teleop.planner.keyframes.keys import Key
 from teleop.sequence.model import SequenceModel

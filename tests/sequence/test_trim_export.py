@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.files import OutputError
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.errors import UsageError

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from teleop.config.base_model import Section
+from teleop.config.documents.base_model import Section
 
 
 class Part(Section):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis, Limits
 from teleop.sequence.compile import CompiledSequence, load_sequence
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from teleop.config.document import DocumentError, UnplayableError
+from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis, Limits
 from teleop.timelapse.compile import Timelapse, load_timelapse
 from teleop.timelapse.schedule import Schedule

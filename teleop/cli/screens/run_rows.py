@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from rich.cells import cell_len
 from rich.text import Text
 
-from teleop.cli.timelapse_summary import clock
+from teleop.cli.shooting.timelapse_summary import clock
 from teleop.core.run_status import Hint, RunStatus, StopState
 from teleop.manual.stop_guard import STOPPED, STOPPING
 

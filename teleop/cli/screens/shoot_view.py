@@ -14,7 +14,7 @@ from rich.text import Text
 
 from teleop.cli.screens.run_rows import labelled
 from teleop.cli.screens.run_view import RunView
-from teleop.cli.timelapse_summary import clock
+from teleop.cli.shooting.timelapse_summary import clock
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Tick
 from teleop.core.run_status import Hint, RunStatus

@@ -15,7 +15,7 @@ from teleop.cli.codec.format_message import in_units
 from teleop.cli.options import Options
 from teleop.cli.send.one_shot import opened, tell
 from teleop.config.credentials import APP_KEY, load_credentials
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError

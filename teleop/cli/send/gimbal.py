@@ -19,7 +19,7 @@ from teleop.cli.options import DEFAULTS, Options, whole
 from teleop.cli.send.drone import send_drone
 from teleop.cli.send.help import print_help
 from teleop.cli.send.one_shot import opened, tell
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError

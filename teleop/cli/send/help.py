@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Iterator, Sequence
 
 from teleop.cli.examples import examples
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.dji.command_parser import Vocabulary, help_of
 from teleop.dji.drone.command_table import DRONE
 from teleop.dji.gimbal.command_table import RIG

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from teleop.cli.screens.folded import complain
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.files import check_place, is_stream
 from teleop.core.errors import UsageError
 from teleop.recording.messages import Ending

@@ -14,7 +14,7 @@ from cyclopts import Parameter
 
 from teleop.cli.screens.folded import tell
 from teleop.cli.take.options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_as_json, say
-from teleop.config.document import UnplayableError
+from teleop.config.documents.document import UnplayableError
 from teleop.config.files import replacing
 from teleop.core.axes import Axis
 from teleop.core.errors import UsageError

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice
 
 UNPLUGGED, PLUGGED = "unplugged", "plugged"

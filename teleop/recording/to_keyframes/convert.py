@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from teleop.config.document import UnplayableError
+from teleop.config.documents.document import UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
 from teleop.planner.keyframes.qp import HEADROOM

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from teleop.config.document import UnplayableError
+from teleop.config.documents.document import UnplayableError
 from teleop.core.axes import Axis, Limits
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take

@@ -12,7 +12,7 @@ from waiting import wait_until
 
 from teleop.cli import run
 from teleop.cli.send.drone import Exchange, asked_for, readable, refusal
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.clock import VirtualClock
 from teleop.core.errors import DeviceError
 from teleop.dji.drone import messages as drone

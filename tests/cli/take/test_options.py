@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from teleop.cli.take.options import ending_facts, length, place, problems_as_json
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.core.errors import UsageError
 
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.inputs_section import InputSection, input_rules
-from teleop.config.yaml_loader import read_document
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Command
 from teleop.inputs.hid.descriptor.names import USAGES

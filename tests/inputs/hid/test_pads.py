@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from fake_hid import GAMEPAD, JOYSTICK, PLUGGED, vectors
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 from teleop.config.inputs_section import InputSection
 from teleop.config.pad_file import load_pad
 from teleop.core.axes import Axis

@@ -12,7 +12,7 @@ from command import teleop
 from made_takes import LIMITS, at_rest, write_take
 
 from teleop.cli import run
-from teleop.config.document import UnplayableError
+from teleop.config.documents.document import UnplayableError
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.events import Action, DeviceCommand

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from made_takes import write_take
 
-from teleop.config.document import UnplayableError
+from teleop.config.documents.document import UnplayableError
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.planner import Key, plan
 from teleop.recording.reader import read_take

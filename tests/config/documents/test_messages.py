@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from teleop.config.document import DocumentError
-from teleop.config.messages import unknown_key
+from teleop.config.documents.document import DocumentError
+from teleop.config.documents.messages import unknown_key
 from teleop.config.profile import load_profile
 from teleop.sequence.compile import load_sequence
 

@@ -7,8 +7,8 @@ from documents import Whole
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teleop.config.document import DocumentError
-from teleop.config.yaml_loader import parse_document, read_document
+from teleop.config.documents.document import DocumentError
+from teleop.config.documents.yaml_loader import parse_document, read_document
 
 
 @pytest.mark.parametrize(

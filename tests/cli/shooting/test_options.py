@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from teleop.cli.shoot_options import ShootOptions
-from teleop.config.document import DocumentError
+from teleop.cli.shooting.options import ShootOptions
+from teleop.config.documents.document import DocumentError
 
 
 @pytest.mark.parametrize("options", [ShootOptions(), ShootOptions(resume=True), ShootOptions(in_doubt="skip")])

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 import pytest
 from pydantic import ValidationError
 
-from teleop.config.base_model import NoTruth, PositionsSection, Section
+from teleop.config.documents.base_model import NoTruth, PositionsSection, Section
 from teleop.core.axes import Axis
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from teleop.app.sign_probe import SignProbe
+from teleop.app.calibration.sign_probe import SignProbe
 from teleop.cli import run
 from teleop.config.profile import Profile, load_profile
 from teleop.config.sinks_section import GimbalSection

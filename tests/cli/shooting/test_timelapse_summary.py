@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from teleop.app.planning import plan_file
-from teleop.cli.timelapse_summary import clock, facts, summary
+from teleop.cli.shooting.timelapse_summary import clock, facts, summary
 from teleop.config.profile import load_profile
 
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import pytest
 from silent_screen import SilentScreen, no_signals
 
-from teleop.app.measure_delay import SWINGS, DelayReport, measure_delay
+from teleop.app.calibration.measure_delay import SWINGS, DelayReport, measure_delay
 from teleop.app.run import Signals
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
@@ -23,7 +23,7 @@ from teleop.sim.gimbal.device import SimulatedGimbal
 def measured(axis: Axis = Axis.PAN, signals: Signals = no_signals) -> DelayReport:
     screen = SilentScreen()
     return measure_delay(
-        load_profile("sim"), axis, VirtualClock(), lambda *_: screen, signals, screen.say, virtual=True
+        load_profile("sim"), axis, VirtualClock(), lambda *_: screen, signals, screen.say, None, virtual=True
     )
 
 
@@ -57,7 +57,7 @@ def test_a_run_that_is_interrupted_has_no_delay():
     ],
 )
 def test_what_is_no_delay_is_an_error(monkeypatch: pytest.MonkeyPatch, found: Delay | None, error: str):
-    monkeypatch.setattr("teleop.app.measure_delay.estimate", lambda *_: found)
+    monkeypatch.setattr("teleop.app.calibration.measure_delay.estimate", lambda *_: found)
     with pytest.raises(DeviceError, match=error):
         measured()
 

@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 
+from teleop.app.calibration.sign_probe import SignProbe, Signs
 from teleop.app.run import Signals
-from teleop.app.sign_probe import SignProbe, Signs
 from teleop.app.stop_inputs import guarded
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import GimbalSection

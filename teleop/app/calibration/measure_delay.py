@@ -11,7 +11,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from statistics import fmean, stdev
 
-from teleop.app.calibration_move import CalibrationMove
+from teleop.app.calibration.calibration_move import CalibrationMove
 from teleop.app.run import Screen, Signals
 from teleop.app.stop_inputs import guarded
 from teleop.config.profile import Profile

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from teleop.config.messages import PHRASES, likely_key, missing_space, unknown_key
+from teleop.config.documents.messages import PHRASES, likely_key, missing_space, unknown_key
 from teleop.core.errors import UsageError
 
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ class Document:
         path = self._path(detail["loc"][:-1] if is_key else detail["loc"])
         kind = detail["type"]
         if kind == "extra_forbidden":
-            from teleop.config.model_keys import keys_at, renamed_at
+            from teleop.config.documents.model_keys import keys_at, renamed_at
 
             level, key = detail["loc"][:-1], str(path[-1])
             return self.key_problem(path, unknown_key(key, keys_at(model, level), renamed_at(model, level)))
@@ -182,7 +182,7 @@ def joined(subject: str, text: str) -> str:
 
 def _without_misspelled(model: type[BaseModel], details: Sequence[ErrorDetails]) -> list[ErrorDetails]:
     """Without "at is missing" where `time` is an unknown key: a key under a wrong name is one error."""
-    from teleop.config.model_keys import keys_at, renamed_at
+    from teleop.config.documents.model_keys import keys_at, renamed_at
 
     named: set[Location] = set()
     for detail in details:

@@ -15,9 +15,9 @@ from typing import Any
 
 import yaml
 
-from teleop.config.document import Document, DocumentError, Flaw, Location, Place, joined, path_text
-from teleop.config.messages import decimal_comma, missing_space
-from teleop.config.yaml_nodes import TooMuchError, compose
+from teleop.config.documents.document import Document, DocumentError, Flaw, Location, Place, joined, path_text
+from teleop.config.documents.messages import decimal_comma, missing_space
+from teleop.config.documents.yaml_nodes import TooMuchError, compose
 
 MAX_BYTES = 4_000_000  # a sequence of 2000 keys is 0.2 MB
 MAX_VALUES = 100_000  # after aliases are followed: 14 000 keyframes of four axes, more than can be planned

@@ -13,7 +13,7 @@ from command import running, teleop
 from fakes import NO_FEEDBACK
 from waiting import DEADLINE
 
-from teleop.app.calibration_move import SHARE, CalibrationMove
+from teleop.app.calibration.calibration_move import SHARE, CalibrationMove
 from teleop.cli import run
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis, Limits, State

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import pytest
 from silent_screen import SilentScreen, no_signals
 
-from teleop.app.measure_signs import SignsReport, measure_signs
-from teleop.app.sign_probe import Signs
+from teleop.app.calibration.measure_signs import SignsReport, measure_signs
+from teleop.app.calibration.sign_probe import Signs
 from teleop.config.profile import load_profile
 from teleop.config.sinks_section import GimbalSection
 from teleop.core.axes import Axis
@@ -28,7 +28,7 @@ def test_a_simulated_gimbal_counts_everything_one_way():
     screen, begun = SilentScreen(), []
     report = measure_signs(
         *(load_profile("sim"), "pan", VirtualClock(), lambda axes, keys: begun.append((list(axes), keys))),
-        *(no_signals, screen.say, screen.say),
+        *(no_signals, screen.say, screen.say, None),
         virtual=True,
     )
     assert (report.result, begun) == (Result.DONE, [([PAN], False)])
@@ -39,7 +39,7 @@ def test_a_simulated_gimbal_counts_everything_one_way():
 @pytest.mark.parametrize("axis", ["focus", "elbow"])
 def test_an_axis_that_no_gimbal_moves_is_refused(axis: str):
     with pytest.raises(UsageError, match=f"--axis {axis}: no gimbal of Simulated rig moves it"):
-        measure_signs(load_profile("sim"), axis, VirtualClock(), print, no_signals, print, print, virtual=True)
+        measure_signs(load_profile("sim"), axis, VirtualClock(), print, no_signals, print, print, None, virtual=True)
 
 
 def test_speeds_and_reports_are_made_to_agree_with_positions():

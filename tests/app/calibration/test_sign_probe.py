@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import pytest
 
-from teleop.app.sign_probe import ROOM, RUNAWAY, SignProbe
+from teleop.app.calibration.sign_probe import ROOM, RUNAWAY, SignProbe
 from teleop.config.wiring import Wiring
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.errors import DeviceError

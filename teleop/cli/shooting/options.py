@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from teleop.config.document import DocumentError
+from teleop.config.documents.document import DocumentError
 
 
 @Parameter(name="*")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import yaml
 
-from teleop.config.yaml_nodes import TooMuchError, compose
+from teleop.config.documents.yaml_nodes import TooMuchError, compose
 
 
 def test_a_text_becomes_one_node_and_an_empty_one_none():

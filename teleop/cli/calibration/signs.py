@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 
-from teleop.app.measure_signs import SignsReport, measure_signs
-from teleop.app.sign_probe import REACH
+from teleop.app.calibration.measure_signs import SignsReport, measure_signs
+from teleop.app.calibration.sign_probe import REACH
 from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, the_clock

@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
-from teleop.config.messages import shown
+from teleop.config.documents.messages import shown
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 

@@ -3,8 +3,8 @@
 import pytest
 from documents import Whole
 
-from teleop.config.document import DocumentError, mapping, number, sequence
-from teleop.config.yaml_loader import parse_document
+from teleop.config.documents.document import DocumentError, mapping, number, sequence
+from teleop.config.documents.yaml_loader import parse_document
 
 
 def problems_of(text: str) -> list[str]:

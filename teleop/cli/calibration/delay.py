@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from cyclopts import App
 
-from teleop.app.measure_delay import DelayReport, measure_delay
-from teleop.cli.calibrate_signs import signs
+from teleop.app.calibration.measure_delay import DelayReport, measure_delay
+from teleop.cli.calibration.signs import signs
 from teleop.cli.examples import examples
 from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import DEFAULTS, Options

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from teleop.app.calibration_move import REST, SHARE, CalibrationMove
+from teleop.app.calibration.calibration_move import REST, SHARE, CalibrationMove
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.errors import DeviceError, UsageError
 from teleop.core.interfaces import Feedback

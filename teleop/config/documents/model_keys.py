@@ -12,7 +12,7 @@ from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
-from teleop.config.base_model import Section
+from teleop.config.documents.base_model import Section
 
 
 def keys_at(model: type[BaseModel], location: Sequence[str | int]) -> list[str]:

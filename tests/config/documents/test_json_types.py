@@ -8,7 +8,7 @@ import pytest
 from jsonschema import Draft202012Validator
 from pydantic import TypeAdapter
 
-from teleop.config.json_types import Ease, Interval, Overlap, Percentage, Settle, Time
+from teleop.config.documents.json_types import Ease, Interval, Overlap, Percentage, Settle, Time
 
 
 def accepts(kind: Any, value: Any) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teleop.config.model_keys import keys_at, renamed_at
+from teleop.config.documents.model_keys import keys_at, renamed_at
 from teleop.config.profile import Profile
 
 

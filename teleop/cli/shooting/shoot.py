@@ -15,9 +15,9 @@ from teleop.cli.screens.folded import complain, tell, warn
 from teleop.cli.screens.run_view import error_table
 from teleop.cli.screens.shoot_view import ShootView, free
 from teleop.cli.screens.take_summary import take_words
-from teleop.cli.shoot_options import ShootOptions
+from teleop.cli.shooting.options import ShootOptions
+from teleop.cli.shooting.timelapse_summary import clock, summary
 from teleop.cli.signals import signals_to
-from teleop.cli.timelapse_summary import clock, summary
 from teleop.config.profile import Profile
 from teleop.core.clock import VirtualClock
 from teleop.core.interfaces import Clock

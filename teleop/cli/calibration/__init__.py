@@ -1,0 +1,1 @@
+"""`teleop calibrate delay` and `teleop calibrate signs`."""

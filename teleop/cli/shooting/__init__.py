@@ -1,0 +1,1 @@
+"""What `teleop play` does with a timelapse: its options, its summary and the shoot."""

@@ -1,0 +1,1 @@
+"""YAML text to checked objects, with the place of every mistake."""
