@@ -24,8 +24,8 @@ STICKS = Sticks([Axis.PAN], [0.0, 1.0, 1.5], [[0.5], [0.0], [0.0]])
 
 @pytest.fixture(autouse=True)
 def no_devices(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(stop_inputs, "Hidapi", FakeBackend)
-    monkeypatch.setattr(operator_inputs, "Hidapi", FakeBackend)
+    monkeypatch.setattr(stop_inputs, "AllDevices", FakeBackend)
+    monkeypatch.setattr(operator_inputs, "AllDevices", FakeBackend)
 
 
 def live(take: Path | None = None, recorded: Sticks | None = STICKS, speed: float = 0.3) -> LiveRun:

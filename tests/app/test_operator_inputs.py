@@ -26,7 +26,7 @@ def opened(monkeypatch: pytest.MonkeyPatch, backend: object, keys: bool) -> tupl
             raise backend
         return backend
 
-    monkeypatch.setattr(operator_inputs, "Hidapi", make)
+    monkeypatch.setattr(operator_inputs, "AllDevices", make)
     with ExitStack() as stack:
         inputs, note = operator_inputs.open_devices(stack, load_profile("sim"), SystemClock(), keys, WITHOUT)
         return [each.name for each in inputs], note

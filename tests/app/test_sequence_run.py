@@ -68,8 +68,8 @@ def gimbals(monkeypatch: pytest.MonkeyPatch) -> list[SimulatedGimbal]:
         return made[-1]
 
     monkeypatch.setattr(rig, "SimulatedGimbal", make)
-    monkeypatch.setattr(stop_inputs, "Hidapi", FakeBackend)
-    monkeypatch.setattr(operator_inputs, "Hidapi", FakeBackend)
+    monkeypatch.setattr(stop_inputs, "AllDevices", FakeBackend)
+    monkeypatch.setattr(operator_inputs, "AllDevices", FakeBackend)
     return made
 
 
