@@ -1,7 +1,7 @@
 """`teleop live --learn`: a mapping by moving each control when asked for it.
 
 The questions go to stderr and the mapping to stdout, so that `teleop live --learn > inputs.yaml` keeps it; nothing is
-ever written over. The device is read here and by nobody else: there is no rig to keep waiting.
+ever written over. Only this reads the device: there is no rig to keep waiting.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Asker(Protocol):
 
 
 class Terminal:
-    """Somebody at a terminal; raises UsageError when stdin is none."""
+    """The operator's terminal; raises UsageError when stdin is none."""
 
     def __init__(self) -> None:
         if not sys.stdin.isatty():
@@ -114,7 +114,7 @@ class _Dialogue:
         return self._learned
 
     def _answer(self, question: Question) -> Found | None:
-        """The control that somebody moved, let go again; None when nothing is to do that."""
+        """The control that was moved and released again; None when the question is skipped."""
         self._asker.say(f"{question.text}. Enter: skip.")
         while True:
             watch = Watch(self._state.values, smooth=question.axis is not None)

@@ -14,7 +14,7 @@ from teleop.config.documents.base_model import NoTruth, Section
 from teleop.config.wiring import Wiring
 from teleop.core.axes import STICKS, Axis
 from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, ReferenceFrame, Vertical, Yaw
-from teleop.dji.drone.virtual_rc import CENTRE, DEFLECTION
+from teleop.dji.drone.virtual_rc import CENTER, DEFLECTION
 
 DRONES = ("virtual-rc", "flight")
 FLIGHT_MODES: Mapping[str, tuple[Horizontal, ReferenceFrame]] = {
@@ -32,7 +32,7 @@ Share = Annotated[float, Field(gt=0, le=1)]
 Rate = Annotated[Literal[1, 2, 4, 5, 10, 20, 25, 50, 100], NoTruth]  # Hz: whole numbers of the loop's ticks
 Sign = Annotated[Literal[1, -1], NoTruth]
 Angle = Literal["pan", "tilt", "roll"]
-Channel = Annotated[int, Field(ge=CENTRE - DEFLECTION, le=CENTRE + DEFLECTION)]
+Channel = Annotated[int, Field(ge=CENTER - DEFLECTION, le=CENTER + DEFLECTION)]
 LowBattery = Annotated[int, Field(ge=10, le=90)]
 
 MOVES: Mapping[str, Sequence[Axis]] = {

@@ -17,7 +17,7 @@ class Action(StrEnum):
     RECORD = "record"
     STOP = "stop"
     SHUTTER = "shutter"
-    FOCUS = "focus"  # on the centre, until END_FOCUS
+    FOCUS = "focus"  # on the center, until END_FOCUS
     END_FOCUS = "end_focus"
 
 

@@ -1,7 +1,7 @@
 """What an operator's hand says: the values that an input device hands to the `Operator`.
 
 An input (a joystick, a dial, the terminal's keys) knows its device and the mapping of its controls; it knows nothing
-of the rig. What it says is already shaped (centre, inversion, dead zone, expo), but not yet scaled: speed range,
+of the rig. What it says is already shaped (center, inversion, dead zone, expo), but not yet scaled: speed range,
 enabling, presets and stops are the operator's, so that they are the same whatever is in the hand.
 """
 
@@ -52,7 +52,7 @@ class Press(NamedTuple):
 class Held:
     """An input at one tick.
 
-    `deflections` are -1..1 of the axes that it is mapped to, centred ones as 0; `steps` are units by which an axis is
+    `deflections` are -1..1 of the axes that it is mapped to, centered ones as 0; `steps` are units by which an axis is
     to be moved on since the last read (a dial by clicks); `positions` are where sliders say that an axis is to be, 0..1
     of the way between its soft limits; `dial` is -1..1 for the gimbal's own dial. `enabled` is
     whether the enable button is held, None for an input that has none. `trouble` says why it cannot be trusted now, ""

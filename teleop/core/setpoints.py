@@ -39,7 +39,7 @@ class StateTarget(NamedTuple):
 
 
 class Stop(NamedTuple):
-    """Come to rest as fast as the axis's own limits allow, and stay; a stick, in its centre."""
+    """Come to rest as fast as the axis's own limits allow, and stay; a stick, in its center."""
 
 
 Setpoint = VelocityTarget | PositionTarget | StateTarget | Stop

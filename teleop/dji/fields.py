@@ -1,4 +1,4 @@
-"""What a message's field is on the wire: its bytes, its scale and unit, its words, its range, each said once.
+"""What a message's field is on the wire: its bytes, its scale and unit, its words, its range, each in one place.
 
 These objects stand in the annotations of message classes (`yaw: Annotated[float, I16(scale=10, unit="deg")]`);
 message.py derives encoding, decoding, JSON and help from them. A range belongs to sending only: a device may report

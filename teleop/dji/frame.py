@@ -120,7 +120,7 @@ class FrameReader:
     cases for a single byte, which is what a CAN bus loses of a frame of 25). Then both are found, the shared bytes
     being taken twice: after a frame the search goes on inside its CRC-32.
 
-    A stream `in_pieces` comes from CAN: what fills the last piece of a frame is told apart from damage.
+    A stream `in_pieces` comes from CAN: the filling of a frame's last piece is not damage.
     """
 
     def __init__(self, in_pieces: bool = False) -> None:

@@ -23,7 +23,7 @@ from teleop.core.errors import TeleopError
 from teleop.dji.fields import U8
 from teleop.dji.layout import Field, Layout
 
-COMMAND = 0x03  # cmd_type of a command that wants a reply; what all known programs send
+COMMAND = 0x03  # cmd_type of a command that expects a reply; what all known programs send
 STREAM = 0x00  # cmd_type of what is sent many times a second and never answered
 REPLY = 0x20
 

@@ -1,6 +1,6 @@
 """Which class a frame's data is, and which data a name means: rows of classes, looked up by set, id, direction, fit.
 
-Replies of old firmware carry neither set nor id (V2.5 release note 2.2.0.5). They are told apart by their first byte:
+Replies of old firmware carry neither set nor id (V2.5 release note 2.2.0.5). Their first byte distinguishes them:
 a return code, which is never the number of a command set. What they answer only the request can say, so whoever
 knows the request passes its set and id.
 """

@@ -1,8 +1,8 @@
 """Sticks replayed from a CSV file, as a joystick would have reported them.
 
 The file is read and checked whole before anything moves. A row's deflections hold until the next row; the last row
-marks the end, where every stick is let go. A centred stick has no opinion, so whatever lies beneath it drives; but a
-drone's stick is held where the row has it, in its centre too.
+marks the end, where every stick is let go. A centered stick has no opinion, so whatever lies beneath it drives; but a
+drone's stick is held where the row has it, in its center too.
 """
 
 from __future__ import annotations

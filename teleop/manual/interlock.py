@@ -64,7 +64,7 @@ class Interlock:
         self.waits_for = CENTER
 
     def _enable(self) -> None:
-        """Enabled while the button is held, if it was seen released after the input was seen centred."""
+        """Enabled while the button is held, if it was seen released after the input was seen centered."""
         held = self.held.enabled
         self._fresh = self._centered and (self._fresh or held is False)
         self._enabled = held is None or (held and self._fresh)

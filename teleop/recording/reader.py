@@ -41,6 +41,10 @@ class Take:
     ending: Ending | None
     remark: str
 
+    def __repr__(self) -> str:
+        title, axes = f"{self.about.title} on {self.about.rig}", ", ".join(self.axes)
+        return f"Take({str(self.path)!r}: {title}, {axes}, {self.duration:.2f} s)"
+
     @property
     def axes(self) -> Sequence[Axis]:
         return list(self.motion)

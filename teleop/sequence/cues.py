@@ -167,7 +167,7 @@ def _unsendable(words: str) -> str:
 
 def _instead(message: Message) -> str:
     match message:
-        case gimbal.Mode(action=gimbal.CentreAction.RECENTER):
+        case gimbal.Mode(action=gimbal.CenterAction.RECENTER):
             return "write recenter: 3s"
         case gimbal.Dial():
             return "a dial is for teleop live"

@@ -1,8 +1,8 @@
 """A panorama in a sequence file: rows and columns of frames out of a field of view, as keys and shutters.
 
-What is given is what shall be seen, edge to edge, and how much two neighbours shall share; how many frames that takes,
-and how far apart, follows. They are spread evenly, so neighbours share what was asked for or more. A whole circle has
-no edges: there the last frame of a row is as far from the first as from its neighbour. The way is a serpentine, so
+What is given is what shall be seen, edge to edge, and how much two neighbors shall share; how many frames that takes,
+and how far apart, follows. They are spread evenly, so neighbors share what was asked for or more. A whole circle has
+no edges: there the last frame of a row is as far from the first as from its neighbor. The way is a serpentine, so
 that every step is a short one, and one frame follows another `every` so many seconds.
 """
 

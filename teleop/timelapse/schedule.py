@@ -18,7 +18,7 @@ class Schedule(NamedTuple):
         return (self.last - self.first) / (self.frames - 2) if self.frames > 2 else 0.0
 
     def at(self, frame: float) -> float:
-        """Seconds from frame 0 to this one; between two frames, the parabola through their neighbours."""
+        """Seconds from frame 0 to this one; between two frames, the parabola through their neighbors."""
         return frame * self.first + self.change * frame * (frame - 1) / 2
 
     def interval(self, frame: int) -> float:

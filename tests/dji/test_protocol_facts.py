@@ -58,7 +58,7 @@ def test_every_command_is_on_the_page(table: str, registries: list) -> None:
         ("movement, ", [f"{FlightSection.model_fields['rate'].default} Hz"]),
         ("enabling virtual RC again", [f"{engagement.GAP:g} s"]),
         ("horizontal velocity needs", [f"health {preflight.GPS_HEALTH}"]),
-        ("sticks: 16 u32", [f"{virtual_rc.CENTRE} +- {virtual_rc.DEFLECTION}"]),
+        ("sticks: 16 u32", [f"{virtual_rc.CENTER} +- {virtual_rc.DEFLECTION}"]),
     ],
 )
 def test_the_constants_on_the_page_are_those_of_the_code(row: str, values: list[str]) -> None:

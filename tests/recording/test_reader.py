@@ -35,6 +35,10 @@ def test_motion_readings_and_actions_have_their_times(take: Take) -> None:
     assert (take.cut, take.remark, take.ended) == (False, "", "done")
 
 
+def test_a_take_is_shown_in_a_line_at_a_prompt(take: Take) -> None:
+    assert repr(take) == f"Take({str(take.path)!r}: {take.about.title} on {take.about.rig}, pan, tilt, 1.00 s)"
+
+
 def test_a_frame_has_readings_between_the_first_and_the_last_only(take: Take) -> None:
     pytest.importorskip("pandas", reason="to_frame is for those who have pandas")
     frame = take.to_frame()

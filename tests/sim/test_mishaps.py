@@ -38,7 +38,7 @@ def test_a_reboot_is_silence_and_then_a_gimbal_as_at_first() -> None:
         TURN,
         gimbal.Position(40.0, 0.0, 20.0, absolute=True, time_for_action=0.5),
         gimbal.Joystick(15000, 0, 15000),
-        gimbal.Mode(action=gimbal.CentreAction.RECENTER),
+        gimbal.Mode(action=gimbal.CenterAction.RECENTER),
     ],
     ids=["speed", "position", "joystick", "recenter"],
 )

@@ -1,6 +1,6 @@
 """Control of the drone's movement (01 00): obtained and released, and known only by an answer or the broadcast.
 
-The drone wants each order twice: "the first ACK will be fail" (OPENProtocol.md 3.1.9, 01 00), which is 3 for obtain
+The drone needs each order twice: "the first ACK will be fail" (OPENProtocol.md 3.1.9, 01 00), which is 3 for obtain
 and 4 for release. So an order is sent again after each such answer, and after none, with a pause each time. Obtaining
 ends with whoever asked for it: the engagement waits `patience` for it. Releasing ends when it is confirmed, or when
 control is obtained again.

@@ -7,7 +7,7 @@ back. That is confirmed only by what the drone says, never by its silence; until
 what can be sent again is, until the drone confirms it or an operator takes it again. Sticks are in force only while a
 hand holds them: without one they are neutral at once, and the drone is given back after a second.
 
-All of this is pure: time comes in as `now`, what to send goes out as an Order, at the pace that the drone wants.
+All of this is pure: time comes in as `now`, what to send goes out as an Order, at the pace that the drone needs.
 """
 
 from __future__ import annotations
@@ -122,14 +122,14 @@ class Engagement:
         return ""
 
     def engage(self, now: float) -> None:
-        """Whoever calls this takes the drone, once, now. Raises EngagementError where `refusal` says why not."""
+        """Take the drone, once, now. Raises EngagementError where `refusal` says why not."""
         if refusal := self.refusal(now):
             raise EngagementError(f"the drone must not be taken: {refusal}")
         self._taken, self._next, self.failure, self.unreturned = now, now, "", ""
         self._handle(EngagementEvent.ENGAGE, now)
 
     def leave(self, now: float, why: str, *, asked: bool = False) -> None:
-        """Begin to give the drone back, if it is held; `asked` is whether the operator wants it so."""
+        """Begin to give the drone back, if it is held; `asked` is whether the operator asked for it."""
         if self.stage in HELD:
             self.failure = "" if asked else why
             self._notify(f"{why}: sticks neutral, releasing {self._what}")

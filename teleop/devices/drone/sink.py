@@ -1,8 +1,8 @@
 """A drone in an operator's hands: its sticks sent while it is engaged, and everything that ends an engagement.
 
 Nothing is sent to it before an operator engages it, by a held button or a typed word. What flies it then is the
-planner's motion of the four sticks, but a stick only counts in a tick in which somebody asks for it: an axis that
-nobody demands is centred on the wire at once, whatever the planner still has it do. When nobody demands any, when a
+planner's motion of the four sticks, but a stick only counts in a tick that demands it: an axis that
+is not demanded is centered on the wire at once, whatever the planner still has it do. When none is demanded, when a
 halt is demanded, when the ticks stop coming, the `Engagement` goes its way to giving back, and only an operator begins
 again. `report` is called in every state of the run, so it also looks after a drone that no tick reaches.
 """
@@ -24,7 +24,7 @@ from teleop.devices.drone.preflight import refusals, troubles
 from teleop.devices.drone.state import DroneState, drone_state
 from teleop.devices.drone.telemetry import Telemetry
 
-CENTRED = 0.02  # of full deflection: a stick that is seen there once is centred
+CENTERED = 0.02  # of full deflection: a stick that is seen there once is centered
 LATE = 0.2  # s without a tick after which its sticks are stale
 PATIENCE = 4.0  # s after activation in which a drone that a script engages must be ready
 RELEASE_LOOK = 0.01  # s between looks while giving back
@@ -77,7 +77,7 @@ class DroneSink:
         return drone_state(self.telemetry, now, self._engagement.stage, self._sticks)
 
     def report(self, now: float) -> Mapping[Axis, Reading]:
-        """The sticks, which nobody measures: centred, once the drone is ready to be flown.
+        """The sticks, which are not measured: centered, once the drone is ready to be flown.
 
         Raises LinkError and DeviceError as bringing up does.
         """
@@ -194,7 +194,7 @@ class DroneSink:
         wanting = list(self._refusals(now))
         if not self._input:
             wanting.append("no input holds its sticks")
-        elif any(abs(deflection) > CENTRED for deflection in self._sticks.values()):
+        elif any(abs(deflection) > CENTERED for deflection in self._sticks.values()):
             wanting.append("center its sticks")
         if wanting:
             self._refuse(wanting)

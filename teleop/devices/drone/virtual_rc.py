@@ -16,7 +16,7 @@ from teleop.devices.drone.engagement import CONFIRM, GAP
 from teleop.devices.drone.last_enable import LastEnable
 from teleop.devices.drone.telemetry import FRESH, Telemetry
 from teleop.dji.drone.enums import GearChannel, ModeChannel
-from teleop.dji.drone.virtual_rc import CENTRE, DEFLECTION, NEUTRAL, Sticks, VirtualRc
+from teleop.dji.drone.virtual_rc import CENTER, DEFLECTION, NEUTRAL, Sticks, VirtualRc
 
 BACK_ALONE = "the drone goes back to its RC by itself, 1 s after the last sticks that reached it"
 LOST_ALONE = "1 s after the last sticks that reached it, the drone behaves as without any RC"
@@ -50,7 +50,7 @@ class VirtualRcControl:
         self._words = {
             **{f"mode-{mode.name.lower()}": {"mode": mode} for mode in ModeChannel},
             **{f"gear-{gear.name.lower()}": {"gear": gear} for gear in GearChannel},
-            "home-off": {"go_home": CENTRE},
+            "home-off": {"go_home": CENTER},
         }
         if go_home is not None:
             self._words["home"] = {"go_home": go_home}
@@ -129,7 +129,7 @@ class VirtualRcControl:
 
 
 def _with(switches: Sticks, sticks: Deflections) -> Sticks:
-    roll, pitch, throttle, yaw = (CENTRE + round(DEFLECTION * max(-1.0, min(1.0, sticks[axis]))) for axis in STICKS)
+    roll, pitch, throttle, yaw = (CENTER + round(DEFLECTION * max(-1.0, min(1.0, sticks[axis]))) for axis in STICKS)
     return _replaced(switches, roll=roll, pitch=pitch, throttle=throttle, yaw=yaw)
 
 

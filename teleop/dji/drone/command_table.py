@@ -1,6 +1,6 @@
 """What an operator can send to the drone, by name, and what of it can make it fly. Rows only: see vocabulary.py.
 
-A command from a shell is sent once, and nobody is at the controls after it. So whatever moves the drone, starts its
+A command from a shell is sent once, with no operator at the controls after it. So whatever moves the drone, starts its
 motors or takes it from its pilot is a hazard, which an operator has to say that they understand; and what is safe only
 with a stream behind it is never sent so (docs/protocol-facts.md). What the drone itself sends has no words.
 """
@@ -27,7 +27,7 @@ COMMANDS: Final[Mapping[str, type[Message]]] = {
 PLAIN: Final[Mapping[str, Message]] = {
     **rows(TaskKind, "drone", drone.Task, "task"),
     **rows(ArmOrder, "drone", drone.Arm, "order"),
-    "drone activate": drone.Activate(0),  # the app id is known to whoever sends it
+    "drone activate": drone.Activate(0),  # the app id comes from the credentials
     "drone obtain control": drone.Control(ControlOrder.OBTAIN),
     "drone release control": drone.Control(ControlOrder.RELEASE),
     "drone virtual rc off": virtual_rc.VirtualRc(on=False),
@@ -47,7 +47,7 @@ def never(message: Message) -> str:
 
 
 def hazard(message: Message) -> str:
-    """What `message` can do to whoever is near; nothing for what cannot make the drone fly."""
+    """What `message` can do to people near it; "" for what cannot make the drone fly."""
     match message:
         case drone.Arm(order=ArmOrder.ARM):
             return "it starts the motors"

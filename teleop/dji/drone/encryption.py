@@ -30,7 +30,7 @@ class Deciphered(NamedTuple):
 
 
 class Cipher:
-    """Encrypts and decrypts with one `key` of 32 bytes, which it shows to nobody. Raises CipherError."""
+    """Encrypts and decrypts with one `key` of 32 bytes, which it never shows. Raises CipherError."""
 
     def __init__(self, key: bytes) -> None:
         if len(key) != KEY_SIZE:

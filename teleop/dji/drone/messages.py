@@ -1,4 +1,4 @@
-"""What the drone is told and asked over the Onboard SDK, and its acknowledgements: sets 00 and 01, and the push 02 01.
+"""The drone's commands and queries over the Onboard SDK, and its acknowledgements: sets 00 and 01, and the push 02 01.
 
 Values are those of docs/protocol-facts.md. An acknowledgement has no set and id: its class says which command it
 answers, and the session finds out which that was. Its fields are as wide as the facts say: u16 codes; arming is not
@@ -273,6 +273,6 @@ class Pushed(Message):
 
 @message("drone.event", PUSH, 0x01, reply=True)
 class PushedAck(Message):
-    """The onboard computer has heard it."""
+    """The onboard computer has received it."""
 
     code: code = Code.OK

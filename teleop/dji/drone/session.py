@@ -125,7 +125,7 @@ class OnboardSession:
         return frame, sequence
 
     def withdraw(self, *kinds: type[Message]) -> None:
-        """Send nothing of these kinds again; an acknowledgement may still come, of what the drone has heard."""
+        """Send nothing of these kinds again; an acknowledgement may still come, of what the drone has received."""
         for exchange in self._open.values():
             if isinstance(exchange.request, kinds):
                 exchange.wanted = False

@@ -1,6 +1,6 @@
 """Command set 05, the virtual RC: the drone flown by the channels of a remote controller that is not there.
 
-The drone leaves it after a second without sticks; for what that asks of whoever sends, see docs/protocol-facts.md.
+The drone leaves it after a second without sticks; for what that requires of the sender, see docs/protocol-facts.md.
 Both commands are taken at their exact length only: one SDK sent its sticks as settings (docs/protocol-facts.md), and
 the first of those bytes must not be read as switching anything on.
 """
@@ -16,10 +16,10 @@ from teleop.dji.message import STREAM, Message, Opaque, message
 
 VIRTUAL_RC: Final = 0x05  # command set
 
-CENTRE: Final = 1024
+CENTER: Final = 1024
 DEFLECTION: Final = 660  # of a stick, at most, either way
 
-stick = Annotated[int, U32(low=CENTRE - DEFLECTION, high=CENTRE + DEFLECTION)]
+stick = Annotated[int, U32(low=CENTER - DEFLECTION, high=CENTER + DEFLECTION)]
 
 
 class Exact(Message):
@@ -43,22 +43,22 @@ class VirtualRc(Exact):
 class Sticks(Exact):
     """The sixteen channels, neutral unless given; 20 times a second."""
 
-    roll: stick = CENTRE
-    pitch: stick = CENTRE
-    throttle: stick = CENTRE
-    yaw: stick = CENTRE
+    roll: stick = CENTER
+    pitch: stick = CENTER
+    throttle: stick = CENTER
+    yaw: stick = CENTER
     gear: Annotated[int, U32(words=GearChannel)] = GearChannel.DOWN
-    go_home: stick = CENTRE
+    go_home: stick = CENTER
     mode: Annotated[int, U32(words=ModeChannel)] = ModeChannel.P
-    channel_7: stick = field(default=CENTRE, kw_only=True)
-    channel_8: stick = field(default=CENTRE, kw_only=True)
-    channel_9: stick = field(default=CENTRE, kw_only=True)
-    channel_10: stick = field(default=CENTRE, kw_only=True)
-    channel_11: stick = field(default=CENTRE, kw_only=True)
-    channel_12: stick = field(default=CENTRE, kw_only=True)
-    channel_13: stick = field(default=CENTRE, kw_only=True)
-    channel_14: stick = field(default=CENTRE, kw_only=True)
-    channel_15: stick = field(default=CENTRE, kw_only=True)
+    channel_7: stick = field(default=CENTER, kw_only=True)
+    channel_8: stick = field(default=CENTER, kw_only=True)
+    channel_9: stick = field(default=CENTER, kw_only=True)
+    channel_10: stick = field(default=CENTER, kw_only=True)
+    channel_11: stick = field(default=CENTER, kw_only=True)
+    channel_12: stick = field(default=CENTER, kw_only=True)
+    channel_13: stick = field(default=CENTER, kw_only=True)
+    channel_14: stick = field(default=CENTER, kw_only=True)
+    channel_15: stick = field(default=CENTER, kw_only=True)
 
 
 NEUTRAL: Final = Sticks()
@@ -67,4 +67,4 @@ NEUTRAL: Final = Sticks()
 
 def broadcast_value(channel: int) -> int:
     """What the broadcast makes of the mode and gear channels: 1552 is -8000, 1324 is -4545 (docs/protocol-facts.md)."""
-    return round(-(channel - CENTRE) * 10000 / DEFLECTION)
+    return round(-(channel - CENTER) * 10000 / DEFLECTION)

@@ -12,7 +12,7 @@ CAMERA: Final = 0x0D  # command set, section 2.3.1
 
 
 class CameraCommand(IntEnum):
-    """What a camera can be told; photo and focus commands hold until their STOP."""
+    """The commands of a camera; photo and focus commands hold until their STOP."""
 
     SHUTTER = 0x0001
     STOP_SHUTTER = 0x0002

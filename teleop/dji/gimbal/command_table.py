@@ -15,8 +15,8 @@ COMMANDS: Final[Mapping[str, type[Message]]] = commands(R_SDK.messages)
 """Every message that can be sent: `gimbal position`, `focus set`, ..."""
 
 PLAIN: Final[Mapping[str, Message]] = {
-    "gimbal recenter": gimbal.Mode(action=gimbal.CentreAction.RECENTER),
-    "gimbal selfie": gimbal.Mode(action=gimbal.CentreAction.SELFIE),
+    "gimbal recenter": gimbal.Mode(action=gimbal.CenterAction.RECENTER),
+    "gimbal selfie": gimbal.Mode(action=gimbal.CenterAction.SELFIE),
     **rows(gimbal.FollowMode, "gimbal follow", gimbal.Mode, "mode"),
     "gimbal follow pan": gimbal.Mode(gimbal.FollowMode.YAW),  # the word of the button, and of sequences
     **rows(gimbal.Orientation, "gimbal orientation", gimbal.Orient, "orientation"),

@@ -59,7 +59,7 @@ class FollowMode(IntEnum):
     UNCHANGED = 0xFE
 
 
-class CentreAction(IntEnum):
+class CenterAction(IntEnum):
     """Done once, only with FollowMode.UNCHANGED (0x0E)."""
 
     NONE = 0x00

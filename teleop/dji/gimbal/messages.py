@@ -1,4 +1,4 @@
-"""Command set 0x0E without the focus motor: everything the handheld gimbal itself is told, asked, and says.
+"""Command set 0x0E without the focus motor: every command, query and push of the handheld gimbal itself.
 
 Fields follow the tables of V2.5 section 2.3.4 with the corrections of docs/protocol-facts.md: above all,
 the axis order differs from message to message, on purpose. Signs are the gimbal's own; a profile maps them.
@@ -14,7 +14,7 @@ from teleop.dji.fields import I16, U8, U32, Bits, DottedVersion, Flag, Reserved
 from teleop.dji.gimbal.enums import (
     AngleKind,
     CalibrationState,
-    CentreAction,
+    CenterAction,
     FollowMode,
     Operation,
     Orientation,
@@ -117,7 +117,7 @@ class LegacyAnglesReply(Message):
 
 @message("gimbal.set_limits", GIMBAL, 0x03)
 class SetLimits(Message):
-    """How far each axis may go from its centre, each way; all magnitudes."""
+    """How far each axis may go from its center, each way; all magnitudes."""
 
     operation: whether = field(default=Operation.EXECUTE, kw_only=True)
     pitch_max: pitch_limit_up
@@ -315,11 +315,11 @@ class Mode(Message):
     """Follow in `mode`, or, with the mode UNCHANGED, recenter or turn to selfie once."""
 
     mode: Annotated[int, U8(words=FollowMode)] = FollowMode.UNCHANGED
-    action: Annotated[int, U8(words=CentreAction)] = CentreAction.NONE
+    action: Annotated[int, U8(words=CenterAction)] = CenterAction.NONE
 
     def check(self) -> None:
         Message.check(self)
-        if (self.mode == FollowMode.UNCHANGED) == (self.action == CentreAction.NONE):
+        if (self.mode == FollowMode.UNCHANGED) == (self.action == CenterAction.NONE):
             raise FieldError(f"{self.name}: give either a mode (lock, yaw, sport) or an action (recenter, selfie)")
 
 

@@ -87,7 +87,7 @@ class Session:
         frame, sequence = self._send(message)
         if not message.has_reply:
             return frame, sequence
-        if sequence in self._open:  # 65536 requests ago, and nobody asked for the overdue ones
+        if sequence in self._open:  # 65536 requests ago, and the overdue ones were never collected
             self.counts.lost_replies += 1
         self._open[sequence] = _Open(message, now, now + timeout)
         return frame, sequence

@@ -153,7 +153,7 @@ def same_unit(one: DeviceInfo, two: DeviceInfo) -> bool:
 
 
 def described(info: DeviceInfo) -> str:
-    """What a device is called where somebody reads it."""
+    """The name of a device on the screen."""
     return info.name or f"{info.vendor_id:04x}:{info.product_id:04x}"
 
 

@@ -58,7 +58,7 @@ class ControlReader(Protocol):
 class Stick:
     """Deflects its axis by where it is: a stick from its middle, a trigger or a button from its end.
 
-    `known` is its center from before it was unplugged. `guessed`: nobody wrote its mapping, so it has to be seen
+    `known` is its center from before it was unplugged. `guessed`: its mapping is a guess, so it has to be seen
     centered. `puck`: it is a part of a multi-axis controller, whose rest is 0.
     """
 
@@ -88,7 +88,7 @@ class Stick:
 
     @property
     def is_locked(self) -> bool:
-        """Whether it moves nothing: where nobody wrote what it is, it has to be seen centered once."""
+        """Whether it moves nothing: a guessed control has to be seen centered once."""
         if self.center is None:
             return False
         return self.center.value is None or (self._guessed and (self.is_trigger or self._unseen))

@@ -34,7 +34,7 @@ class HidInput:
     """The device that `section` stands for, once `start`ed or entered.
 
     With `stop_only` no control counts but those that stop a run and go on with it, so its sticks cannot trouble it.
-    `dead_zone` and `expo` are those of controls that have none of their own, None for what a hand at a stick wants.
+    `dead_zone` and `expo` are those of controls that have none of their own, None for the defaults of a stick.
     Raises DocumentError when the section's pad cannot be used.
     """
 
@@ -60,7 +60,7 @@ class HidInput:
         self._centers: dict[Unit, Mapping[str, float]] = {}
         self._has_stop = may_stop(section)
         self._misnamed = ""  # why its enable cannot be one
-        self._judged: set[str] = set()  # the sticks of which it has been said that they were not in their middle
+        self._judged: set[str] = set()  # the sticks already reported as not centered
 
     @property
     def name(self) -> str:
@@ -195,7 +195,7 @@ class HidInput:
         return ""
 
     def _judge(self, plugged: Plugged) -> Iterator[str]:
-        """What is to be said of sticks that were not in their middle, once."""
+        """One message for each stick that was not centered."""
         found = set() if plugged.mapped.finding else set(plugged.mapped.uncentered) - self._judged
         self._judged |= found
         names = ", ".join(sorted(found))

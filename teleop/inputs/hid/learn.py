@@ -1,7 +1,7 @@
-"""Which control somebody has just moved, and the mapping that comes of it: the part of `live --learn` without a device.
+"""Finds the control that was just moved, and makes the mapping: the part of `live --learn` without a device.
 
 A question is put, and the controls are watched from where they rest: the one that moves the furthest is meant. A stick
-leans on its neighbour and a trigger often has a button beside it, so that a question for an axis waits a moment for
+leans on its neighbor and a trigger often has a button beside it, so that a question for an axis waits a moment for
 something that can be half way before it takes a button, and a question for a button the other way round. Whether a
 control springs back or stays where it was put is seen when it is let go.
 """
@@ -73,7 +73,7 @@ _PRESSES: Sequence[tuple[str, Command, int | None]] = (
 
 
 def questions(axes: Iterable[Axis]) -> Sequence[Question]:
-    """What is asked of somebody with a rig that has these axes, in this order."""
+    """The questions for a rig that has these axes, in order."""
     asked = [
         Question(f"Move the control for: {_AXES[axis][0] if axis in _AXES else f'{axis} up'}", axis=axis)
         for axis in axes

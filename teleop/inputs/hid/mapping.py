@@ -21,7 +21,7 @@ class Mapped:
     """A mapping on one device, from its plugging in to its unplugging.
 
     `relative` are the controls that the descriptor calls so, `dead_zone` and `expo` those of controls without their
-    own. `guessed`: nobody wrote this mapping, so that what does not rest in its middle is locked until it does.
+    own. `guessed`: no profile has this mapping, so that what does not rest in its middle is locked until it does.
     `centers` are those known from before an unplugging; `puck`: it is a multi-axis controller, which rests at 0.
     `names` are the controls that it needs, `stops` those that are a STOP, `watched` those whose every change counts,
     `counting` whether those that the descriptor describes wrongly report counts.

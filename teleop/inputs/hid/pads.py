@@ -1,9 +1,9 @@
 """Which mapping a device gets: a shipped one by its ids or its driver, or one that is guessed from the controls it has.
 
-The guess for a pad nobody described: the left stick (X, Y) is pan and tilt, the right one (Rx and Ry, or Z and Rz,
+The guess for a pad without a description: the left stick (X, Y) is pan and tilt, the right one (Rx and Ry, or Z and Rz,
 whichever rests in its middle) roll and focus; a joystick's twist (Rz without a Z) is roll. The puck of a multi-axis
 controller turns as the head is to turn. HID counts Y downwards, and up is to be up. Button 1, a joystick's trigger and
-the first under a thumb, is STOP, which does no harm when pressed unasked; 2 clears it, 3 records, 4 recentres, 5
+the first under a thumb, is STOP, which does no harm when pressed unasked; 2 clears it, 3 records, 4 recenters, 5
 and 6 (the shoulders) are slower and faster. The hat recalls presets 1 to 4 and, held, stores them.
 """
 
@@ -43,7 +43,7 @@ _BUTTONS = (
 
 @dataclass(frozen=True)
 class Chosen:
-    """What a device does; `guessed`: nobody wrote it. `unreadable` says why its reports cannot be used."""
+    """What a device does; `guessed`: not from a file. `unreadable` says why its reports cannot be used."""
 
     controls: Mapping[str, ControlSection] = field(default_factory=dict)
     reports: str = "auto"
@@ -118,7 +118,7 @@ def choose(section: InputSection, info: DeviceInfo, names: Collection[str]) -> C
 
 
 def guess(names: Collection[str], multi_axis: bool) -> Mapping[str, ControlSection]:
-    """A mapping for a device with these controls that nobody described; see the module."""
+    """A guessed mapping for a device with these controls; see the module."""
     axes = {
         "X": ControlSection(axis=Axis.PAN),
         "Y": ControlSection(axis=Axis.TILT, invert=True),

@@ -52,7 +52,7 @@ Steps = Generator[Pause | Read, bytes, bool]
 
 
 class Plugged:
-    """A device from its plugging in to its unplugging: what it is, what it does, what it has said."""
+    """A device from its plugging in to its unplugging: its identity, its mapping, its reports."""
 
     def __init__(self, info: DeviceInfo, state: HidState, chosen: Chosen, mapped: Mapped) -> None:
         self.info, self.state, self.chosen, self.mapped = info, state, chosen, mapped
@@ -314,7 +314,7 @@ def wanted(
 ) -> Sequence[DeviceInfo]:
     """The devices that `device` may stand for, the best first.
 
-    After an unplugging that is the `last` one, then its like, then a spare that somebody has plugged in since: another
+    After an unplugging that is the `last` one, then its like, then a spare plugged in since: another
     model that had been there all along (`stayed`, by path) was not meant. A keyboard or a mouse is taken only where its
     ids are asked for, anything else that is no joystick and no known pad where its name is.
     """

@@ -1,4 +1,4 @@
-"""The reports of one device, from the thread that reads them to the thread that asks: nobody waits for the other.
+"""The reports of one device, from the thread that reads them to the thread that asks; neither waits for the other.
 
 The reader puts a whole new mapping of values in place of the old one, and queues what must not be lost between two
 looks: every change of a button, every count of a wheel. Assigning an attribute and appending to a deque are atomic in
@@ -30,7 +30,7 @@ SLOWEST_REPEAT = 1.0  # s: what is repeated after longer is no sign of life to b
 LATE = 2.5  # times the usual interval: then a report is missing
 HEARTBEAT = 0.15  # s: what repeats itself more rarely reports changes at once, and lives between them
 STEADY = 20  # reports in a row without a change: more than any device that reports changes sends for one
-MAX_CHANGES = 4096  # nobody asks for them while nothing runs
+MAX_CHANGES = 4096  # changes pile up while no run reads them
 
 
 class Sample(NamedTuple):

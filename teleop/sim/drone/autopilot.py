@@ -38,7 +38,7 @@ class Autopilot:
         self.control_lost = 0  # how often it was taken from the onboard computer
         self._back_to_rc = True
         self._enabled = self._last_sticks = self._last_move = -math.inf
-        self._in_corners = math.inf  # since when the sticks of whoever flies are
+        self._in_corners = math.inf  # since when the sticks in control are
         self._gesture_made = False  # and have not left them since
         self._battery = battery
 
@@ -141,7 +141,7 @@ class Autopilot:
             self._hand_to(Pilot.RC)
 
     def lose_control(self) -> None:
-        """Take control from the onboard computer, which is told."""
+        """Take control from the onboard computer, and notify it."""
         if self.obtained:
             self.control_lost += 1
             self.release()
@@ -201,7 +201,7 @@ class Autopilot:
         if self._automatic.doing is not None and not (
             controls.roll or controls.pitch or controls.throttle or controls.yaw
         ):
-            return  # nobody interferes with what it does by itself
+            return  # a task in progress is not interrupted
         self._automatic.interrupt()
         flight = self.flight
         if controls.switch is Switch.A:

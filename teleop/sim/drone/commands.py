@@ -6,7 +6,7 @@ import math
 
 from teleop.dji.drone.enums import GearChannel, ModeChannel
 from teleop.dji.drone.movement import Horizontal, Move, ReferenceFrame, Vertical, Yaw
-from teleop.dji.drone.virtual_rc import CENTRE, DEFLECTION, Sticks
+from teleop.dji.drone.virtual_rc import CENTER, DEFLECTION, Sticks
 from teleop.sim.drone.controls import Controls, Switch
 from teleop.sim.drone.flight import Flight
 
@@ -19,14 +19,14 @@ HOVER = 50.0  # % of thrust that neither climbs nor sinks
 def out_of_range(sticks: Sticks) -> str:
     """Which of the four sticks is beyond its range, in words."""
     for name in STICKS:
-        if abs(getattr(sticks, name) - CENTRE) > DEFLECTION:
-            return f"{name} must be {CENTRE - DEFLECTION}..{CENTRE + DEFLECTION}, not {getattr(sticks, name)}"
+        if abs(getattr(sticks, name) - CENTER) > DEFLECTION:
+            return f"{name} must be {CENTER - DEFLECTION}..{CENTER + DEFLECTION}, not {getattr(sticks, name)}"
     return ""
 
 
 def controls(sticks: Sticks, before: Controls) -> Controls:
     """What the channels of the virtual RC say after those `before`: a switch with an unknown value stays as it was."""
-    roll, pitch, throttle, yaw = ((getattr(sticks, name) - CENTRE) / DEFLECTION for name in STICKS)
+    roll, pitch, throttle, yaw = ((getattr(sticks, name) - CENTER) / DEFLECTION for name in STICKS)
     mode, gear = SWITCHES.get(sticks.mode, before.switch), GEARS.get(sticks.gear, before.gear_up)  # type: ignore[call-overload]
     return Controls(roll, pitch, throttle, yaw, mode, gear)
 

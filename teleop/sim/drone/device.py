@@ -61,7 +61,7 @@ class SimulatedDrone:
         self._outgoing = bytearray()
         self._acknowledgements = Acknowledgements(settings.answer_delay)
         self._booted = -math.inf
-        self._lost_control = 0  # how often the onboard computer was told
+        self._lost_control = 0  # how often the onboard computer was notified
         self._boot(now, math.radians(yaw), battery)
 
     def _boot(self, now: float, heading: float, battery: float) -> None:

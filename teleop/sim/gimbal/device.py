@@ -7,7 +7,7 @@ and `refusals` has it with its reason. Reserved bits are not looked at where cli
 
 Every part is a function of time between commands, so looking often or seldom makes no difference.
 
-What goes wrong with real ones can be asked for: a reboot, an axis held by hand, angles that are no longer told, and the
+What goes wrong with real ones can be asked for: a reboot, an axis held by hand, missing angle reports, and the
 time that it takes to react.
 """
 
@@ -214,10 +214,10 @@ class SimulatedGimbal:
         return ReturnCode.OK
 
     def _change_mode(self, message: gimbal.Mode, now: float) -> Answer:
-        if message.action == gimbal.CentreAction.NONE:
+        if message.action == gimbal.CenterAction.NONE:
             self.follow = gimbal.FollowMode(message.mode)
         else:
-            yaw = 180.0 if message.action == gimbal.CentreAction.SELFIE else 0.0
+            yaw = 180.0 if message.action == gimbal.CenterAction.SELFIE else 0.0
             self._head.turn(now, Angles(yaw, 0.0, 0.0))
         return ReturnCode.OK
 

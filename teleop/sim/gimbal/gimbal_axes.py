@@ -106,7 +106,7 @@ class GimbalAxes:
                 motor.hold(now, bool(hand))
 
     def boot(self) -> None:
-        """Stand where it does at first, under nobody's control."""
+        """Go back to the start position, with no command in force."""
         self.controlled = False
         for motor, angle in zip(self._motors, self._boot, strict=True):
             motor.place(angle)

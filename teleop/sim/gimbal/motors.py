@@ -39,7 +39,7 @@ class Motor:
 
     `lag` is the time constant of its velocity in s, `minimum` and `maximum` the stops, infinite for none. A motor that
     is beyond a stop, because the stop was moved, can only move back. One that is `held` stands still and
-    forgets all it is told.
+    drops every command.
     """
 
     def __init__(self, position: float, lag: float, minimum: float = -math.inf, maximum: float = math.inf) -> None:
@@ -70,7 +70,7 @@ class Motor:
         self._plan = [Segment(now, self.at(now)[0])]
 
     def hold(self, now: float, held: bool) -> None:
-        """Somebody's hand stops it at once, or lets go."""
+        """A hand holds it at once, or releases it."""
         self.held = held
         self.halt(now)
 

@@ -9,7 +9,7 @@ from teleop.dji.message import Message
 
 Due = tuple[float, Message]  # s, and what is pushed then
 
-WINDOW = 1.0  # s: of the beats that were missed while nobody looked, so many are made up for, as a queue would hold
+WINDOW = 1.0  # s: of the beats missed between two polls, as many are made up for as a queue would hold
 
 
 @dataclass

@@ -19,9 +19,9 @@ from teleop.dji.message import FieldError, Message
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ("recenter", gimbal.Mode(action=gimbal.CentreAction.RECENTER)),
-        ("gimbal recenter", gimbal.Mode(action=gimbal.CentreAction.RECENTER)),
-        ("selfie", gimbal.Mode(action=gimbal.CentreAction.SELFIE)),
+        ("recenter", gimbal.Mode(action=gimbal.CenterAction.RECENTER)),
+        ("gimbal recenter", gimbal.Mode(action=gimbal.CenterAction.RECENTER)),
+        ("selfie", gimbal.Mode(action=gimbal.CenterAction.SELFIE)),
         ("angles", gimbal.Angles()),
         ("angles joint", gimbal.Angles(gimbal.AngleKind.JOINT)),
         ("limits", gimbal.Limits()),

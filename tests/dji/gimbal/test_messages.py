@@ -9,7 +9,7 @@ from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.messages import (
     AngleKind,
     CalibrationState,
-    CentreAction,
+    CenterAction,
     FollowMode,
     Mode,
     Orient,
@@ -49,8 +49,8 @@ COMMANDS = [
     (gimbal.SetParameters((Parameter(ParameterId.MOTOR, b"\1"), Parameter(0x77, b"\1\2"))), "0e0c 23 01 01 77 02 0102"),
     (Orient(Orientation.PORTRAIT_FLIPPED), "0e0d fe 04"),
     (Orient(Orientation.DEFAULT), "0e0d fe ff"),
-    (Mode(action=CentreAction.RECENTER), "0e0e fe 01"),
-    (Mode(action=CentreAction.SELFIE), "0e0e fe 02"),
+    (Mode(action=CenterAction.RECENTER), "0e0e fe 01"),
+    (Mode(action=CenterAction.SELFIE), "0e0e fe 02"),
     (Mode(FollowMode.LOCK), "0e0e 00 00"),
     (Mode(FollowMode.YAW), "0e0e 02 00"),
     (Mode(FollowMode.SPORT), "0e0e 03 00"),
@@ -111,7 +111,7 @@ def test_streams_ask_for_no_reply() -> None:
         assert cls.cmd_type == (0x00 if cls in silent else 0x20 if cls.reply else 0x03), cls
 
 
-@pytest.mark.parametrize("mode", [Mode(), Mode(FollowMode.LOCK, CentreAction.RECENTER)])
+@pytest.mark.parametrize("mode", [Mode(), Mode(FollowMode.LOCK, CenterAction.RECENTER)])
 def test_a_mode_is_either_followed_or_an_action_done(mode: Mode) -> None:
     with pytest.raises(FieldError, match="give either a mode"):
         mode.check()

@@ -21,7 +21,7 @@ F310 = real("Logitech F310")
 REST, RIGHT = bytes.fromhex("7f7f7f7f08000000"), bytes.fromhex("ff7f7f7f08000000")
 STRONG = bytes.fromhex("e07f7f7f08000000")
 STICKY, STOP = bytes.fromhex("807f7f7f08000000"), bytes.fromhex("7f7f7f7f48000000")
-CENTRED = {Axis.PAN: 0.0, Axis.TILT: 0.0, Axis.ROLL: 0.0, Axis.FOCUS: 0.0}
+CENTERED = {Axis.PAN: 0.0, Axis.TILT: 0.0, Axis.ROLL: 0.0, Axis.FOCUS: 0.0}
 
 
 @pytest.fixture(autouse=True)
@@ -72,7 +72,7 @@ class Hand:
         self.until_trouble("finding its center: release the sticks")
         self.time.now += 0.3
         device.told(STICKY, REST)
-        self.until(lambda held: held.trouble == "" and held.deflections == CENTRED)
+        self.until(lambda held: held.trouble == "" and held.deflections == CENTERED)
 
 
 @contextmanager
@@ -206,7 +206,7 @@ def test_one_that_reports_only_changes_may_be_silent_at_rest() -> None:
     with in_hand(FakeBackend(pad)) as hand:
         hand.settle(pad)
         hand.time.now += 3600
-        assert hand.read() == Held(CENTRED, notes=[], presses=[])
+        assert hand.read() == Held(CENTERED, notes=[], presses=[])
 
 
 def test_one_that_is_held_over_and_does_not_answer_is_silent() -> None:
@@ -230,7 +230,7 @@ def test_one_that_is_held_over_and_answers_is_alive(reports: str) -> None:
     with in_hand(FakeBackend(pad), {"reports": reports}) as hand:
         hand.until_trouble("finding its center: release the sticks")
         hand.time.now += 0.3
-        hand.until(lambda held: held.deflections == CENTRED)
+        hand.until(lambda held: held.deflections == CENTERED)
         answer[0] = RIGHT
         hand.time.now += 0.15
         hand.until(lambda held: pan(held) == 1)
@@ -301,10 +301,10 @@ def test_a_pads_two_right_sticks_are_told_from_triggers_by_where_they_rest() -> 
         pad.told(rest)
         hand.until_trouble("finding its center: release the sticks")
         hand.time.now += 0.3
-        assert hand.until(lambda held: held.trouble == "").deflections == CENTRED
+        assert hand.until(lambda held: held.trouble == "").deflections == CENTERED
         pad.told(bytes.fromhex("0180808000080000" + "ff80" + "00" * 54))
         held = hand.until(lambda held: held.deflections[Axis.FOCUS])
-        assert held.deflections == {**CENTRED, Axis.FOCUS: 1}
+        assert held.deflections == {**CENTERED, Axis.FOCUS: 1}
         assert hand.notes == []
 
 

@@ -178,14 +178,14 @@ def test_angles_are_reported_on_the_grid_of_a_tenth_of_a_degree() -> None:
 def test_recentring_eases_to_the_centre_and_selfie_turns_round(bench: Bench) -> None:
     bench.tell(gimbal.Position(90.0, 10.0, 40.0, time_for_action=1.0))
     bench.now = 1.0
-    bench.tell(gimbal.Mode(action=gimbal.CentreAction.RECENTER))
+    bench.tell(gimbal.Mode(action=gimbal.CenterAction.RECENTER))
     yaws = []
     for bench.now in (1.0, 1.5, 2.0, 2.5, 3.0):
         bench.listen()
         yaws.append(bench.gimbal.angles.yaw)
     assert yaws == sorted(yaws, reverse=True)
     assert bench.gimbal.angles == pytest.approx((0.0, 0.0, 0.0), abs=0.2)
-    bench.tell(gimbal.Mode(action=gimbal.CentreAction.SELFIE))
+    bench.tell(gimbal.Mode(action=gimbal.CenterAction.SELFIE))
     bench.now = 60.0
     bench.listen()
     assert bench.gimbal.angles == (180.0, 0.0, 0.0)
@@ -196,7 +196,7 @@ def test_recentring_eases_to_the_centre_and_selfie_turns_round(bench: Bench) -> 
     [
         gimbal.Position(90.0, 0.0, 0.0),
         gimbal.Speed(30.0, 0.0, 0.0),
-        gimbal.Mode(action=gimbal.CentreAction.SELFIE),
+        gimbal.Mode(action=gimbal.CenterAction.SELFIE),
         gimbal.Mode(mode=gimbal.FollowMode.LOCK),
     ],
 )
@@ -243,7 +243,7 @@ moves = st.one_of(
     ),
     st.builds(gimbal.Speed, *(st.floats(-360, 360) for _ in range(3)), take_over=st.booleans()),
     st.builds(gimbal.Joystick, *(st.integers(-15000, 15000) for _ in range(3))),
-    st.builds(gimbal.Mode, action=st.sampled_from([gimbal.CentreAction.RECENTER, gimbal.CentreAction.SELFIE])),
+    st.builds(gimbal.Mode, action=st.sampled_from([gimbal.CenterAction.RECENTER, gimbal.CenterAction.SELFIE])),
     st.builds(gimbal.Calibrate, st.booleans()),
     st.builds(gimbal.PushSettings, st.sampled_from([gimbal.Switch.ON, gimbal.Switch.OFF])),
     st.builds(focus.Set, st.integers(0, 4095)),
