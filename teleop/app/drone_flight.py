@@ -33,18 +33,18 @@ class Aboard:
         self._drone: DroneSink | None = None
         self._now: Callable[[], float] = lambda: 0.0
 
-    def board(self, rig: Rig, axes: Collection[Axis], say: Callable[[str], object], by_script: bool) -> None:
-        """`say` is for what the drone says; `by_script` engages it at the start.
+    def board(self, rig: Rig, axes: Collection[Axis], notify: Callable[[str], object], by_script: bool) -> None:
+        """`notify` is for what the drone says; `by_script` engages it at the start.
 
         A drone is flown up by its pilot before a script has it, so a simulated one is found in the air.
         """
         self._drone, self._now = rig.drone(list(axes)), rig.clock.now
         if self._drone is None:
             return
-        self._drone.say, self._drone.by_script = say, by_script
+        self._drone.notify, self._drone.by_script = notify, by_script
         for simulated in rig.simulated_drones.values() if by_script else ():
             simulated.autopilot.flight.hover(HOVER)
-            say(f"the simulated drone hovers at {HOVER:g} m")
+            notify(f"the simulated drone hovers at {HOVER:g} m")
 
     def state(self) -> DroneState | None:
         return self._drone.state(self._now()) if self._drone else None

@@ -86,9 +86,9 @@ class LiveRun:
             own = [*inputs, *([] if keyboard is None else [keyboard])]
             operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, replay)
             for line in (*left_out, *([note] if note else [])):
-                operator.say(line)
+                operator.notify(line)
             recorder = self._recorder(stack, limits, lambda: aboard.status(operator.status), patient=self.virtual)
-            aboard.board(rig, axes, operator.say, by_script=False)
+            aboard.board(rig, axes, operator.notify, by_script=False)
             screen = make_screen(LiveParts(limits, operator, rig.connections, recorder, aboard.state))
             observers, sinks = self._watched(rig, axes, operator, lenient=replay is None)
             tracking, stopped = TrackingErrorMonitor(lambda: operator.begin), (lambda: operator.reason)
@@ -110,9 +110,9 @@ class LiveRun:
             guard, shown = StopGuard(replay, [Relay(each) for each in devices]), status(replay)
             recorder = self._recorder(stack, limits, aboard.status if is_flown(axes) else None, patient=self.virtual)
             screen = make_screen(limits, lambda now: guard.over(shown(now)), recorder)
-            guard.say = screen.say
+            guard.notify = screen.notify
             rig = stack.enter_context(open_rig(self.profile, self.clock))
-            aboard.board(rig, axes, screen.say, by_script=True)
+            aboard.board(rig, axes, screen.notify, by_script=True)
             tracking = TrackingErrorMonitor(lambda: replay.begin)
             return run(*(rig, axes, [guard], tracking, screen, signals, recorder), stopped=lambda: guard.reason)
 
@@ -142,8 +142,8 @@ class LiveRun:
     def _watched(
         self, rig: Rig, axes: Sequence[Axis], operator: Operator, lenient: bool
     ) -> tuple[Sequence[Observer], Sequence[Sink]]:
-        observers, sinks = commands(rig, axes, operator.say, operator.confirmed)
-        camera = CameraAnswers(rig.camera, operator.say, operator.camera_answered, lenient=lenient)
+        observers, sinks = commands(rig, axes, operator.notify, operator.confirmed)
+        camera = CameraAnswers(rig.camera, operator.notify, operator.camera_answered, lenient=lenient)
         return [*observers, camera, *([] if self.keyboard is None else [self.keyboard])], sinks
 
 

@@ -30,9 +30,9 @@ Signals = Callable[
 
 
 class Screen(Observer, Protocol):
-    """Shows a run while it is entered; `say` adds a line."""
+    """Shows a run while it is entered; `notify` adds a line."""
 
-    def say(self, text: str) -> None: ...
+    def notify(self, text: str) -> None: ...
 
     def __enter__(self) -> Self: ...
 
@@ -71,7 +71,7 @@ def run(
     """
     watching = [tracking, *observers, *([] if take is None else [take]), screen]
     loop = rig.loop(axes, sources, watching, sinks)
-    with undisturbed(), signals(loop.interrupt, loop.release_at_once, screen.say), screen:
+    with undisturbed(), signals(loop.interrupt, loop.release_at_once, screen.notify), screen:
         ended = loop.run()
     ended.reasons += [reason] if (reason := stopped()) else []
     links = {name: dict(connection.counts) for name, connection in rig.connections.items()}
@@ -85,17 +85,17 @@ def run(
 def commands(
     rig: Rig,
     axes: Sequence[Axis],
-    say: Callable[[str], object],
+    notify: Callable[[str], object],
     done: Callable[[DeviceCommand], object] = lambda _command: None,
 ) -> tuple[list[Observer], list[Sink]]:
-    """The observers of the links, and the sink of a gimbal's own commands where the rig has one; `say` is for both.
+    """The observers of the links, and the sink of a gimbal's own commands where the rig has one; `notify` is for both.
 
     `done` is called with each command that the gimbal has confirmed.
     """
     links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
-    sinks = [CommandSink(rig.connections[link], say, done) for link in links[:1]]
-    unheard = Unheard(gimbal=bool(sinks), drone=rig.drone(axes) is not None, say=say)
-    return [unheard, LinkNotes(rig.connections.values(), say)], [*sinks]
+    sinks = [CommandSink(rig.connections[link], notify, done) for link in links[:1]]
+    unheard = Unheard(gimbal=bool(sinks), drone=rig.drone(axes) is not None, notify=notify)
+    return [unheard, LinkNotes(rig.connections.values(), notify)], [*sinks]
 
 
 @contextmanager

@@ -90,9 +90,9 @@ class SequenceRun:
             status_of = partial(run_status, source) if controls is None else controls.status
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             screen = make_screen(self.limits, shown, recorder)
-            aboard.board(rig, axes, screen.say, by_script=True)
+            aboard.board(rig, axes, screen.notify, by_script=True)
             if guard:
-                guard.say = screen.say
+                guard.notify = screen.notify
             tracking, stopped = TrackingErrorMonitor(lambda: source.begin), (lambda: guard.reason if guard else "")
             sources = [guard or source]
             report = run(rig, axes, sources, tracking, screen, signals, recorder, observers, sinks, stopped)
@@ -121,7 +121,7 @@ class SequenceRun:
         limits = trim_limits(self.performance.move, self.limits, self.share)
         trimming = LiveOffset(limits, relays, self.profile.sticks)
         if note:
-            trimming.say(note)
+            trimming.notify(note)
         trim = TrimWriter(trimming, self.trimmed)
         controls = PlaybackControls(self.source, keys, trimming, trim.keep)
         return controls, StopGuard(controls, relays), trim

@@ -64,12 +64,12 @@ class ShootRun:
             recorder = self._recorder(stack)
             keys = None if self.keys is None else stack.enter_context(self.keys)
             observers: list[Observer] = [each for each in (recorder, keys) if each is not None]
-            shooting = self._shooting(stack, journal, observers, lambda line: screen.say(line), warn)
+            shooting = self._shooting(stack, journal, observers, lambda line: screen.notify(line), warn)
             screen = make_screen(shooting, path, recorder)
             tracking = TrackingErrorMonitor(lambda: shooting.begin)
             observers += [tracking, screen]
             begun(path)
-            with undisturbed(), signals(shooting.interrupt, shooting.release_at_once, screen.say), screen:
+            with undisturbed(), signals(shooting.interrupt, shooting.release_at_once, screen.notify), screen:
                 ended = shooting.run()
             if recorder is not None:
                 recorder.finish(ended.result, ended.reasons, shooting.links)
@@ -86,11 +86,11 @@ class ShootRun:
         stack: ExitStack,
         journal: Journal,
         observers: Sequence[Observer],
-        say: Callable[[str], object],
+        notify: Callable[[str], object],
         warn: Callable[[str], object],
     ) -> Shooting:
         inputs = [] if self.virtual else open_stop_inputs(stack, self.profile, self.clock, warn)
         return Shooting(
-            *(self.timelapse, self.profile, self.clock, journal, say, observers, self.keys, self.in_doubt),
+            *(self.timelapse, self.profile, self.clock, journal, notify, observers, self.keys, self.in_doubt),
             inputs=inputs,
         )

@@ -57,7 +57,7 @@ def camera_link(profile: Profile) -> str:
 
 
 class Shooting:
-    """One shoot: its journal is open, `say` tells the operator a line, `observers` see every run.
+    """One shoot: its journal is open, `notify` tells the operator a line, `observers` see every run.
 
     `keys` and `inputs` can stop it; a STOP that is not cleared outlasts a run.
     """
@@ -68,7 +68,7 @@ class Shooting:
         profile: Profile,
         clock: Clock,
         journal: Journal,
-        say: Callable[[str], object],
+        notify: Callable[[str], object],
         observers: Sequence[Observer] = (),
         keys: Input | None = None,
         in_doubt: InDoubt = "shoot",
@@ -76,7 +76,7 @@ class Shooting:
         inputs: Sequence[Input] = (),
     ) -> None:
         self._timelapse, self._profile, self._clock, self._journal = timelapse, profile, clock, journal
-        self._say, self._observers, self._in_doubt = say, observers, in_doubt
+        self._notify, self._observers, self._in_doubt = notify, observers, in_doubt
         self._executor = executor
         self._inputs = [*([] if keys is None else [keys]), *inputs]
         self.guard: StopGuard | None = None
@@ -117,7 +117,7 @@ class Shooting:
             waiting = isinstance(faults[0], LinkError) or not reached
             if reached:
                 said = "waiting for the link, then going" if waiting else "going"
-                self._say(f"{ended.reasons[0]}: {said} on at frame {self._journal.next}")
+                self._notify(f"{ended.reasons[0]}: {said} on at frame {self._journal.next}")
             waited = waited + RETRY if waiting and not reached else 0.0
             if waited > LONGEST_WAIT:
                 return ended
@@ -140,13 +140,13 @@ class Shooting:
         keys = Together(relays) if relays else None
         source = TimelapseSource(timelapse, mover, self._journal, first, self.progress, self._slot, keys)
         self._source = source
-        guard = StopGuard(source, relays, self._say, LOOK, self.guard.stopped_by if self.guard else "")
+        guard = StopGuard(source, relays, self._notify, LOOK, self.guard.stopped_by if self.guard else "")
         self.guard = guard
         self._runs += 1
         try:
             with open_rig(self._profile, self._clock) as rig:
                 shutter = ShutterSink(rig.connections[self._camera], source.on_shutter_result)
-                notes = LinkNotes(rig.connections.values(), self._say)
+                notes = LinkNotes(rig.connections.values(), self._notify)
                 self._loop = rig.loop(list(timelapse.limits), [guard], [notes, *self._observers], [shutter])
                 if self._interrupted:
                     self._loop.interrupt(self._interrupted)
@@ -189,9 +189,9 @@ class Shooting:
             self._journal.note(frame, FrameState.DOUBTFUL)
             self._journal.catch_up()
             self.progress.doubtful.append(frame)
-            self._say(f"{said}; it counts as shot")
+            self._notify(f"{said}; it counts as shot")
         else:
-            self._say(f"{said}; it is shot again, so the camera may have it twice")
+            self._notify(f"{said}; it is shot again, so the camera may have it twice")
         self.progress.frame = self._journal.next
 
     def interrupt(self, reason: str) -> None:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from teleop.manual.live_offset import LiveOffset
     from teleop.sequence.trim_export import TrimmedFile
 
-PATIENCE = 10.0  # s for the file at the end of a run
+WRITE_TIMEOUT = 10.0  # s for the file at the end of a run
 
 
 class TrimWriter:
@@ -44,7 +44,7 @@ class TrimWriter:
         if self._file is None or self._unreported is None or not self._unreported.done():
             return
         done, self._unreported = self._unreported, None
-        self._trimming.say(self._failure(done) or f"the trim is written to {self._file.target}")
+        self._trimming.notify(self._failure(done) or f"the trim is written to {self._file.target}")
 
     def finish(self) -> str | None:
         """The file, once it is written; None where there is none, or it could not be: see `failure`."""
@@ -64,7 +64,7 @@ class TrimWriter:
 
     def _failure(self, written: Future[None]) -> str:
         try:
-            error = written.exception(PATIENCE)
+            error = written.exception(WRITE_TIMEOUT)
         except TimeoutError:
             return f"{'' if self._file is None else self._file.target}: cannot be written: the disk does not answer"
         if error is None or self._file is None:

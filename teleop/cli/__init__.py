@@ -101,7 +101,7 @@ def run(arguments: Sequence[str]) -> int:
     except (CycloptsError, TeleopError) as error:
         if debug and not isinstance(error, CycloptsError):
             logging.getLogger(__name__).debug("here is where it came from", exc_info=error)
-        _say(error)
+        _notify(error)
         bad_usage = isinstance(error, CycloptsError | UsageError) and not isinstance(error, UnplayableError)
         return BAD_USAGE if bad_usage else FAILED
     except LeaveAtOnce as signal:
@@ -118,7 +118,7 @@ def run(arguments: Sequence[str]) -> int:
         return FAILED
 
 
-def _say(error: Exception) -> None:
+def _notify(error: Exception) -> None:
     if isinstance(error, DocumentError):
         print("\n".join(error.problems[:MOST_SAID]), file=sys.stderr)
         if more := len(error.problems[MOST_SAID:]) + error.more:

@@ -32,7 +32,7 @@ _ONE_WAY = (Kind.TRIGGER, Kind.BUTTON)
 class Asker(Protocol):
     """Who is asked."""
 
-    def say(self, text: str) -> None: ...
+    def notify(self, text: str) -> None: ...
 
     def skips(self) -> bool:
         """Whether Enter has been pressed since the last call: nothing is to do that."""
@@ -48,7 +48,7 @@ class Terminal:
         if not has_keys():
             raise UsageError("--learn cannot see Enter on this system: use Linux or macOS, or copy a shipped mapping")
 
-    def say(self, text: str) -> None:
+    def notify(self, text: str) -> None:
         print(text, file=sys.stderr, flush=True)
 
     def skips(self) -> bool:
@@ -88,7 +88,7 @@ def learn(
     finally:
         device.close()
     print(learned.text(info.vendor_id, info.product_id, described(info)), end="")
-    asker.say("Copy these lines into your profile.")
+    asker.notify("Copy these lines into your profile.")
     return 0
 
 
@@ -101,7 +101,7 @@ class _Dialogue:
 
     def hold(self, axes: Sequence[Axis]) -> Learned:
         """Raises OSError when the device is unplugged."""
-        self._asker.say(f"{described(self._info)}: release all controls.")
+        self._asker.notify(f"{described(self._info)}: release all controls.")
         self._rest()
         for question in questions(axes):
             answer = self._answer(question)
@@ -115,19 +115,19 @@ class _Dialogue:
 
     def _answer(self, question: Question) -> Found | None:
         """The control that was moved and released again; None when the question is skipped."""
-        self._asker.say(f"{question.text}. Enter: skip.")
+        self._asker.notify(f"{question.text}. Enter: skip.")
         while True:
             watch = Watch(self._state.values, smooth=question.axis is not None)
             found = self._moved(watch)
             if found is None:
                 return None
-            self._asker.say(f"  {found.name}; release it")
+            self._asker.notify(f"  {found.name}; release it")
             self._rest()
             if watch.settled(found, self._state.values).kind is Kind.LEVER:
                 self._rest(HELD)
             if not self._learned.has(found.name):
                 return watch.settled(found, self._state.values)
-            self._asker.say(f"  {found.name} is already in use: choose another")
+            self._asker.notify(f"  {found.name} is already in use: choose another")
 
     def _moved(self, watch: Watch) -> Found | None:
         while not self._asker.skips():

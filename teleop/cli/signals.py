@@ -38,14 +38,14 @@ def nothing(_text: str = "") -> None: ...
 def signals_to(
     interrupt: Callable[[str], object],
     release: Callable[[], object] = nothing,
-    say: Callable[[str], object] = nothing,
+    notify: Callable[[str], object] = nothing,
 ) -> Iterator[None]:
     """Ctrl-C and other signals to end call `interrupt` with their name; the third raises LeaveAtOnce where the main
     thread is. `release` is one attempt to release every device, for another thread to make where that one hangs.
 
-    `say` tells the operator on a terminal how to leave; it must not wait. Every handler is put back afterwards.
+    `notify` tells the operator on a terminal how to leave; it must not wait. Every handler is put back afterwards.
     """
-    desk = _Desk(interrupt, release, say if sys.stderr.isatty() else nothing)
+    desk = _Desk(interrupt, release, notify if sys.stderr.isatty() else nothing)
     numbers = [*_known(STOPPING), *(number for number in _known(LEAVING) if signal.getsignal(number) != signal.SIG_IGN)]
     with contextlib.ExitStack() as stack:
         stack.enter_context(desk)
@@ -62,9 +62,9 @@ class _Desk:
     """Where the signals of a run come in."""
 
     def __init__(
-        self, interrupt: Callable[[str], object], release: Callable[[], object], say: Callable[[str], object]
+        self, interrupt: Callable[[str], object], release: Callable[[], object], notify: Callable[[str], object]
     ) -> None:
-        self._interrupt, self._release, self._say = interrupt, release, say
+        self._interrupt, self._release, self._notify = interrupt, release, notify
         self.leaving = False  # the main thread was asked to leave, or is past the run
         self._seen = self._counted = 0  # by the main thread, by the pipe: signals that come together are one handler's
         self._owned = process.owned
@@ -104,7 +104,7 @@ class _Desk:
             for _ in filter(self._stopping.__contains__, numbers):
                 self._counted += 1
                 if hint := _HINTS.get(self._counted):
-                    self._say(f"stopping; press Ctrl-C {hint} more to leave at once")
+                    self._notify(f"stopping; press Ctrl-C {hint} more to leave at once")
             if self._counted >= PRESSES:
                 self._leave(numbers[-1])
                 return

@@ -28,7 +28,7 @@ from teleop.config.folders import state_folder
 from teleop.core.axes import Axis, Limits
 
 DIGITS = 4  # behind the point: finer than any gimbal measures
-PATIENCE = 5.0  # s to wait at the end for a disk that does not answer
+WRITE_TIMEOUT = 5.0  # s to wait at the end for a disk that does not answer
 _NUMBER = re.compile(r"\d{1,3}")
 
 
@@ -98,7 +98,7 @@ class Presets:
             self._closing = True
             self._changed.notify()
         if self._writer:
-            self._writer.join(PATIENCE)
+            self._writer.join(WRITE_TIMEOUT)
 
     def _save(self) -> None:
         self._name()

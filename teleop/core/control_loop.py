@@ -29,7 +29,7 @@ from teleop.core.interfaces import Clock, Feedback, Observer, Planner, Reporter,
 from teleop.core.run_state import RunEvent, RunState, RunStateMachine
 from teleop.core.setpoints import Demand, Setpoint, Stop
 from teleop.core.shutdown import Shutdown
-from teleop.core.stall_recovery import PATIENCE, StallRecovery
+from teleop.core.stall_recovery import READINGS_TIMEOUT, StallRecovery
 from teleop.core.timing import DEFAULTS, LoopTiming
 
 LEAD = 0.002  # s before its moment a tick is prepared, so that commands leave evenly however long they took to make
@@ -134,7 +134,7 @@ class ControlLoop:
     def _take_interrupt(self) -> None:
         if self._interrupt:
             reason, self._interrupt = self._interrupt, ""
-            self.supervisor.happened(RunEvent.INTERRUPT, reason)
+            self.supervisor.handle(RunEvent.INTERRUPT, reason)
 
     def _next_tick(self) -> tuple[float, int]:
         """Sleep until the next tick that is needed: its time on the grid, and the periods the planner has to cover."""
@@ -169,7 +169,7 @@ class ControlLoop:
             for source in self._sources:
                 source.start(now, self._motion)
             self._wake = now
-            self.supervisor.happened(RunEvent.REPORTED)
+            self.supervisor.handle(RunEvent.REPORTED)
         elif now - self._origin > self._timing.first_report:
             seconds = self._timing.first_report
             raise DeviceError(f"no position of {' or '.join(missing)} was reported within {seconds:g} s")
@@ -186,7 +186,7 @@ class ControlLoop:
         self._wake = min(source.next_change(now) for source in self._sources)
         self._emit(now, demand, actions)
         if self._resting and math.isinf(self._wake) and self.supervisor.state is RunState.RUNNING:
-            self.supervisor.happened(RunEvent.FINISHED)
+            self.supervisor.handle(RunEvent.FINISHED)
 
     def _ask(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
         """What the sources demand for this tick; of two that demand something of an axis, the first."""
@@ -216,7 +216,7 @@ class ControlLoop:
         self._motion = motion
         self._emit(now, demand, ())
         if all(state.velocity == 0 and state.acceleration == 0 for state in motion.values()):
-            self.supervisor.happened(RunEvent.AT_REST)
+            self.supervisor.handle(RunEvent.AT_REST)
 
     def _halted(self, demand: Demand, steps: int) -> Motion:
         return _finite(self._planner.step(demand, steps))
@@ -236,23 +236,23 @@ class ControlLoop:
             self._calls.fault(
                 DeviceError(f"no position of {' or '.join(lost.unread)} since the stall: released without a ramp")
             )
-            self.supervisor.happened(RunEvent.AT_REST)
+            self.supervisor.handle(RunEvent.AT_REST)
         return True
 
     def _limit_stopping(self, now: float) -> None:
         """Stopping has a longest time, whatever keeps failing or stalling; after it the devices are released."""
         if math.isinf(self._stop_limit):
             ramp = self._calls.guarded(longest_stop, self._motion, self._limits, default=0.0)
-            self._stop_limit = now + PATIENCE + STOP_EXTRA + (STOP_SHARE + 1) * ramp + STOP_SLACK
+            self._stop_limit = now + READINGS_TIMEOUT + STOP_EXTRA + (STOP_SHARE + 1) * ramp + STOP_SLACK
         elif not now <= self._stop_limit:
             self._calls.fault(DeviceError("the axes did not come to rest in time: released as they are"))
-            self.supervisor.happened(RunEvent.AT_REST)
+            self.supervisor.handle(RunEvent.AT_REST)
 
     def _release(self, now: float, _steps: int) -> None:
         """Reports go on meanwhile: what the links still hold back leaves, and the sinks hear what is answered."""
         self._report(now)
         if self._giving_back.step(now, self._calls.guarded):
-            self.supervisor.happened(RunEvent.RELEASED)
+            self.supervisor.handle(RunEvent.RELEASED)
 
     def _report(self, now: float) -> None:
         """Where the axes are, asked while the tick of `now` is prepared."""

@@ -57,4 +57,4 @@ class GuardedCalls:
         log.debug("fault: %s", reason, exc_info=fault)
         if len(self.faults) < FAULTS:
             self.faults.append(fault)
-        self._run.happened(RunEvent.INTERRUPT if isinstance(fault, Interrupted) else RunEvent.FAULT, reason)
+        self._run.handle(RunEvent.INTERRUPT if isinstance(fault, Interrupted) else RunEvent.FAULT, reason)

@@ -68,7 +68,7 @@ class RunStateMachine:
     result: Result = Result.DONE
     reasons: list[str] = field(default_factory=list)
 
-    def happened(self, event: RunEvent, reason: str = "") -> None:
+    def handle(self, event: RunEvent, reason: str = "") -> None:
         """Follow the table; raises IllegalEventError when it has no row for this."""
         try:
             self.state = TRANSITIONS[self.state, event]

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 
 from teleop.core.axes import Axis, Motion, Reading, State
 
-PATIENCE = 0.3  # s to wait for two readings of every axis
+READINGS_TIMEOUT = 0.3  # s to wait for two readings of every axis
 
 
 class StallRecovery:
@@ -37,7 +37,7 @@ class StallRecovery:
                 continue
             earlier = [each for each in readings if each.time < reading.time]
             self._readings[axis] = [*earlier[-1:], reading]
-        return now >= self._since + PATIENCE or all(len(readings) == 2 for readings in self._readings.values())
+        return now >= self._since + READINGS_TIMEOUT or all(len(readings) == 2 for readings in self._readings.values())
 
     def found(self, now: float) -> Motion:
         """The axes that were read since, where they are at `now`; those read once are at rest.

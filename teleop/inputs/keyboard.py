@@ -23,7 +23,7 @@ from teleop.core.operator_input import Held, Press
 from teleop.inputs.keymaps import Act, KeyReader
 
 ESCAPE_TIME = 0.05  # s within which the rest of an escape sequence comes, over a slow line too
-PATIENCE = 1.0  # s at the end for a read that another program on the terminal has left without its key
+READ_TIMEOUT = 1.0  # s at the end for a read that another program on the terminal has left without its key
 CLOSED = "the terminal was closed"
 
 
@@ -113,7 +113,7 @@ class Keyboard:
 
         os.write(self._wake[1], b".")
         if self._thread:
-            self._thread.join(PATIENCE)
+            self._thread.join(READ_TIMEOUT)
         if not (
             self._thread and self._thread.is_alive()
         ):  # one that hangs in a read would read what comes to be open there

@@ -10,7 +10,7 @@ import math
 
 NEAR = 0.1  # of the way to an end: what rests further out is a throttle, a trigger or a slider, or is held
 FINDING = 0.25  # s of rest by which a center is learned
-STILL = 0.05  # of the way to an end: what wanders further meanwhile is not at rest
+REST_SPREAD = 0.05  # of the way to an end: what wanders further meanwhile is not at rest
 
 
 def shape(deflection: float, dead_zone: float, expo: float) -> float:
@@ -67,7 +67,7 @@ class Center:
             return
         late = self.value is not None
         self._least, self._most = min(self._least, value), max(self._most, value)
-        still = self._most - self._least <= STILL * self._reach and (not late or self._near(value))
+        still = self._most - self._least <= REST_SPREAD * self._reach and (not late or self._near(value))
         if late and not still:
             self._begin(value, now)
             return

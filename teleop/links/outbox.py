@@ -26,7 +26,7 @@ from enum import Enum, auto
 
 from teleop.core.errors import LinkError
 
-PATIENCE = 0.25  # s for which a bus may be full or off before the link counts as lost
+BUSY_TIMEOUT = 0.25  # s for which a bus may be full or off before the link counts as lost
 CAPACITY = 1024  # bytes held back: one frame of the greatest length (1023), or some forty commands
 
 BEHIND = 2.0  # s for which frames have to be superseded or dropped again and again
@@ -49,7 +49,7 @@ class _Waiting:
 
 
 class StalledError(LinkError):
-    """A bus that has been full or off for PATIENCE; it may come back."""
+    """A bus that has been full or off for BUSY_TIMEOUT; it may come back."""
 
 
 class Stall:
@@ -73,8 +73,8 @@ class Stall:
         self.proved = False
 
     def check(self, text: str) -> None:
-        """Raises StalledError(text) once it has lasted for PATIENCE."""
-        if self._since is not None and self._now() - self._since >= PATIENCE:
+        """Raises StalledError(text) once it has lasted for BUSY_TIMEOUT."""
+        if self._since is not None and self._now() - self._since >= BUSY_TIMEOUT:
             self.proved = True
             raise StalledError(text)
 
@@ -167,7 +167,9 @@ class Outbox:
             if not accepted:
                 self.counts["full"] += 1
                 self._full.begin()
-                self._full.check(f"{self._name}: nothing has left for {PATIENCE * 1000:.0f} ms, the bus is full or off")
+                self._full.check(
+                    f"{self._name}: nothing has left for {BUSY_TIMEOUT * 1000:.0f} ms, the bus is full or off"
+                )
                 return
             self._full.end()
             self._held -= accepted

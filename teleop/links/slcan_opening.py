@@ -16,7 +16,7 @@ from typing import Protocol
 from teleop.core.errors import LinkError
 from teleop.links.url import LinkAddress
 
-PATIENCE = 3.0  # s in which an adapter has to answer
+ANSWER_TIMEOUT = 3.0  # s in which an adapter has to answer
 ANSWER = 0.2  # s for the answer to one command
 QUIET = 0.03  # s without a line after which an answer is the last one
 LOOK = 0.005  # s between looks for an answer
@@ -54,7 +54,7 @@ class _Exchange:
         """Send a command, whose answers, however many, do not matter."""
         self._adapter.command(command)
         if self._answer(ANSWER) is not None:
-            while self._answer(QUIET) is not None and self.waited < PATIENCE:
+            while self._answer(QUIET) is not None and self.waited < ANSWER_TIMEOUT:
                 pass
 
     def frames(self, command: bytes) -> tuple[bool | None, bool]:
@@ -90,7 +90,7 @@ def go_on_bus(adapter: Opening, address: LinkAddress, speed: int, wait: Callable
     Raises LinkError when it does not answer or refuses, and OSError as its port does.
     """
     exchange, refused, rounds = _Exchange(adapter, wait), "", 0
-    while exchange.waited < PATIENCE:
+    while exchange.waited < ANSWER_TIMEOUT:
         exchange.settle(b"\rC\r")  # CR: an earlier run's torn line
         set_speed = exchange.ask(b"S%d\r" % speed)
         opened, framed = exchange.frames(b"O\r")

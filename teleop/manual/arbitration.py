@@ -24,7 +24,7 @@ LATE = 0.05  # s after which a recall is reported as late
 
 
 class Arbitration:
-    """`locks` are the inputs in the order of their priority; `say` takes lines for the operator.
+    """`locks` are the inputs in the order of their priority; `notify` takes lines for the operator.
 
     `drivers` are the inputs that deflect an axis, `deflections` (-1..1) by how much, `recall` what is under way.
     """
@@ -34,9 +34,9 @@ class Arbitration:
         limits: Mapping[Axis, Limits],
         locks: Sequence[Interlock],
         sticks: SticksSection,
-        say: Callable[[str], object],
+        notify: Callable[[str], object],
     ) -> None:
-        self._limits, self._locks, self._say = limits, locks, say
+        self._limits, self._locks, self._notify = limits, locks, notify
         self._sticks = [axis for axis in limits if axis.is_stick]
         self._shaping = {
             axis: VelocityShaping(of, sticks.ramp, sticks.low_pass) for axis, of in limits.items() if not axis.is_stick
@@ -109,7 +109,7 @@ class Arbitration:
             for axis, units in lock.held.steps.items():
                 click = lock.held.click.get(axis, 0.0)
                 if units and self._may_send(lock, axis) and self._jog.step(axis, units, motion[axis], lock, now, click):
-                    self._say(f"{axis} is at its soft limit")
+                    self._notify(f"{axis} is at its soft limit")
             for axis, share in lock.slid().items():
                 if self._may_send(lock, axis):
                     self._jog.slide(axis, share, lock, now)
@@ -118,11 +118,11 @@ class Arbitration:
         if lock.held.trouble:
             return False
         if not lock.unlocked:
-            self._say(f"{lock.name} is locked: {lock.waits_for}")
+            self._notify(f"{lock.name} is locked: {lock.waits_for}")
         elif axis not in self._limits:
-            self._say(f"{axis} is not an axis of this rig")
+            self._notify(f"{axis} is not an axis of this rig")
         elif axis.is_stick:
-            self._say(f"{axis} moves only while a stick is held")
+            self._notify(f"{axis} moves only while a stick is held")
         elif axis not in self.drivers:
             if self.recall:
                 self._end_recall(f"{lock.name} moved {axis}")
@@ -142,7 +142,7 @@ class Arbitration:
 
     def _end_recall(self, why: str, reached: bool = False) -> None:
         assert self.recall is not None
-        self._say(why if reached else f"{self.recall.title} ended: {why}")
+        self._notify(why if reached else f"{self.recall.title} ended: {why}")
         self.recall = None
 
     def drop_all(self) -> None:

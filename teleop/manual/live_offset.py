@@ -35,7 +35,7 @@ class LiveOffset:
         self._limits = limits
         self._sticks, self._range = sticks, sticks.start_range - 1
         self._log, self._now = MessageLog(), 0.0
-        self._arbitration = Arbitration(limits, self._locks, sticks, self.say)
+        self._arbitration = Arbitration(limits, self._locks, sticks, self.notify)
         self._live = Live(limits, PERIOD)
         self._live.reset(dict.fromkeys(limits, State(0.0)))
         self.offsets: dict[Axis, State] = self._live.motion
@@ -49,8 +49,8 @@ class LiveOffset:
         """What full deflection is of an offset's velocity, as things are."""
         return self._sticks.speed * self._sticks.ranges[self._range]
 
-    def say(self, text: str) -> None:
-        self._log.say(self._now, text)
+    def notify(self, text: str) -> None:
+        self._log.notify(self._now, text)
 
     def read(self, now: float) -> list[tuple[str, Press]]:
         """What was pressed, with the name of each input; what the inputs hold is kept for `step`."""
@@ -59,7 +59,7 @@ class LiveOffset:
         self._seconds = max(seconds, PERIOD)
         notes = [note for lock in self._locks for note in lock.held.notes]
         for text in (*self._log.changes(self._locks, self._arbitration.drivers), *notes):
-            self.say(text)
+            self.notify(text)
         return presses
 
     def step(self, motion: Mapping[Axis, State], allowed: bool) -> dict[Axis, State]:
@@ -87,7 +87,7 @@ class LiveOffset:
         """Take every offset back to 0, as this input asks; a stick ends that."""
         lock = next(lock for lock in self._locks if lock.name == name)
         if lock.waits_for:
-            self.say(f"trim unchanged: {name} is locked: {lock.waits_for}")
+            self.notify(f"trim unchanged: {name} is locked: {lock.waits_for}")
         elif any(state.position for state in self.offsets.values()):
             self._arbitration.begin(Recall("trim to 0", lock, dict.fromkeys(self.offsets, 0.0), self._now, RELEASE))
 
@@ -95,4 +95,4 @@ class LiveOffset:
         """To a slower or faster range; `around`: after the fastest comes the slowest."""
         ranges, index = self._sticks.ranges, self._range + by
         self._range = index % len(ranges) if around else min(max(index, 0), len(ranges) - 1)
-        self.say(f"trim speed {ranges[self._range]:.0%}")
+        self.notify(f"trim speed {ranges[self._range]:.0%}")

@@ -47,7 +47,7 @@ class Operator:
     ) -> None:
         self._limits, self._presets, self._sticks, self._seconds = limits, presets, sticks, recall
         self._locks = [Interlock(device) for device in inputs]
-        self._arbitration = Arbitration(limits, self._locks, sticks, self.say)
+        self._arbitration = Arbitration(limits, self._locks, sticks, self.notify)
         self._beneath = beneath
         self._motion: Motion = {}
         self._now = -math.inf
@@ -88,9 +88,9 @@ class Operator:
         if self._beneath:
             self._beneath.start(now, motion)
 
-    def say(self, text: str) -> None:
+    def notify(self, text: str) -> None:
         """Tell the operator something, now."""
-        self._log.say(self._now, text)
+        self._log.notify(self._now, text)
 
     def confirmed(self, command: DeviceCommand) -> None:
         """The gimbal has confirmed this command."""
@@ -113,7 +113,7 @@ class Operator:
         presses = [(lock, press) for lock in self._locks for press in lock.read(now, self._manual_control).presses]
         notes = [note for lock in self._locks for note in lock.held.notes]
         for text in (*self._log.changes(self._locks, self._arbitration.drivers), *notes, *self._presets.heard()):
-            self.say(text)
+            self.notify(text)
         for lock, press in sorted(presses, key=_is_stop):
             self._commands.get(press.command, self._unavailable)(lock, press)
         beneath = self._read_beneath(now, feedback)
@@ -155,20 +155,20 @@ class Operator:
 
     def _stop(self, lock: Interlock, _press: Press) -> None:
         if not self._stopped:
-            self.say(f"STOP by {lock.name}. Press c to clear, then center all sticks.")
+            self.notify(f"STOP by {lock.name}. Press c to clear, then center all sticks.")
             self.reason = f"ended while stopped: STOP by {lock.name}"
         self._stopped = True
         self._relock_all()
 
     def _clear(self, _hand: Interlock, _press: Press) -> None:
         if self._stopped:
-            self.say("STOP cleared: center all sticks")
+            self.notify("STOP cleared: center all sticks")
             self._stopped, self.reason = False, ""
             self._relock_all()
 
     def _enable(self, _hand: Interlock, _press: Press) -> None:
         self._manual_control = not self._manual_control
-        self.say(
+        self.notify(
             "manual control on"
             if self._manual_control
             else "manual control off: inputs without an enable button are locked"
@@ -183,12 +183,12 @@ class Operator:
 
     def _set_range(self, index: int) -> None:
         self._range = index
-        self.say(f"speed range {index + 1}: {self._sticks.ranges[index]:.0%}")
+        self.notify(f"speed range {index + 1}: {self._sticks.ranges[index]:.0%}")
 
     def _recall_preset(self, lock: Interlock, press: Press) -> None:
         preset = self._presets.get(press.number)
         if preset is None:
-            self.say(f"there is no preset {press.number} yet")
+            self.notify(f"there is no preset {press.number} yet")
             return
         known = {axis: to for axis, to in preset.positions.items() if axis in self._limits and not axis.is_stick}
         self._send(lock, f"preset {press.number}", known)
@@ -203,23 +203,23 @@ class Operator:
         refusal = "STOP is not cleared" if self._stopped else lock.waits_for
         refusal = refusal or ("release the stick first" if deflected else "")
         if refusal:
-            self.say(f"{title} refused: {refusal}")
+            self.notify(f"{title} refused: {refusal}")
         elif not positions:
-            self.say(f"{title} has no axis of this rig")
+            self.notify(f"{title} has no axis of this rig")
         else:
             here = {axis: self._motion[axis].position for axis in positions}
             targets = {axis: reachable(to, self._limits[axis], here[axis]) for axis, to in positions.items()}
             self._arbitration.begin(Recall(title, lock, targets, self._now, self._seconds))
-            self.say(f"{title} in {self._seconds:g} s")
+            self.notify(f"{title} in {self._seconds:g} s")
 
     def _store(self, _hand: Interlock, press: Press) -> None:
         where = {axis: state.position for axis, state in self._motion.items() if not axis.is_stick}
         self._presets.store(press.number, where)
-        self.say(f"preset {press.number} stored")
+        self.notify(f"preset {press.number} stored")
 
     def _delete(self, _hand: Interlock, press: Press) -> None:
         known = self._presets.delete(press.number)
-        self.say(f"preset {press.number} deleted" if known else f"there is no preset {press.number}")
+        self.notify(f"preset {press.number} deleted" if known else f"there is no preset {press.number}")
 
     def _record(self, _hand: Interlock, _press: Press) -> None:
         self._recording = not self._recording
@@ -227,7 +227,7 @@ class Operator:
 
     def _send_to_drone(self, command: DeviceCommand) -> None:
         if command.name == "engage" and self._stopped:
-            self.say("drone: not engaged: STOP is not cleared")
+            self.notify("drone: not engaged: STOP is not cleared")
         else:
             self._actions.append(command)
 
@@ -237,12 +237,12 @@ class Operator:
         if command.device == DRONE:
             self._send_to_drone(command)
         elif self._moving:
-            self.say(f"{command} refused: an axis is moving")
+            self.notify(f"{command} refused: an axis is moving")
         else:
             self._actions.append(command)
 
     def _unavailable(self, _hand: Interlock, press: Press) -> None:
-        self.say(f"{press.command}: works only while a sequence plays")
+        self.notify(f"{press.command}: works only while a sequence plays")
 
     def _quit(self, _hand: Interlock, _press: Press) -> None:
         self._done = True

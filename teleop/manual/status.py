@@ -62,7 +62,7 @@ class MessageLog:
         self._troubles: dict[Interlock, str] = {}
         self._hinted: set[Interlock] = set()
 
-    def say(self, now: float, text: str) -> None:
+    def notify(self, now: float, text: str) -> None:
         if self._kept and self._kept[0].text == text:
             self._kept.popleft()
         self._kept.appendleft(Message(now, text))

@@ -122,7 +122,7 @@ class Together:
 
 
 class StopGuard:
-    """`source` under `relays`, which its own inputs have to be; `say` is for lines that the operator is to read.
+    """`source` under `relays`, which its own inputs have to be; `notify` is for lines that the operator is to read.
 
     `poll` (s) is how often the inputs are looked at while nothing moves. `stopped_by` is a STOP from an earlier run of
     the same job, which is still latched.
@@ -132,11 +132,11 @@ class StopGuard:
         self,
         source: Resumable,
         relays: Sequence[Relay],
-        say: Callable[[str], object] = lambda _text: None,
+        notify: Callable[[str], object] = lambda _text: None,
         poll: float = KEYS_PERIOD,
         stopped_by: str = "",
     ) -> None:
-        self._source, self._relays, self.say, self._period = source, relays, say, poll
+        self._source, self._relays, self.notify, self._period = source, relays, notify, poll
         self._hold = Hold.STOPPED if stopped_by else Hold.FREE
         self.stopped_by = stopped_by  # the input that asked for the STOP in force, "" for none
         self._why = ""  # why it is paused
@@ -236,7 +236,7 @@ class StopGuard:
         if self._hold is Hold.STOPPED:
             return
         self.stopped_by = name
-        self.say(f"STOP by {name}. A recording camera keeps recording.")
+        self.notify(f"STOP by {name}. A recording camera keeps recording.")
         self._halt(Hold.STOPPED, now)
         if not self._source.resumable:
             self._end = self._end or Interrupted(f"STOP by {name}: a drone's move cannot be resumed")
@@ -245,7 +245,7 @@ class StopGuard:
         if self._hold is not Hold.STOPPED:
             return
         self._hold = Hold.CLEARED
-        self.say(f"STOP cleared. {GO_ON}")
+        self.notify(f"STOP cleared. {GO_ON}")
         if math.isinf(self._source.next_change(now)):  # it was over, so there is nothing to go on with
             self._going = True
 
@@ -266,9 +266,9 @@ class StopGuard:
                 if trouble:
                     continue
             elif trouble:
-                self.say(f"{trouble}: its STOP does not work")
+                self.notify(f"{trouble}: its STOP does not work")
             else:
-                self.say(f"{relay.name}: its STOP works{' again' if before else ''}")
+                self.notify(f"{relay.name}: its STOP works{' again' if before else ''}")
             relay.trouble = trouble
         if self._lost and self._hold is Hold.FREE:
             paused = self._source.pause(now) if self._source.pauses else False
@@ -277,7 +277,7 @@ class StopGuard:
                 self._halt(Hold.PAUSED, now)
 
     def _lose(self, trouble: str) -> None:
-        self.say(f"{trouble}: STOP lost, the run pauses")
+        self.notify(f"{trouble}: STOP lost, the run pauses")
         self._lost, self._why = True, trouble
         if not self._source.resumable:
             self._end = self._end or DeviceError(f"{trouble}: its STOP is lost")

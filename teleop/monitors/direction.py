@@ -27,7 +27,7 @@ HOLDS = 0.5  # s that a speed is obeyed: R SDK V2.5, section 2.3.4.2
 HISTORY = 100  # ticks of what was sent
 KEPT = 64  # readings; of older ones every second is kept
 GAP = 2.5  # s without a reading, after which it begins anew
-STILL = 0.15  # deg sent: not yet moving
+REST_ANGLE = 0.15  # deg sent: not yet moving
 MOVED = 0.3  # deg from where it rested: more than noise of 0.1 deg in most readings,
 RIGHT = 0.4  # deg the right way: then it was no wrong sign that turned it back
 AMPLITUDE = 0.8  # deg of a movement that says which way an axis goes
@@ -154,7 +154,7 @@ def _mirrored(seen: Sequence[Seen]) -> float:
 
 def _rested(seen: Sequence[Seen]) -> float:
     """Where the axis was before it was sent anywhere, the noise averaged out."""
-    still = [each.measured for each in takewhile(lambda each: abs(each.sent[0] - seen[0].sent[0]) < STILL, seen)]
+    still = [each.measured for each in takewhile(lambda each: abs(each.sent[0] - seen[0].sent[0]) < REST_ANGLE, seen)]
     return sum(still) / len(still)
 
 

@@ -15,7 +15,7 @@ from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
 
-PATIENCE = 0.5  # s for which an axis may be elsewhere
+EXCESS_TIMEOUT = 0.5  # s for which an axis may be elsewhere
 TRAILING = 0.2  # s by which readings may trail the command, beyond the delay that is known
 BLIND = 2.5  # s without a reading; a gimbal that only pushes may do so once a second (docs/protocol-facts.md)
 HISTORY = 300  # ticks of commanded motion: the lag, and the age of a reading
@@ -59,7 +59,7 @@ class FollowingErrorGuard:
         nearest = self._nearest(axis, measured, time)
         if abs(measured - nearest) <= self._tolerance[axis]:
             self._away.pop(axis, None)
-        elif time - self._away.setdefault(axis, time) > PATIENCE:
+        elif time - self._away.setdefault(axis, time) > EXCESS_TIMEOUT:
             del self._away[axis]
             raise DeviceError(
                 f"{axis} does not follow: commanded {nearest:.1f}, measured {measured:.1f}:"

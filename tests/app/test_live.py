@@ -45,7 +45,7 @@ def test_recorded_sticks_move_the_rig_to_their_last_row(tmp_path: Path):
         seen.append((list(limits), shown(0.0).phase, recorder is not None))
         return screen
 
-    report = live(tmp_path / "a.mcap").unattended(status, make, no_signals, screen.say)
+    report = live(tmp_path / "a.mcap").unattended(status, make, no_signals, screen.notify)
     assert report.result is Result.DONE
     assert seen == [([Axis.PAN], "replaying", True)]
     assert screen.ticks[-1].motion[Axis.PAN].position > 10

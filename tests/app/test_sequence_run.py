@@ -80,7 +80,7 @@ def run_of(
     profile = devices_in_use(plan, shoots=False)
     source = source_of(plan.sequence, profile, share, 1.0, cycle or Cycle())
     keyboard = cast(Keyboard | None, keys)
-    return SequenceRun(profile, plan.sequence, source, VirtualClock(), keyboard, screen.say, screen.say, share)
+    return SequenceRun(profile, plan.sequence, source, VirtualClock(), keyboard, screen.notify, screen.notify, share)
 
 
 def performed(screen: SilentScreen, run: SequenceRun) -> SequenceReport:

@@ -26,7 +26,7 @@ def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Stage:
 
 def shoot(stage: Stage, screen: SilentScreen, begun: list[Path], **options) -> ShootReport:
     run = ShootRun("dusk.yaml", stage.timelapse, stage.profile, VirtualClock(), None, virtual=True, **options)
-    return run.perform(lambda _shooting, _path, _recorder: screen, no_signals, begun.append, screen.say)
+    return run.perform(lambda _shooting, _path, _recorder: screen, no_signals, begun.append, screen.notify)
 
 
 def test_every_frame_is_shot_and_journaled_beside_the_command(stage: Stage, tmp_path: Path):

@@ -28,7 +28,7 @@ class Bench:
 
     def __init__(self, write: Callable[[Offsets], Any]) -> None:
         self.said: list[str] = []
-        self.trimming = SimpleNamespace(offsets={Axis.PAN: State(1.0)}, say=self.said.append)
+        self.trimming = SimpleNamespace(offsets={Axis.PAN: State(1.0)}, notify=self.said.append)
         file = SimpleNamespace(target=Path("b.yaml"), write=write)
         self.writer = TrimWriter(cast(LiveOffset, self.trimming), cast(TrimmedFile, file))
 
@@ -107,7 +107,7 @@ def test_a_file_that_cannot_be_written_is_told_during_the_run_and_after_it(error
 
 
 def test_a_disk_that_does_not_answer_does_not_hold_up_the_end(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(trim_writer, "PATIENCE", 0.05)
+    monkeypatch.setattr(trim_writer, "WRITE_TIMEOUT", 0.05)
     gate = threading.Event()
     bench = Bench(lambda _offsets: gate.wait(10))
     try:

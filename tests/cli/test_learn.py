@@ -36,7 +36,7 @@ class Hand:
         self.pad, self.heard = pad, list[str]()
         self._presses = False
 
-    def say(self, text: str) -> None:
+    def notify(self, text: str) -> None:
         self.heard.append(text)
         does = next((reports for words, reports in HAND.items() if words in text), None)
         if does is not None:
@@ -99,9 +99,9 @@ def test_a_stick_that_is_held_for_a_while_is_not_taken_for_a_slider(capsys: pyte
     class Slow(Hand):
         """Lets go a second after being told to."""
 
-        def say(self, text: str) -> None:
+        def notify(self, text: str) -> None:
             if not text.endswith("release it"):
-                super().say(text)
+                super().notify(text)
                 return
             told, read = time[0], device.read
 

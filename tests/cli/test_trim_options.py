@@ -23,7 +23,7 @@ class Hands:
         self.offsets = {Axis.PAN: State(1.5)}
         self.lines: list[str] = []
 
-    def say(self, text: str) -> None:
+    def notify(self, text: str) -> None:
         self.lines.append(text)
 
 
@@ -78,7 +78,7 @@ def test_a_file_that_was_written_is_reported(capsys: pytest.CaptureFixture[str])
 
 
 def test_a_disk_that_hangs_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("teleop.app.trim_writer.PATIENCE", 0.01)
+    monkeypatch.setattr("teleop.app.trim_writer.WRITE_TIMEOUT", 0.01)
     never = Event()
 
     class Hung(File):

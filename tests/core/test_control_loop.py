@@ -17,7 +17,7 @@ from teleop.core.interfaces import Clock, Feedback
 from teleop.core.run_state import Result, RunState
 from teleop.core.setpoints import Stop, VelocityTarget
 from teleop.core.shutdown import RELEASE_LONGEST, RELEASE_PATIENCE
-from teleop.core.stall_recovery import PATIENCE
+from teleop.core.stall_recovery import READINGS_TIMEOUT
 from teleop.core.timing import FIRST_REPORT, KEEP_ALIVE, PERIOD, LoopTiming
 from teleop.planner.live import Live
 
@@ -309,7 +309,7 @@ def test_an_axis_that_is_not_found_after_a_stall_is_released_without_a_command()
         "no position of pan since the stall: released without a ramp",
     ]
     assert sink.ticks[-1].time < 1.01, "nothing was sent after the stall"
-    assert sink.released == [pytest.approx(1.0 + STALL + 0.05 + PATIENCE, abs=3 * PERIOD)]
+    assert sink.released == [pytest.approx(1.0 + STALL + 0.05 + READINGS_TIMEOUT, abs=3 * PERIOD)]
 
 
 def test_an_axis_that_is_read_once_after_a_stall_is_held_where_it_was_read() -> None:
@@ -338,7 +338,7 @@ def test_two_readings_of_one_moment_end_the_search_like_any_other() -> None:
 
     ended = loop_of([cruising(Axis.PAN, 50, end=60.0)], [sink], [Coarse()], clock).run()
     assert ended.reasons[1:] == ["pan was measured only once since the stall: held there"]
-    assert clock.now() < 1.0 + STALL + 0.05 + PATIENCE + 0.1
+    assert clock.now() < 1.0 + STALL + 0.05 + READINGS_TIMEOUT + 0.1
     assert sink.released
 
 

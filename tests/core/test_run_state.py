@@ -33,7 +33,7 @@ def test_results_only_get_worse(events: list[RunEvent]) -> None:
     for event in events:
         before = supervisor.result
         try:
-            supervisor.happened(event, event.name)
+            supervisor.handle(event, event.name)
         except IllegalEventError:
             assert (supervisor.state, event) not in TRANSITIONS
             continue
@@ -45,12 +45,12 @@ def test_results_only_get_worse(events: list[RunEvent]) -> None:
 def test_the_first_reasons_are_kept_and_said_once() -> None:
     supervisor = RunStateMachine(RunState.RUNNING)
     for number in range(100):
-        supervisor.happened(RunEvent.FAULT, "the bus is off")
-        supervisor.happened(RunEvent.FAULT, f"fault {number}")
+        supervisor.handle(RunEvent.FAULT, "the bus is off")
+        supervisor.handle(RunEvent.FAULT, f"fault {number}")
     assert supervisor.reasons[:3] == ["the bus is off", "fault 0", "fault 1"]
     assert len(supervisor.reasons) < 10
 
 
 def test_an_event_outside_the_table_is_a_defect() -> None:
     with pytest.raises(IllegalEventError, match="AT_REST while WAITING"):
-        RunStateMachine().happened(RunEvent.AT_REST)
+        RunStateMachine().handle(RunEvent.AT_REST)

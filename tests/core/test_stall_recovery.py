@@ -7,7 +7,7 @@ import math
 import pytest
 
 from teleop.core.axes import Axis, Reading, State
-from teleop.core.stall_recovery import PATIENCE, StallRecovery
+from teleop.core.stall_recovery import READINGS_TIMEOUT, StallRecovery
 
 PAN, TILT = Axis.PAN, Axis.TILT
 SINCE = 5.0
@@ -43,10 +43,10 @@ def test_a_reading_from_before_the_stall_from_the_future_or_without_a_number_doe
 def test_by_the_deadline_an_axis_read_once_is_held_and_one_not_read_is_given_up():
     recovery = lost(pan=10.0, tilt=10.0)
     readings = {PAN: Reading(3.0, 5.1)}
-    assert not recovery.known(SINCE + PATIENCE - 0.01, readings)
-    assert recovery.known(SINCE + PATIENCE, readings)
+    assert not recovery.known(SINCE + READINGS_TIMEOUT - 0.01, readings)
+    assert recovery.known(SINCE + READINGS_TIMEOUT, readings)
     assert (recovery.read_once, recovery.unread) == ([PAN], [TILT])
-    assert recovery.found(SINCE + PATIENCE) == {PAN: State(3.0)}
+    assert recovery.found(SINCE + READINGS_TIMEOUT) == {PAN: State(3.0)}
 
 
 def test_of_two_readings_at_the_same_time_the_later_one_counts_alone():

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from teleop.core.errors import LinkError
-from teleop.links.outbox import CAPACITY, PATIENCE, Outbox, Traffic
+from teleop.links.outbox import BUSY_TIMEOUT, CAPACITY, Outbox, Traffic
 
 FRAME = bytes(range(26))
 
@@ -55,7 +55,7 @@ def test_a_full_port_is_offered_the_rest_later() -> None:
     port.outbox.send(FRAME)
     assert port.taken == FRAME[:8]
     port.room = 100
-    port.now = PATIENCE / 2
+    port.now = BUSY_TIMEOUT / 2
     port.outbox.flush()
     assert port.taken == FRAME
     assert port.outbox.counts["full"] == 1
@@ -83,9 +83,9 @@ def test_the_longest_frame_fits() -> None:
 def test_a_port_that_takes_nothing_for_250_ms_is_lost() -> None:
     port = Port(room=8)
     port.outbox.send(FRAME)
-    port.now = PATIENCE - 0.001
+    port.now = BUSY_TIMEOUT - 0.001
     port.outbox.send(FRAME)
-    port.now = PATIENCE
+    port.now = BUSY_TIMEOUT
     with pytest.raises(LinkError, match="virtual:demo: nothing has left for 250 ms"):
         port.outbox.flush()
     port.outbox.abandon()
@@ -96,7 +96,7 @@ def test_a_single_piece_that_leaves_renews_the_patience() -> None:
     port = Port()
     port.outbox.send(FRAME)
     for _ in range(3):
-        port.now += PATIENCE - 0.001
+        port.now += BUSY_TIMEOUT - 0.001
         port.room = 8
         port.outbox.flush()
     assert port.taken == FRAME[:24]

@@ -14,7 +14,7 @@ from teleop.core.errors import LinkError
 from teleop.links import LinkAddress, open_link
 from teleop.links.can import Arrival
 from teleop.links.slcan import SlcanAdapter
-from teleop.links.slcan_opening import PATIENCE, go_on_bus
+from teleop.links.slcan_opening import ANSWER_TIMEOUT, go_on_bus
 
 ADDRESS = LinkAddress("can", "slcan", "/dev/ttyACM0", 1_000_000)
 
@@ -95,7 +95,7 @@ def test_an_adapter_that_resets_when_it_is_opened_is_opened_once_it_hears(deaf_f
     firmware.open()
     assert firmware.opened
     assert firmware.speed == b"S8"
-    assert deaf_for <= firmware.now < PATIENCE
+    assert deaf_for <= firmware.now < ANSWER_TIMEOUT
 
 
 def test_no_half_of_an_opening_counts() -> None:
@@ -128,7 +128,7 @@ def test_silence_for_3_s_is_an_error_of_the_adapter(deaf_for: float) -> None:
     firmware.answers = firmware.mute
     with pytest.raises(LinkError, match=r"^slcan:/dev/ttyACM0: the adapter does not answer: ") as error:
         firmware.open()
-    assert PATIENCE <= firmware.now < PATIENCE + 0.5
+    assert ANSWER_TIMEOUT <= firmware.now < ANSWER_TIMEOUT + 0.5
     assert "gimbal" not in str(error.value)
     assert "\n" not in str(error.value)
 

@@ -68,7 +68,7 @@ class Show:
         clock = VirtualClock(100.0)
         with open_rig(profile, clock) as rig:
             self.tap = wire.tapped(rig)
-            commands = CommandSink(rig.connections["gimbal"], self.operator.say)
+            commands = CommandSink(rig.connections["gimbal"], self.operator.notify)
             loop = rig.loop(list(profile.axes), [self.operator], [self.performer], [commands])
             self.ended: RunStateMachine = loop.run()
             self.tap.gimbal.advance(clock.now() + 1)

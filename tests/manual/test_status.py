@@ -12,14 +12,14 @@ from teleop.manual.status import KEPT, MessageLog
 def test_the_newest_message_comes_first_and_a_repeated_one_is_only_renewed() -> None:
     log = MessageLog()
     for time, text in enumerate(["one", "two", "two"]):
-        log.say(time, text)
+        log.notify(time, text)
     assert [(message.time, message.text) for message in log.messages] == [(2, "two"), (0, "one")]
 
 
 def test_only_so_many_are_kept() -> None:
     log = MessageLog()
     for number in range(KEPT + 5):
-        log.say(number, str(number))
+        log.notify(number, str(number))
     assert len(log.messages) == KEPT
     assert log.messages[0].text == str(KEPT + 4)
 

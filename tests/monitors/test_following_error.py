@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
-from teleop.monitors.following_error import BLIND, PATIENCE, TRAILING, FollowingErrorGuard
+from teleop.monitors.following_error import BLIND, EXCESS_TIMEOUT, TRAILING, FollowingErrorGuard
 
 BOUNDED, ENDLESS = Limits(-180, 180, 120, 240, 1200), Limits(-math.inf, math.inf, 120, 240, 1200)
 
@@ -59,7 +59,7 @@ def test_lag_is_not_a_stall_whatever_the_speed_and_turning_round_neither(delay: 
 
 
 def test_it_takes_half_a_second_without_a_break() -> None:
-    assert watch(lambda _t: 0.0, lambda t: 9.0 if t > 1 else 0.0) == pytest.approx(1 + PATIENCE, abs=0.1)
+    assert watch(lambda _t: 0.0, lambda t: 9.0 if t > 1 else 0.0) == pytest.approx(1 + EXCESS_TIMEOUT, abs=0.1)
     assert watch(lambda _t: 0.0, lambda t: 9.0 if t % 0.5 < 0.4 else 0.0) == math.inf
 
 

@@ -142,7 +142,7 @@ class DroneFaultBench:
         """What the drone has said to the operator."""
         self.said.append(text)
         self.times.append((self.clock.now() - self.begin, text))
-        self.operator.say(text)
+        self.operator.notify(text)
 
     def _pass(self, now: float) -> None:
         while self._script and self._script[0][0] <= now + 1e-9:
@@ -214,6 +214,6 @@ def drone_fault_bench(folder: Path, sink: str = VIRTUAL_RC, gimbal: bool = False
         flown = rig.drone(list(STICKS))
         assert flown is not None
         made.sink = flown
-        flown.say = made.hear
+        flown.notify = made.hear
         made.loop = rig.loop(list(profile.limits), [made.operator])
         yield made

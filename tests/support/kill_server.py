@@ -69,7 +69,7 @@ def serve(folder: Path) -> None:
     profile = load_profile(str(folder / "quick.yaml"))
     timelapse = load_timelapse(str(folder / "quick-shoot.yaml"), profile.limits, profile.name)
     assert timelapse is not None
-    _say("ready")
+    _notify("ready")
     for line in sys.stdin:
         child = os.fork()
         if child == 0:
@@ -80,11 +80,11 @@ def serve(folder: Path) -> None:
             except BaseException:  # noqa: BLE001 - whatever it is, a forked child must not go on as its parent
                 traceback.print_exc()
             os._exit(code)
-        _say(child)
-        _say(os.waitpid(child, 0)[1])
+        _notify(child)
+        _notify(os.waitpid(child, 0)[1])
 
 
-def _say(word: object) -> None:
+def _notify(word: object) -> None:
     sys.stdout.write(f"{word}\n")
     sys.stdout.flush()
 

@@ -16,7 +16,7 @@ class SilentScreen:
         self.ticks: list[Tick] = []
         self.entered = self.left = 0
 
-    def say(self, text: str) -> None:
+    def notify(self, text: str) -> None:
         self.said.append(text)
 
     def observe(self, tick: Tick) -> None:
@@ -34,7 +34,7 @@ class SilentScreen:
 
 @contextmanager
 def no_signals(
-    _interrupt: Callable[[str], object], _release: Callable[[], object], _say: Callable[[str], object]
+    _interrupt: Callable[[str], object], _release: Callable[[], object], _notify: Callable[[str], object]
 ) -> Iterator[None]:
     """For a run that no signal ends."""
     yield

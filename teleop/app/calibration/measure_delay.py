@@ -88,11 +88,11 @@ def measure_delay(
     with ExitStack() as stack:
         guard, keys = guarded(stack, swing, profile, clock, terminal, virtual, warn)
         screen = make_screen(mode, profile.limits[axis], lambda now: guard.over(swing.status(now)), bool(keys))
-        guard.say = screen.say
+        guard.notify = screen.notify
         rig = stack.enter_context(open_rig(profile, clock))
         notes = LinkNotes(rig.connections.values(), warnings.append)
         loop = rig.loop([axis], [guard], [traces, notes, *map(stack.enter_context, keys), screen])
-        with signals(loop.interrupt, loop.release_at_once, screen.say), screen:
+        with signals(loop.interrupt, loop.release_at_once, screen.notify), screen:
             ended = loop.run()
     reasons = [*ended.reasons, *([guard.reason] if guard.reason else [])]
     if ended.result is not Result.DONE:

@@ -64,7 +64,7 @@ def measure_signs(
         probe = SignProbe(rig.connections[section.link], axes, section.wiring, limits, full)
         reporter = Angles(rig.connections[section.link], Wiring(section.axes), section.legacy_angles)
         guard, keys = guarded(stack, probe, profile, clock, terminal, virtual, warn)
-        guard.say = notify
+        guard.notify = notify
         timing = LoopTiming()
         planner = Live(limits, timing.period)
         loop = ControlLoop(clock, planner, limits, [guard], [probe], [reporter], keys, timing)

@@ -25,7 +25,7 @@ UNKNOWN = "-"
 def drone_rows(state: DroneState) -> list[Text]:
     """Three rows: the engagement, where it is, and who has it."""
     stage = "not engaged: d engage Enter" if state.stage == Stage.IDLE.value else state.stage.upper()
-    first = Text.assemble((" drone    ", "dim"), (f" {stage} ", STYLES[state.stage]), f"  {_say(state.status)}")
+    first = Text.assemble((" drone    ", "dim"), (f" {stage} ", STYLES[state.stage]), f"  {_text_of(state.status)}")
     first.append(f"   battery {_number(state.battery, '.0f')} %", "bold red" if (state.battery or 0) < LOW else "")
     first.append(f"   GPS {_number(state.gps_health, '.0f')}/5")
     second = Text("          ")
@@ -36,7 +36,7 @@ def drone_rows(state: DroneState) -> list[Text]:
     third = Text("          ")
     third.append(f"{_number(state.latitude, '.6f')} {_number(state.longitude, '.6f')}   ")
     third.append(f"RC in {state.rc_mode or UNKNOWN}{_moved(state)}   virtual RC {_bit(state.virtual_rc)}   ")
-    third.append(f"control: {_say(state.device)}   ")
+    third.append(f"control: {_text_of(state.device)}   ")
     third.append(f"gimbal {_part(state.gimbal, 2, '+.0f')} {_part(state.gimbal, 1, '+.0f')}", "dim")
     return [first, second, third]
 
@@ -44,10 +44,10 @@ def drone_rows(state: DroneState) -> list[Text]:
 def summary(state: DroneState) -> str:
     """The same in a few words, for a log."""
     where = f"{_number(state.height, '.1f')} m, {_speed(state)} m/s, battery {_number(state.battery, '.0f')} %"
-    return f"drone {state.stage}, {_say(state.status)}, {where}"
+    return f"drone {state.stage}, {_text_of(state.status)}, {where}"
 
 
-def _say(word: str | None) -> str:
+def _text_of(word: str | None) -> str:
     return "unknown" if word is None else word
 
 

@@ -75,7 +75,7 @@ class LiveView:
             if self._on_screen:
                 stack.enter_context(self._picture)
             elif not self._silent:
-                self._plain.lines.say(self._title)
+                self._plain.lines.notify(self._title)
             self._stack = stack.pop_all()
         return self
 
@@ -92,7 +92,7 @@ class LiveView:
         if not self._on_screen and not self._silent:
             self._plain.show(tick, tick.time - self._begin, self._status())
 
-    def say(self, text: str) -> None:
+    def notify(self, text: str) -> None:
         """Show a line above the messages, on a screen; safe to call from any thread."""
         self._word = text
 
@@ -135,14 +135,14 @@ class Plain:
 
     def show(self, tick: Tick, elapsed: float, status: OperatorStatus) -> None:
         for message in reversed(self._new(status.messages)):
-            self.lines.say(f"{elapsed:6.1f} s  {message.text}")
+            self.lines.notify(f"{elapsed:6.1f} s  {message.text}")
         if tick.time >= self._next:
             self._next = tick.time + 1
             angles = (f"{axis} {round(state.position, 3) + 0.0:+.3f}" for axis, state in tick.motion.items())
             drone = self._drone()
             flying = "" if drone is None else f"  {summary(drone)}"
             stop = STOP_WORDS[stop_state(status.stopped, tick.motion)]
-            self.lines.say(f"{elapsed:6.1f} s  {'  '.join(angles)}{flying}{stop}")
+            self.lines.notify(f"{elapsed:6.1f} s  {'  '.join(angles)}{flying}{stop}")
 
     def _new(self, messages: Sequence[Message]) -> Sequence[Message]:
         until = messages.index(self._last) if self._last in messages else len(messages)

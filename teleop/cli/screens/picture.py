@@ -20,7 +20,7 @@ from rich.live import Live
 from rich.text import Text
 
 REDRAWS = 10  # a second
-PATIENCE = 2.0  # s at the end for a terminal that takes nothing
+DRAW_TIMEOUT = 2.0  # s at the end for a terminal that takes nothing
 ASCII = str.maketrans("─━●○│█", "-=*o|#")
 
 
@@ -88,7 +88,7 @@ class Picture:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._over.set()
-        self._thread.join(PATIENCE)
+        self._thread.join(DRAW_TIMEOUT)
 
     def text(self) -> Text:
         """The whole screen as it is now; never raises."""

@@ -78,14 +78,14 @@ class RunView(Screen):
     def _say_lines(self, tick: Tick, status: RunStatus) -> None:
         said = {"stopping": "stopping", "stopped": "STOPPED"}.get(status.stop, status.question)
         if said and said != self._announced:
-            self._lines.say(said)
+            self._lines.notify(said)
         self._announced = said
         if status.hints != self._hinted and self._picture.console.is_terminal:  # one on which nothing is drawn
-            self._lines.say("keys: " + "   ".join(f"{key} {does}" for key, does in status.hints))
+            self._lines.notify("keys: " + "   ".join(f"{key} {does}" for key, does in status.hints))
         self._hinted = status.hints
         if tick.time >= self._next_line:
             self._next_line = tick.time + 1
-            self._lines.say(self._line(tick, status))
+            self._lines.notify(self._line(tick, status))
 
     def _line(self, tick: Tick, status: RunStatus) -> str:
         return "  ".join([in_words(status), *(_angle(tick, axis) for axis in tick.motion)])

@@ -38,7 +38,7 @@ class Screen(ABC):
         if self._on_screen:
             self._stack.enter_context(self._picture)
         elif not self._silent:
-            self._lines.say(self._title)
+            self._lines.notify(self._title)
         return self
 
     def __exit__(
@@ -47,15 +47,15 @@ class Screen(ABC):
         self._stack.close()
         if self._on_screen:
             for line in self._said:
-                self._lines.say(folded(line, sys.stderr))
+                self._lines.notify(folded(line, sys.stderr))
         self._lines.finish()
 
-    def say(self, text: str) -> None:
+    def notify(self, text: str) -> None:
         """A line that stays."""
         if self._on_screen:
             self._said.append(f"teleop: {text}")
         else:
-            self._lines.say(f"teleop: {text}")
+            self._lines.notify(f"teleop: {text}")
 
     @abstractmethod
     def observe(self, tick: Tick) -> None: ...

@@ -51,11 +51,13 @@ class ShootView(RunView):
         self._reached = -math.inf, -1  # when the last line was written, and at how many hundredths
 
     def _say_lines(self, tick: Tick, status: RunStatus) -> None:
-        said, hundredth = self._reached
+        shown, hundredth = self._reached
         reached = 100 * self._progress.shot // self._progress.slots.frames
-        if tick.time - said >= EVERY or reached != hundredth:
+        if tick.time - shown >= EVERY or reached != hundredth:
             self._reached = tick.time, reached
-            self._lines.say("  ".join([*_parts(self._progress, tick.time), f"{free(self._folder) / 1e9:.1f} GB free"]))
+            self._lines.notify(
+                "  ".join([*_parts(self._progress, tick.time), f"{free(self._folder) / 1e9:.1f} GB free"])
+            )
         self._next_line = math.inf  # its own lines are enough
         super()._say_lines(tick, status)
 

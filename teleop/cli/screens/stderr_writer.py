@@ -20,7 +20,7 @@ class StderrWriter:
         self._waiting: deque[str] = deque(maxlen=MOST)
         self._writing = threading.Lock()  # a signal's hint comes from a thread of its own
 
-    def say(self, text: str) -> None:
+    def notify(self, text: str) -> None:
         self._waiting.append(text[: LONGEST // 4])  # a character has four bytes at most
         with self._writing:
             while self._waiting and _has_room():

@@ -34,7 +34,7 @@ from teleop.links import parse
 from teleop.sim.link import Device
 
 POLL_PERIOD: Final = 0.001  # s between looks for the acknowledgement
-PATIENCE: Final = 3.0  # s in which control that is being obtained or released must be
+CONTROL_TIMEOUT: Final = 3.0  # s in which control that is being obtained or released must be
 IN_PROGRESS: Final = ("obtaining", "releasing")
 DRONES: Final = ("virtual-rc", "flight")  # the types of a profile's sinks
 
@@ -130,7 +130,7 @@ class Exchange:
 
         Raises LinkError, or DeviceError without an acknowledgement.
         """
-        end = self._clock.now() + PATIENCE
+        end = self._clock.now() + CONTROL_TIMEOUT
         while True:
             record = self._acknowledged(message)
             now = self._clock.now()

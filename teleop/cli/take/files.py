@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from teleop.cli.options import announce, announce_json
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, Overwrite, TakeFile, length, place, problems_as_json, say
+from teleop.cli.take.options import Json, Overwrite, TakeFile, length, notify, place, problems_as_json
 from teleop.config.files import replacing
 from teleop.core.errors import UsageError
 from teleop.recording.writer import ENDING
@@ -39,7 +39,7 @@ def take_export(
         text = TextIOWrapper(stream, "utf-8", newline="", write_through=True)
         messages, rows = write_table(file, text)
         text.detach()
-    say(messages.remark)
+    notify(messages.remark)
     if as_json:
         announce_json({"ok": True, "written": str(csv), "rows": rows, "problem": messages.remark}, csv)
     else:

@@ -13,7 +13,7 @@ from cyclopts import Parameter
 
 from teleop.cli.play import percentage
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, Overwrite, TakeFile, place, problems_as_json, say
+from teleop.cli.take.options import Json, Overwrite, TakeFile, notify, place, problems_as_json
 from teleop.config.files import replacing
 from teleop.core.errors import UsageError
 from teleop.plots.style import UNIT_SIGNS
@@ -62,7 +62,7 @@ def take_keyframes(
         rate = percentage("--speed", speed)
         take = read_take(file)
         for warning in warnings(take):
-            say(warning)
+            notify(warning)
         with _busy(f"Fitting {take.duration:.0f} s"):
             fitted = keyframes(take, tolerance, rate, measured=measured)
     with replacing(output) as stream:

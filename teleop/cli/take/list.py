@@ -12,7 +12,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, TakeFile, ending_facts, length, problems_as_json, recorded_on, say
+from teleop.cli.take.options import Json, TakeFile, ending_facts, length, notify, problems_as_json, recorded_on
 from teleop.recording.format import LIMITS
 from teleop.recording.summary import Summary, summarize, takes_in
 
@@ -39,7 +39,7 @@ def take_info(file: TakeFile, /, *, as_json: Json = False) -> int:
     """Show what is in a take: the run, its axes and limits, messages by topic, actions, how it ended."""
     with problems_as_json(as_json):
         found = summarize(file)
-    say(found.remark)
+    notify(found.remark)
     links = {} if found.ending is None else found.ending.links
     if as_json:
         axes = {

@@ -48,7 +48,7 @@ def place(option: str, path: Path, overwrite: bool, original: Path) -> None:
     check_place(path)
 
 
-def say(remark: str) -> None:
+def notify(remark: str) -> None:
     """A remark about the file, where errors are read."""
     if remark:
         complain(remark)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from teleop.cli.screens.folded import tell
-from teleop.cli.take.options import Json, Overwrite, TakeFile, ending_facts, length, place, problems_as_json, say
+from teleop.cli.take.options import Json, Overwrite, TakeFile, ending_facts, length, notify, place, problems_as_json
 from teleop.config.documents.document import UnplayableError
 from teleop.config.files import replacing
 from teleop.core.axes import Axis
@@ -51,7 +51,7 @@ def take_report(
 
     with problems_as_json(as_json):
         take = read_take(file)
-    say(take.remark)
+    notify(take.remark)
     found = report(take)
     if output is not None:
         _draw(take, found, output)

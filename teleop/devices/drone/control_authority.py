@@ -21,7 +21,7 @@ from teleop.dji.drone.enums import ControlCode, ControlDevice, ControlOrder
 
 AGAIN = 0.1  # s from an answer that asks for a repetition to the repetition
 REPEAT = 0.5  # s from no answer, or one that means nothing here, to the next release
-PATIENCE = 3.0  # s for two orders, each sent twice 0.5 s apart (docs/protocol-facts.md), with their answers
+ORDER_TIMEOUT = 3.0  # s for two orders, each sent twice 0.5 s apart (docs/protocol-facts.md), with their answers
 IN_PROGRESS = (ControlCode.OBTAINING, ControlCode.RELEASING)
 
 
@@ -41,7 +41,7 @@ class ControlAuthority:
     @property
     def patience(self) -> float:
         """How long obtaining may take (s); nothing once it is refused."""
-        return 0.0 if self._refused else PATIENCE
+        return 0.0 if self._refused else ORDER_TIMEOUT
 
     def obtain(self, now: float) -> None:
         """Raises LinkError."""

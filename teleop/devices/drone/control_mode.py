@@ -25,7 +25,7 @@ class ControlMode(Protocol):
 
     what: str
     period: float
-    say: Callable[[str], object]
+    notify: Callable[[str], object]
     alone: str  # what becomes of the drone when nothing more reaches it
     gap: float  # s between two takings, at least
     taken: float  # s: when an earlier run took it last, -inf if none is known to have

@@ -45,9 +45,9 @@ class MovementControl:
     ) -> None:
         self._connection, self._combination, self._frame = connection, combination, frame
         self._full, self._site = full, site
-        self.say: Callable[[str], object] = lambda _text: None
-        self._authority = ControlAuthority(connection, lambda text: self.say(text))
-        self._task = TaskWatch(lambda text: self.say(text))
+        self.notify: Callable[[str], object] = lambda _text: None
+        self._authority = ControlAuthority(connection, lambda text: self.notify(text))
+        self._task = TaskWatch(lambda text: self.notify(text))
         self._heading = self._height = 0.0  # from which places count: deg, m
         self._number = 0  # of the next task
         self._newest = -1  # the sequence number of the newest task's order
@@ -99,7 +99,7 @@ class MovementControl:
 
     def give_back(self, now: float) -> None:
         if goes_on := self._task.goes_on():
-            self.say(goes_on)
+            self.notify(goes_on)
         self._authority.release(now)
 
     def give_back_again(self, now: float) -> None:
@@ -160,6 +160,6 @@ class MovementControl:
         if code in (ArmCode.OK, ArmCode.ALREADY):
             self._armed = self._arming == ArmOrder.ARM
         if code is None:
-            self.say("motors: no answer")
+            self.notify("motors: no answer")
         elif code:
-            self.say(f"motors: refused, {word_of(code)}")
+            self.notify(f"motors: refused, {word_of(code)}")

@@ -26,7 +26,7 @@ from teleop.devices.drone.telemetry import Telemetry
 
 CENTERED = 0.02  # of full deflection: a stick that is seen there once is centered
 LATE = 0.2  # s without a tick after which its sticks are stale
-PATIENCE = 4.0  # s after activation in which a drone that a script engages must be ready
+READY_TIMEOUT = 4.0  # s after activation in which a drone that a script engages must be ready
 RELEASE_LOOK = 0.01  # s between looks while giving back
 RELEASE_FOR = 4.0  # s for which a run that ends goes on giving back what is not confirmed
 
@@ -36,12 +36,12 @@ log = logging.getLogger(__name__)
 class DroneSink:
     """Sink and reporter of one drone, reached at `opened` (s).
 
-    `say` is for what the operator is to know: the log, unless a screen takes its place. With
+    `notify` is for what the operator is to know: the log, unless a screen takes its place. With
     `by_script` it is engaged at the first tick, and what ends that ends the run.
     """
 
     def __init__(self, mode: ControlMode, telemetry: Telemetry, opened: float, low_battery: int) -> None:
-        self.say: Callable[[str], object] = log.warning
+        self.notify: Callable[[str], object] = log.warning
         self.by_script = False
         self.telemetry = telemetry
         self._mode, self._low_battery = mode, low_battery
@@ -50,11 +50,11 @@ class DroneSink:
             mode.what,
             mode.period,
             mode.taken,
-            lambda text: self.say(f"drone: {text}"),
+            lambda text: self.notify(f"drone: {text}"),
             gap=mode.gap,
             repeats=mode.repeats,
         )
-        mode.say = lambda text: self.say(f"drone: {text}")
+        mode.notify = lambda text: self.notify(f"drone: {text}")
         self._sticks: Deflections = dict.fromkeys(STICKS, 0.0)
         self._input = False
         self._written = self._activated = math.inf
@@ -128,7 +128,7 @@ class DroneSink:
             return False
         self._activated = min(self._activated, now)
         wanting = list(self._refusals(now)) if self.by_script else []
-        if wanting and now - self._activated > PATIENCE:
+        if wanting and now - self._activated > READY_TIMEOUT:
             raise DeviceError(f"the drone cannot be engaged: {'; '.join(wanting)}")
         return not wanting
 
@@ -200,7 +200,7 @@ class DroneSink:
             self._refuse(wanting)
             return
         for warning in self._mode.warnings(self.telemetry, now):
-            self.say(f"drone: {warning}")
+            self.notify(f"drone: {warning}")
         self._control_lost = self.telemetry.control_lost
         self._engagement.engage(now)
         with self._explaining():
@@ -210,7 +210,7 @@ class DroneSink:
         text = f"not engaged: {'; '.join(wanting)}"
         if self.by_script:
             raise DeviceError(f"drone: {text}")
-        self.say(f"drone: {text}")
+        self.notify(f"drone: {text}")
 
     def _command(self, word: str, now: float) -> None:
         if word == "engage":
@@ -218,12 +218,12 @@ class DroneSink:
         elif word == "disengage":
             self._engagement.leave(now, "disengaged by the operator", asked=True)
         elif self._engagement.stage is not Stage.ENGAGED:
-            self.say(f"drone: {word} refused: it is not engaged")
+            self.notify(f"drone: {word} refused: it is not engaged")
         else:
             try:
-                self.say(f"drone: {self._mode.tell(word, self.telemetry, now)}")
+                self.notify(f"drone: {self._mode.tell(word, self.telemetry, now)}")
             except KeyError:
-                self.say(f"drone: unknown command {word}")
+                self.notify(f"drone: unknown command {word}")
 
     def _explaining(self) -> _Explaining:
         return _Explaining(self._engagement.stage is not Stage.IDLE, self._mode.alone)

@@ -38,7 +38,7 @@ class VirtualRcControl:
         self, connection: Connection, back_to_rc: bool, go_home: int | None, last: LastEnable | None = None
     ) -> None:
         self._connection, self._back_to_rc, self._go_home = connection, back_to_rc, go_home
-        self.say: Callable[[str], object] = lambda _text: None
+        self.notify: Callable[[str], object] = lambda _text: None
         self._last = last
         self.taken = last.read(connection.opened) if last else -math.inf
         self._switches = NEUTRAL
@@ -72,7 +72,7 @@ class VirtualRcControl:
         self._switches, self._gesture_end = NEUTRAL, -math.inf
         self._changed, self._mine, self._returned = now, True, False
         if self._last and (trouble := self._last.write(now)):
-            self.say(trouble)
+            self.notify(trouble)
         self._connection.stream(VirtualRc(on=True, back_to_rc=self._back_to_rc))
 
     def drive(self, sticks: Deflections, seen: Telemetry, now: float) -> None:

@@ -24,19 +24,19 @@ DIAL_PERIOD = 0.02  # s between two words of the dial, at least
 class Unheard:
     """Reports each command for a device that this rig does not have."""
 
-    def __init__(self, gimbal: bool, drone: bool, say: Callable[[str], object]) -> None:
-        self._gimbal, self._drone, self._say = gimbal, drone, say
+    def __init__(self, gimbal: bool, drone: bool, notify: Callable[[str], object]) -> None:
+        self._gimbal, self._drone, self._notify = gimbal, drone, notify
 
     def observe(self, tick: Tick) -> None:
         for act in tick.actions:
             if isinstance(act, DeviceCommand):
                 addressee, is_there = ("drone", self._drone) if act.device == DRONE else ("gimbal", self._gimbal)
                 if not is_there:
-                    self._say(f"{act}: this rig has no {addressee}")
+                    self._notify(f"{act}: this rig has no {addressee}")
 
 
 class CommandSink:
-    """Gives `DeviceCommand` and `DialInput` to the gimbal on a connection; `say` is for what comes of it.
+    """Gives `DeviceCommand` and `DialInput` to the gimbal on a connection; `notify` is for what comes of it.
 
     `done` is called with each command that the gimbal has confirmed.
     """
@@ -44,10 +44,10 @@ class CommandSink:
     def __init__(
         self,
         connection: Connection,
-        say: Callable[[str], object],
+        notify: Callable[[str], object],
         done: Callable[[DeviceCommand], object] = lambda _command: None,
     ) -> None:
-        self._connection, self._say, self._done = connection, say, done
+        self._connection, self._notify, self._done = connection, notify, done
         self._asked: dict[int, DeviceCommand] = {}  # by sequence number
         self._kinds: set[type[Message]] = set()
         self._dial = self._sent_dial = 0
@@ -79,14 +79,14 @@ class CommandSink:
             message = find(str(command).split())
             message.check()
         except FieldError as error:
-            self._say(f"{command}: {error}")
+            self._notify(f"{command}: {error}")
             return
         if is_taken_back(message):
-            self._say(f"{command} refused: it would disturb the commands of the run")
+            self._notify(f"{command} refused: it would disturb the commands of the run")
             return
         if not message.has_reply:
             self._connection.stream(message)
-            self._say(f"{command}: sent; this command has no reply")
+            self._notify(f"{command}: sent; this command has no reply")
             return
         if type(message) not in self._kinds:
             self._kinds.add(type(message))
@@ -99,8 +99,8 @@ class CommandSink:
             return
         code = getattr(answer.reply, "return_code", 0)
         if answer.reply is None:
-            self._say(f"{command}: no answer")
+            self._notify(f"{command}: no answer")
         else:
-            self._say(f"{command}: refused (return code {code:#04x})" if code else f"{command}: done")
+            self._notify(f"{command}: refused (return code {code:#04x})" if code else f"{command}: done")
             if not code:
                 self._done(command)

@@ -22,7 +22,7 @@ from teleop.inputs.hid.state import Change, Sample
 FAR = 0.3  # of its range, to be meant: a stick pushed more than half way
 SECOND_CHOICE = 0.5  # s until something of the other kind is taken
 CLICKS = 3  # of a wheel, to be meant
-STILL = 0.02  # of its range: more is a movement
+MOVEMENT = 0.02  # of its range: more is a movement
 RESTS = 0.25  # of its range from its middle: a stick
 
 
@@ -151,7 +151,7 @@ def _restless(name: str, sample: Sample, before: Mapping[str, Sample], after: Ma
     if sample.relative or _is_hat(name, after):
         return False
     moved = abs(sample.value - before.get(name, sample).value)
-    return sample.pressed if _is_button(sample) else moved > STILL * abs(sample.maximum - sample.minimum)
+    return sample.pressed if _is_button(sample) else moved > MOVEMENT * abs(sample.maximum - sample.minimum)
 
 
 @dataclass

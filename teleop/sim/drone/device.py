@@ -132,7 +132,7 @@ class SimulatedDrone:
     def _pass(self, now: float) -> None:
         for time, parts in self._telemetry.due(now):
             self._advance_autopilot(time)
-            self._outgoing += self._session.command(self._telemetry.say(self.autopilot, self.payload, parts))
+            self._outgoing += self._session.command(self._telemetry.notify(self.autopilot, self.payload, parts))
         self._advance_autopilot(now)
 
     def _advance_autopilot(self, now: float) -> None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 GRAVITY = 9.81  # m/s2
 LAG = 0.5  # s: time constant of a speed that the autopilot holds
 CLIMB_LAG = 0.4  # s
-STILL = 1e-9  # m/s
+REST_SPEED = 1e-9  # m/s
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Climb:
         high, low = self.start, now
         if not self.falling and self.first < 0 < self.last:  # the bottom of a descent that turns into a climb
             low = min(low, high + self.lag * math.log((self.last - self.first) / self.last))
-        if low <= high or self.at(low) > 0 or self.rate(low) > STILL:
+        if low <= high or self.at(low) > 0 or self.rate(low) > REST_SPEED:
             return math.inf
         if not self.falling and self.first > 0 > self.last:  # the top of a climb that turns into a descent
             high += self.lag * math.log((self.first - self.last) / -self.last)

@@ -87,7 +87,7 @@ class TelemetrySender:
             if rate in EVERY and beat % EVERY[rate] == 0 and part not in self.hidden
         ]
 
-    def say(self, autopilot: Autopilot, payload: Payload, parts: Collection[str]) -> Broadcast:
+    def notify(self, autopilot: Autopilot, payload: Payload, parts: Collection[str]) -> Broadcast:
         """These parts of the broadcast as they are now.
 
         Vertical velocity is up: the 3.1.9 sample takeoffConverged waits for v.z > 0.25 (docs/protocol-facts.md).

@@ -23,7 +23,7 @@ from teleop.sim.gimbal.device import SimulatedGimbal
 def measured(axis: Axis = Axis.PAN, signals: Signals = no_signals) -> DelayReport:
     screen = SilentScreen()
     return measure_delay(
-        load_profile("sim"), axis, VirtualClock(), lambda *_: screen, signals, screen.say, None, virtual=True
+        load_profile("sim"), axis, VirtualClock(), lambda *_: screen, signals, screen.notify, None, virtual=True
     )
 
 

@@ -28,7 +28,7 @@ def test_a_simulated_gimbal_counts_everything_one_way():
     screen, begun = SilentScreen(), []
     report = measure_signs(
         *(load_profile("sim"), "pan", VirtualClock(), lambda axes, keys: begun.append((list(axes), keys))),
-        *(no_signals, screen.say, screen.say, None),
+        *(no_signals, screen.notify, screen.notify, None),
         virtual=True,
     )
     assert (report.result, begun) == (Result.DONE, [([PAN], False)])

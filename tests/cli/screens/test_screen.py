@@ -22,7 +22,7 @@ def test_the_title_is_for_people_and_what_is_said_for_all(
 ):
     screen = Shown("A title", silent)
     with screen:
-        screen.say("a word")
+        screen.notify("a word")
         assert screen._in_lines is not silent
     assert capfd.readouterr().err == printed
 
@@ -32,7 +32,7 @@ def test_what_is_said_is_there_when_the_run_fails(capfd: pytest.CaptureFixture[s
 
     def run() -> None:
         with screen:
-            screen.say("the last word")
+            screen.notify("the last word")
             raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):

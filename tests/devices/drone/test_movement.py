@@ -36,7 +36,7 @@ class Bench:
         full = {"horizontal": 6.0, "vertical": 2.0, "yaw": 60.0}
         self.control = MovementControl(self.link.real, combination, ReferenceFrame.BODY, full, Site())
         self.messages: list[str] = []
-        self.control.say = self.messages.append
+        self.control.notify = self.messages.append
 
     def obtain(self) -> None:
         self.control.take(self.seen.real, self.now)

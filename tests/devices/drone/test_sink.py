@@ -32,7 +32,7 @@ class FakeMode:
         self.on = False
         self.refused: list[str] = []
         self.fault: Exception | None = None
-        self.say: Any = None
+        self.notify: Any = None
 
     def refusals(self, _seen: Any, _now: float) -> Iterator[str]:
         yield from self.refused
@@ -83,7 +83,7 @@ class Bench:
         self.sink = DroneSink(cast(ControlMode, self.mode), self.seen.real, 0.0, 20)
         self.sink.by_script = by_script
         self.messages: list[str] = []
-        self.sink.say = self.messages.append
+        self.sink.notify = self.messages.append
         self.now = 0.0
         self.hands: dict[Any, Any] = dict.fromkeys(STICKS, VelocityTarget(0.0))
         self.motion = dict(CENTERED)

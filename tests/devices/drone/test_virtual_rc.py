@@ -34,7 +34,7 @@ class Bench:
     def command(self, word: str) -> str:
         return self.control.tell(word, self.seen.real, self.now)
 
-    def say(self, **parts: object) -> None:
+    def notify(self, **parts: object) -> None:
         """The drone says this, now."""
         self.seen.parts, self.seen.since = parts, self.now
 
@@ -76,7 +76,7 @@ def test_without_a_value_in_the_profile_nothing_is_sent_home() -> None:
 def test_the_gesture_that_would_cut_the_motors_is_not_made_in_the_air() -> None:
     bench = Bench()
     for status in (FlightStatus.IN_AIR, None):
-        bench.say(status=status)
+        bench.notify(status=status)
         assert "refused" in bench.command("arm")
         assert bench.drive() == NEUTRAL
 
@@ -84,32 +84,32 @@ def test_the_gesture_that_would_cut_the_motors_is_not_made_in_the_air() -> None:
 @pytest.mark.parametrize("end", ["late", "stick", "airborne"])
 def test_the_gesture_ends_after_2_s_or_with_a_stick_or_when_it_flies(end: str) -> None:
     bench = Bench()
-    bench.say(status=FlightStatus.STANDBY)
+    bench.notify(status=FlightStatus.STANDBY)
     bench.command("arm")
     assert bench.drive() == GESTURE
     if end == "late":
         bench.now += 2.0
-        bench.say(status=FlightStatus.STANDBY)
+        bench.notify(status=FlightStatus.STANDBY)
         assert bench.drive() == NEUTRAL
     elif end == "stick":
         assert bench.drive(throttle=0.1) == Sticks(throttle=1090)
     else:
-        bench.say(status=FlightStatus.IN_AIR)
+        bench.notify(status=FlightStatus.IN_AIR)
         assert bench.drive() == NEUTRAL
-    bench.say(status=FlightStatus.STANDBY)
+    bench.notify(status=FlightStatus.STANDBY)
     assert bench.drive() == NEUTRAL, "it does not begin again"
 
 
 def test_another_programs_enable_is_waited_out_for_2_s() -> None:
     bench = Bench()
-    bench.say(control=control_part(True))
+    bench.notify(control=control_part(True))
     bench.control.watch(bench.seen.real, bench.now)
     assert "on already" in next(bench.control.refusals(bench.seen.real, bench.now))
     bench.now += 0.5
-    bench.say(control=control_part(False))
+    bench.notify(control=control_part(False))
     assert next(bench.control.refusals(bench.seen.real, bench.now)).startswith("wait 1.5 s")
     bench.now += 1.6
-    bench.say(control=control_part(False))
+    bench.notify(control=control_part(False))
     assert list(bench.control.refusals(bench.seen.real, bench.now)) == []
 
 
@@ -117,18 +117,18 @@ def test_its_own_enable_is_no_others() -> None:
     bench = Bench()
     bench.control.take(bench.seen.real, bench.now)
     bench.now += 0.1
-    bench.say(control=control_part(True))
+    bench.notify(control=control_part(True))
     bench.control.watch(bench.seen.real, bench.now)
-    bench.say(control=control_part(False))
+    bench.notify(control=control_part(False))
     assert list(bench.control.refusals(bench.seen.real, bench.now)) == []
 
 
 def test_a_bit_from_before_the_last_change_says_nothing() -> None:
     bench = Bench()
-    bench.say(control=control_part(False))
+    bench.notify(control=control_part(False))
     bench.now += 0.1
     bench.control.take(bench.seen.real, bench.now)
     assert bench.control.held(bench.seen.real, bench.now + 0.05) is None
     bench.now += 0.1
-    bench.say(control=control_part(True))
+    bench.notify(control=control_part(True))
     assert bench.control.held(bench.seen.real, bench.now) is True

@@ -24,7 +24,7 @@ def airborne(yaw: float = 0.0) -> Autopilot:
 
 def said_by(sender: TelemetrySender, autopilot: Autopilot, parts: Collection[str]) -> Any:
     """These parts of the broadcast."""
-    return sender.say(autopilot, Payload(), parts)
+    return sender.notify(autopilot, Payload(), parts)
 
 
 def times(sender: TelemetrySender, part: str, now: float) -> list[float]:
