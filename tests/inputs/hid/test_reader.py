@@ -128,7 +128,7 @@ def test_a_device_that_once_did_not_answer_is_not_asked_again(answers: Callable[
 def test_the_interfaces_of_a_device_go_together_and_devices_of_one_model_do_not() -> None:
     other, second = PAD._replace(path=b"1", port="1-3"), PAD._replace(path=b"2", interface=1)
     assert together([PAD, other, second]) == [[PAD, second], [other]]
-    unplaced = [PAD._replace(path=path, port="") for path in (b"0", b"1")]
+    unplaced = [PAD._replace(path=b"%d" % index, port="", interface=index) for index in (0, 1)]
     assert together(unplaced) == [[each] for each in unplaced], "nothing says that they are one"
 
 
