@@ -161,7 +161,7 @@ class Wheel:
 
     def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, values: ControlValues) -> None:
         clicks = [(change.time, self._clicks(change.sample)) for change in changes]
-        if self._at is None:
+        if self._at is None and not sample.null:
             self._at = sample.value
         worth = (self._section.fine if fine else None) or self._coarse
         if self._steps and self._section.axis is not None:
@@ -179,8 +179,10 @@ class Wheel:
     def _clicks(self, sample: Sample) -> float:
         if not self._counter:
             return sample.value if sample.relative else 0.0  # where a stick is, is no number of clicks
+        if sample.null:  # whatever number comes with it is no place of the counter
+            return 0.0
         before, self._at = self._at, sample.value
-        if before is None or sample.null:
+        if before is None:
             return 0.0
         turn = abs(sample.maximum - sample.minimum) + 1
         return (sample.value - before + turn / 2) % turn - turn / 2

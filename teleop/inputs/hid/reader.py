@@ -300,9 +300,10 @@ def together(infos: Sequence[DeviceInfo]) -> list[list[DeviceInfo]]:
         for group in groups:
             first = group[0]
             one_device = unit(info) == unit(first) and info.port == first.port and (info.port or info.serial)
-            if info.path == first.path or (one_device and info.interface not in [each.interface for each in group]):
-                if info.path not in [each.path for each in group]:
-                    group.append(info)
+            if info.path in [each.path for each in group]:
+                break  # the system lists an interface once for each of its usages
+            if one_device and info.interface not in [each.interface for each in group]:
+                group.append(info)
                 break
         else:
             groups.append([info])
