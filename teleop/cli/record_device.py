@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import sys
 import threading
-from fnmatch import fnmatch
 from pathlib import Path
 from typing import Annotated
 
@@ -18,6 +17,7 @@ from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError, UsageError
 from teleop.inputs.evdev.backend import AllDevices
 from teleop.inputs.hid.backend import DeviceInfo, HidBackend, described, identified
+from teleop.inputs.hid.pads import is_named
 from teleop.inputs.hid.reader import wanted
 from teleop.inputs.hid.recorder import Recorder
 
@@ -81,7 +81,7 @@ def chosen(backend: HidBackend, device: str) -> list[DeviceInfo]:
         fitting = list(wanted(DeviceSection(vendor=wants[0], product=wants[1]), fitting, None))
     elif device:
         fitting = [info for info in found if info.path == device.encode()]
-        fitting = fitting or [info for info in found if fnmatch(info.name.casefold(), device.casefold())]
+        fitting = fitting or [info for info in found if is_named(info, device)]
     else:
         fitting = list(wanted(DeviceSection(), found, None))
     if not fitting:

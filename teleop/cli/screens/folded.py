@@ -46,7 +46,8 @@ def after_the_run() -> Iterator[Callable[[str], object]]:
     try:
         yield lines.append
     finally:
-        print(*lines, sep="\n", end="\n" if lines else "", file=sys.stderr)
+        for line in lines:
+            complain(line)
 
 
 def complain(text: str) -> None:

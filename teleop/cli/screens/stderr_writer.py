@@ -21,7 +21,7 @@ class StderrWriter:
         self._writing = threading.Lock()  # a signal's hint comes from a thread of its own
 
     def notify(self, text: str) -> None:
-        self._waiting.append(text[: LONGEST // 4])  # a character has four bytes at most
+        self._waiting.append(text[: LONGEST // 4 - 1])  # a character has four bytes at most, and the line its end
         with self._writing:
             while self._waiting and _has_room():
                 print(self._waiting.popleft(), file=sys.stderr)

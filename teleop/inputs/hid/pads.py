@@ -70,16 +70,22 @@ def _is_for(device: PadDeviceSection, info: DeviceInfo) -> bool:
 
 def fits(device: DeviceSection, info: DeviceInfo) -> bool:
     """Whether this is the device, by its ids, its name and where it is; a section for any device fits all."""
-    from fnmatch import fnmatch
-
     return (
         device.vendor in (None, info.vendor_id)
         and device.product in (None, info.product_id)
         and device.serial in (None, info.serial)
         and device.port in (None, info.port)
         and device.interface in (None, info.interface)
-        and (device.name is None or fnmatch(info.name.casefold(), device.name.casefold()))
+        and (device.name is None or is_named(info, device.name))
     )
+
+
+def is_named(info: DeviceInfo, written: str) -> bool:
+    """Whether it has the name that was written, in which * is any letters; a name with brackets is also just that."""
+    from fnmatch import fnmatch
+
+    name, written = info.name.casefold(), written.casefold()
+    return name == written or fnmatch(name, written)
 
 
 def stops(control: ControlSection) -> bool:

@@ -6,14 +6,14 @@ import pytest
 from fake_hid import GAMEPAD, JOYSTICK, PLUGGED, vectors
 
 from teleop.config.documents.document import DocumentError
-from teleop.config.inputs_section import InputSection
+from teleop.config.inputs_section import DeviceSection, InputSection
 from teleop.config.pad_file import load_pad
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Command
 from teleop.inputs.hid.backend import DeviceInfo
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.mapping import Mapped
-from teleop.inputs.hid.pads import MULTI_AXIS, choose, pad_for, shipped
+from teleop.inputs.hid.pads import MULTI_AXIS, choose, fits, pad_for, shipped
 from teleop.inputs.hid.state import HidState
 
 DEVICES = vectors()["devices"]
@@ -126,3 +126,8 @@ def test_a_mapping_at_a_path_is_checked_like_a_shipped_one(tmp_path: Any) -> Non
         "stick_throttle, stick_yaw, not 'pam'; did you mean pan?",
         "pad.yaml:5:6: controls.Y needs a number: which preset to recall",
     ]
+
+
+@pytest.mark.parametrize(("written", "fitting"), [("dial [usb]", True), ("Dial *", True), ("Dial", False)])
+def test_a_device_fits_by_its_whole_name_even_one_with_brackets(written: str, fitting: bool) -> None:
+    assert fits(DeviceSection(name=written), info((1, 2), name="Dial [USB]")) is fitting

@@ -1,0 +1,67 @@
+"""`teleop check`: what it says of a move, for people and for programs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from teleop.cli import run
+
+PAN = """\
+title: Pan
+keyframes:
+- {at: 0s, pan: 0}
+- {at: 4s, pan: 20}
+"""
+CUES = """\
+cues:
+- {at: 1s, camera: shutter}
+- {at: 2s, camera: shutter}
+- {at: 3s, camera: record}
+- {at: 4s, camera: stop}
+"""
+TIMELAPSE = """\
+title: Dusk
+fps: 24
+keyframes:
+- {at: 0, pan: 0}
+- {at: 4, pan: 20}
+timelapse: {mode: shoot-move-shoot, frames: 5, interval: 4s, exposure: 0.5s}
+"""
+
+
+@pytest.fixture(autouse=True)
+def _wide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "120")
+    monkeypatch.chdir(tmp_path)
+
+
+def checked(text: str, capsys: pytest.CaptureFixture[str], *options: str) -> str:
+    Path("move.yaml").write_text(text)
+    assert run(["check", "move.yaml", "--rig", "sim", *options]) == 0
+    return capsys.readouterr().out
+
+
+def test_cues_of_one_kind_are_counted(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "Cues: 2 x shutter, record, stop." in checked(PAN + CUES, capsys).splitlines()
+    assert "Cues" not in checked(PAN, capsys)
+
+
+def test_the_table_has_a_row_for_each_axis_that_moves(capsys: pytest.CaptureFixture[str]) -> None:
+    rows = [line.replace("│", " ").split() for line in checked(PAN, capsys).splitlines()]
+    uses = [row for row in rows if sum(word.endswith("%") for word in row) > 1]
+    velocity = json.loads(checked(PAN, capsys, "--json"))["axes"]["pan"]["velocity"]
+    assert [row[:2] for row in uses] == [["pan", f"{velocity:.0%}"]]
+
+
+def test_a_timelapse_is_summed_up_and_its_table_is_of_its_rehearsal(capsys: pytest.CaptureFixture[str]) -> None:
+    text = " ".join(checked(TIMELAPSE, capsys).split())
+    assert "5 frames, 4 s apart: 16.0 s of shooting, 0.21 s of clip at 24 fps. The table is of its rehearsal." in text
+
+
+def test_programs_are_told_of_a_timelapse_only_where_there_is_one(capsys: pytest.CaptureFixture[str]) -> None:
+    found = json.loads(checked(TIMELAPSE, capsys, "--json"))
+    assert (found["ok"], found["title"], found["timelapse"]["frames"]) == (True, "Dusk", 5)
+    assert "timelapse" not in json.loads(checked(PAN, capsys, "--json"))
