@@ -54,7 +54,7 @@ def test_a_script_flies_only_when_somebody_said_so(sequence: str, sticks: str) -
     for arguments in (["play", sequence], ["live", "--sticks", sticks]):
         ran = teleop(*arguments, *RIG, "--fast")
         assert ran.returncode == 2
-        assert "flies a drone: --i-understand says that somebody is there who may fly it" in ran.stderr
+        assert "flies a drone: run it on a terminal to confirm, or give --i-understand" in ran.stderr
 
 
 def test_one_sequence_moves_sticks_gimbal_and_focus_on_one_clock(sequence: str, tmp_path: Path) -> None:
@@ -156,7 +156,7 @@ def test_the_word_is_asked_for_on_a_terminal(sequence: str, tmp_path: Path) -> N
         term.type("no\n")
         code, _ = term.end()
         assert code == 2
-        assert "fly was not typed, so nothing flies" in term.shown
+        assert "fly was not typed; nothing was sent to the drone" in term.shown
 
 
 def test_an_operator_types_a_word_and_sees_the_drone(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ import pytest
 FOLDER = Path(__file__).parents[2] / "examples"
 PROGRAMS = sorted(FOLDER.glob("*.py"))
 PRINTS = {
-    "check_many": r"yes  nudge: Nudge, 18\.0 s\n.*no   whip-pan: .* would do\nrs2 can play 2 of 3\n",
+    "check_many": r"yes  nudge: Nudge, 18\.0 s\n.*no   whip-pan: .*fit: stretch`\nrs2 can play 2 of 3\n",
     "compare_takes": r"the passes differ by 0\.0\d+ deg rms, 0\.\d+ deg at most\n",
     "first_move": r"has the axes pan, tilt, roll, focus\n.*after:  \{'pan': 30\.0, 'tilt': 5\.0,",
     "jog": r"pan 20\.0, tilt -4\.0\nat the soft limit: tilt -56\.0\nrefused: jog: pan=500 .*120\n",

@@ -45,6 +45,7 @@ class FakeDevice:
         self.info = DeviceInfo(path, *ids, serial, name, *usage, 0)
         self.descriptor, self.answers = descriptor, answers
         self.asked: list[int] = []
+        self.reads = 0  # one more begins once the answer to the last question has been taken
         self.opened = self.closed = 0
         self.may_be_opened = True
         self._given = self._taken = self._handled = 0
@@ -69,6 +70,7 @@ class FakeDevice:
 
     def read(self, timeout: float) -> bytes:
         self._handled = self._taken
+        self.reads += 1
         try:
             report = self._reports.get(timeout=timeout)
         except queue.Empty:

@@ -239,6 +239,8 @@ def test_one_that_is_held_over_and_answers_is_alive(reports: str) -> None:
             hand.time.now += 0.15
             assert pan(hand.read()) == 1
             wait_until(lambda before=asked: len(pad.asked) > before)
+            reads = pad.reads
+            wait_until(lambda before=reads: pad.reads > before, "that the answer is taken")
 
 
 def test_one_that_is_said_to_report_all_the_time_is_not_asked() -> None:
