@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import gc
-import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Protocol, Self
 
+from teleop.app.switch_interval import short_switch_interval
 from teleop.core.axes import Axis
 from teleop.core.events import DeviceCommand
 from teleop.core.interfaces import Observer, Sink, Source
@@ -20,8 +20,6 @@ from teleop.devices.link_notes import LinkNotes
 from teleop.devices.rig import Rig
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 from teleop.recording.writer import Recorder
-
-SWITCH_INTERVAL = 0.0005  # s: how long the display's thread may hold up the control thread
 
 Signals = Callable[
     [Callable[[str], object], Callable[[], object], Callable[[str], object]], AbstractContextManager[None]
@@ -92,10 +90,17 @@ def commands(
 
     `done` is called with each command that the gimbal has confirmed.
     """
-    links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
-    sinks = [CommandSink(rig.connections[link], notify, done) for link in links[:1]]
+    sinks = command_sinks(rig, notify, done)
     unheard = Unheard(gimbal=bool(sinks), drone=rig.drone(axes) is not None, notify=notify)
-    return [unheard, LinkNotes(rig.connections.values(), notify)], [*sinks]
+    return [unheard, LinkNotes(rig.connections.values(), notify)], sinks
+
+
+def command_sinks(
+    rig: Rig, notify: Callable[[str], object], done: Callable[[DeviceCommand], object] = lambda _command: None
+) -> list[Sink]:
+    """What sends a gimbal its own commands, such as a follow mode: one sink, or none in a rig without a gimbal."""
+    links = [section.link for section in rig.profile.sinks if section.type == "gimbal"]
+    return [CommandSink(rig.connections[link], notify, done) for link in links[:1]]
 
 
 @contextmanager
@@ -104,15 +109,13 @@ def undisturbed() -> Iterator[None]:
 
     Afterwards the process is as it was found, whatever was raised.
     """
-    interval = sys.getswitchinterval()
     gc.collect()
     thaw = gc.get_freeze_count() == 0  # what the caller has frozen stays frozen; a part cannot be unfrozen
     if thaw:
         gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
-    sys.setswitchinterval(SWITCH_INTERVAL)
     try:
-        yield
+        with short_switch_interval:
+            yield
     finally:
-        sys.setswitchinterval(interval)
         if thaw:
             gc.unfreeze()

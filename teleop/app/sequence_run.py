@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -55,7 +55,7 @@ class SequenceRun:
     """
 
     profile: Profile
-    performance: CompiledSequence
+    sequence: CompiledSequence
     source: SequenceSource
     clock: Clock
     keys: Keyboard | None
@@ -68,7 +68,7 @@ class SequenceRun:
 
     @property
     def axes(self) -> list[Axis]:
-        return list(self.performance.move.tracks)
+        return list(self.sequence.move.tracks)
 
     @property
     def limits(self) -> dict[Axis, Limits]:
@@ -98,10 +98,10 @@ class SequenceRun:
             report = run(rig, axes, sources, tracking, screen, signals, recorder, observers, sinks, stopped)
             return SequenceReport(report, trim, repeatability)
 
-    def _recording(self, aboard: Aboard):
-        status = aboard.status if is_flown(self.axes) else None
-        title, options = self.performance.title, {"patient": self.patient, "option": "--take "}
-        return recording(self.take, self.profile.name, title, self.limits, status, **options)
+    def _recording(self, aboard: Aboard) -> AbstractContextManager[Recorder | None]:
+        status, title = aboard.status if is_flown(self.axes) else None, self.sequence.title
+        patient, option = self.patient, "--take "
+        return recording(self.take, self.profile.name, title, self.limits, status, patient=patient, option=option)
 
     def _controls(self, stack: ExitStack) -> tuple[PlaybackControls | None, StopGuard | None, TrimWriter | None]:
         """What its inputs do to it, if there are any, and their STOP; with a trim also what writes that."""
@@ -118,7 +118,7 @@ class SequenceRun:
         devices, note = open_devices(stack, self.profile, self.clock, self.keys is not None, NO_INPUT)
         keys = None if self.keys is None else Relay(self.keys)
         relays = [*map(Relay, devices), *([] if keys is None else [keys])]
-        limits = trim_limits(self.performance.move, self.limits, self.share)
+        limits = trim_limits(self.sequence.move, self.limits, self.share)
         trimming = LiveOffset(limits, relays, self.profile.sticks)
         if note:
             trimming.notify(note)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import atexit
 import logging
-import sys
 import threading
 import weakref
 from collections.abc import Callable, Mapping, Sequence
@@ -17,19 +16,19 @@ from contextlib import ExitStack
 
 from teleop.app.clocks import clock_for
 from teleop.app.program import Job, ProgramSource
+from teleop.app.run import command_sinks
+from teleop.app.switch_interval import short_switch_interval
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, State
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import DeviceError, Interrupted, TeleopError, UsageError
 from teleop.core.events import Action
-from teleop.core.interfaces import Observer, Sink
+from teleop.core.interfaces import Observer
 from teleop.core.run_state import Result, RunState
 from teleop.devices.camera_answers import CameraAnswers
-from teleop.devices.gimbal.commands import CommandSink
 from teleop.devices.rig import Rig, open_rig
 from teleop.planner.ruckig_solver import PositionSolver
 
-SWITCH_INTERVAL = 0.0005  # s: how long another thread of the program may hold up the control thread
 CLOSING = 15.0  # s to wait for a run to end; the loop's own deadlines are shorter
 IMPATIENT = 2  # interrupts while closing, after which devices are released without a ramp
 CTRL_C = "Ctrl-C"
@@ -59,7 +58,7 @@ class Session:
         try:
             self.rig: Rig = self._stack.enter_context(open_rig(profile.in_use(self.axes, [Action.RECORD]), self.clock))
             observers = [self.program, self._camera()]
-            self._loop = self.rig.loop(self.axes, [self.program], observers, self._commands())
+            self._loop = self.rig.loop(self.axes, [self.program], observers, command_sinks(self.rig, log.info))
             self._supervisor = self._loop.supervisor
             _sessions.add(self)
             self._begin()
@@ -133,14 +132,9 @@ class Session:
         if not self.program.cancel(DeviceError(reason)):
             log.warning(reason)
 
-    def _commands(self) -> list[Sink]:
-        """What gives the gimbal the commands that a sequence has for it."""
-        links = [section.link for section in self.profile.sinks if section.type == "gimbal"]
-        return [CommandSink(self.rig.connections[link], log.info) for link in links[:1]]
-
     def _begin(self) -> None:
         if not self.is_virtual:
-            self._stack.enter_context(_short_switch_interval)
+            self._stack.enter_context(short_switch_interval)
             self._thread = threading.Thread(target=self._turn_all, name="teleop control", daemon=True)
             self._thread.start()
         self._until(lambda: self.program.running.is_set(), self.program.running.wait)
@@ -193,29 +187,6 @@ class Session:
             raise KeyboardInterrupt
 
 
-class _SwitchInterval:
-    """The interpreter's switch interval, short while any rig is open, and then as it was found."""
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._users = 0
-        self._found = 0.0
-
-    def __enter__(self) -> None:
-        with self._lock:
-            if not self._users:
-                self._found = sys.getswitchinterval()
-                sys.setswitchinterval(SWITCH_INTERVAL)
-            self._users += 1
-
-    def __exit__(self, *_: object) -> None:
-        with self._lock:
-            self._users -= 1
-            if not self._users:
-                sys.setswitchinterval(self._found)
-
-
-_short_switch_interval = _SwitchInterval()
 _sessions: weakref.WeakSet[Session] = weakref.WeakSet()
 
 

@@ -156,7 +156,7 @@ def _performed(run: SequenceRun, options: Options) -> int:
 
     def view(limits: Mapping[Axis, Limits], status: Callable[[float], RunStatus], recorder: Recorder | None) -> RunView:
         hints = NO_KEYS if run.keys is None else RUN_HINTS
-        return RunView(run.performance.title, limits, status, options.json, take_words(recorder), hints=hints)
+        return RunView(run.sequence.title, limits, status, options.json, take_words(recorder), hints=hints)
 
     report = run.perform(view, signals_to)
     extras: list[Extra] = []

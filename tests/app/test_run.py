@@ -12,7 +12,8 @@ import pytest
 from fakes import RecordingObserver, cruising
 from silent_screen import SilentScreen, no_signals
 
-from teleop.app.run import SWITCH_INTERVAL, RunReport, Signals, commands, run, undisturbed
+from teleop.app.run import RunReport, Signals, commands, run, undisturbed
+from teleop.app.switch_interval import SWITCH_INTERVAL
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
 from teleop.core.clock import VirtualClock

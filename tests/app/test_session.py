@@ -8,7 +8,8 @@ import threading
 import pytest
 
 from teleop.app.program import MoveJob
-from teleop.app.session import SWITCH_INTERVAL, Session, shortest_seconds
+from teleop.app.session import Session, shortest_seconds
+from teleop.app.switch_interval import SWITCH_INTERVAL
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError, TeleopError, UsageError

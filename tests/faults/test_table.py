@@ -19,7 +19,7 @@ from typing import Any
 import can
 import pytest
 from faulty_bus import driver_fault
-from gimbal_fault_bench import SLACK, SPEEDS, GimbalFaultBench, RealClock, StallingClock, gimbal_fault_bench
+from gimbal_fault_bench import SLACK, SPEEDS, GimbalFaultBench, RealClock, SteppingClock, gimbal_fault_bench
 
 from teleop.cli.running import EXIT_CODES
 from teleop.core.run_state import Result, RunState
@@ -80,7 +80,7 @@ def full_for(seconds: float) -> Callable[[GimbalFaultBench, float], None]:
 
 
 def stalled(bench: GimbalFaultBench, seconds: float) -> None:
-    assert isinstance(bench.clock, StallingClock)
+    assert isinstance(bench.clock, SteppingClock)
     bench.clock.stall(seconds)
 
 

@@ -14,7 +14,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TypeVar
 
-from gimbal_fault_bench import StallingClock
+from gimbal_fault_bench import SteppingClock
 from hands import FakeInput
 
 from teleop.config.presets import Presets
@@ -82,7 +82,7 @@ class Cable:
 class DroneFaultBench:
     """`said` is what the operator was told, `keys` and `pad` are what is in the operator's hands."""
 
-    def __init__(self, clock: StallingClock) -> None:
+    def __init__(self, clock: SteppingClock) -> None:
         self.clock = clock
         self.begin = clock.now()
         self.pad, self.keys = FakeInput("pad"), FakeInput("keys")
@@ -199,7 +199,7 @@ def drone_fault_bench(folder: Path, sink: str = VIRTUAL_RC, gimbal: bool = False
         text = text.replace("sinks: [", f"sinks: [{GIMBAL}, ")
     (folder / "bench.yaml").write_text(text)
     profile = load_profile(str(folder / "bench.yaml"))
-    clock = StallingClock()
+    clock = SteppingClock()
     made = DroneFaultBench(clock)
     made.hold_at(0.0)
     with ExitStack() as stack:

@@ -18,10 +18,11 @@ import can
 import can.interfaces
 import pytest
 from faulty_bus import FaultyBus, register
+from hooked_clock import HookedClock
 
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis, Limits
-from teleop.core.clock import SystemClock, VirtualClock
+from teleop.core.clock import SystemClock
 from teleop.core.control_loop import LEAD, ControlLoop
 from teleop.core.events import Tick
 from teleop.core.interfaces import Link, Observer, Source
@@ -53,16 +54,8 @@ _channels = itertools.count()
 Kind = TypeVar("Kind", bound=Message)
 
 
-class StallingClock(VirtualClock):
-    """Calls `hook` as time passes; `stall` makes the next sleep so many seconds too long."""
-
-    def __init__(self) -> None:
-        super().__init__(1000.0)
-        self.hook: Callable[[float], None] = lambda _now: None
-        self._too_long = 0.0
-
-    def stall(self, seconds: float) -> None:
-        self._too_long += seconds
+class SteppingClock(HookedClock):
+    """Calls `hook` every LOOK seconds while time passes, also during a stall."""
 
     def sleep_until(self, time: float) -> None:
         time = max(time, self.now()) + self._too_long
@@ -70,7 +63,6 @@ class StallingClock(VirtualClock):
         self._too_long = 0.0
         while self.now() < time:
             super().sleep_until(min(self.now() + step, time))
-            self.hook(self.now())
 
 
 class RealClock(SystemClock):
@@ -117,7 +109,7 @@ class Watcher:
 class GimbalFaultBench:
     """`wire` is every message to the gimbal with its time, `rates` its rates (deg/s) with theirs."""
 
-    def __init__(self, mode: str, rig: Rig, clock: StallingClock | RealClock, far: Link) -> None:
+    def __init__(self, mode: str, rig: Rig, clock: SteppingClock | RealClock, far: Link) -> None:
         self.mode, self.rig, self.clock, self._far = mode, rig, clock, far
         self.bus = FaultyBus.opened[-1]
         self.gimbal = SimulatedGimbal()
@@ -227,14 +219,14 @@ class GimbalFaultBench:
 
 @contextmanager
 def gimbal_fault_bench(
-    mode: str, folder: Path, monkeypatch: pytest.MonkeyPatch, clock: StallingClock | RealClock | None = None
+    mode: str, folder: Path, monkeypatch: pytest.MonkeyPatch, clock: SteppingClock | RealClock | None = None
 ) -> Iterator[GimbalFaultBench]:
     register(monkeypatch)
     monkeypatch.setattr(can.interfaces, "VALID_INTERFACES", can.interfaces.VALID_INTERFACES | {"faulty"})
     channel = f"bench{next(_channels)}"
     text = PROFILE.replace("CHANNEL", channel).replace("MODE", mode).replace("DELAY", str(DELAYS[mode]))
     (folder / "rig.yaml").write_text(text)
-    clock = clock or StallingClock()
+    clock = clock or SteppingClock()
     far = open_link(f"virtual:{channel}", host=False, now=clock.now)
     try:
         with open_rig(load_profile(str(folder / "rig.yaml")), clock) as rig:

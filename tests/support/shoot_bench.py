@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
+from hooked_clock import HookedClock
 
 from teleop.app.shoot_runner import Ended, Shooting
 from teleop.config.profile import Profile, load_profile
 from teleop.core.axes import Axis
-from teleop.core.clock import VirtualClock
 from teleop.core.events import Tick
 from teleop.core.operator_input import Held, Press
 from teleop.devices import rig
@@ -104,23 +104,6 @@ class CountingGimbal(SimulatedGimbal):
 SILENT: Any = object()
 
 
-class Hours(VirtualClock):
-    """Calls `hook` after each sleep; `stall` makes the next one so many seconds too long."""
-
-    def __init__(self) -> None:
-        super().__init__(1000.0)
-        self.hook: Callable[[float], None] = lambda _now: None
-        self._too_long = 0.0
-
-    def stall(self, seconds: float) -> None:
-        self._too_long += seconds
-
-    def sleep_until(self, time: float) -> None:
-        too_long, self._too_long = self._too_long, 0.0
-        super().sleep_until(max(time, self.now()) + too_long)
-        self.hook(self.now())
-
-
 class Keys:
     """What is pressed at a time on the clock, once."""
 
@@ -153,7 +136,7 @@ class Stage:
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         self.folder = folder
-        self.clock: Any = Hours()
+        self.clock: Any = HookedClock()
         self.gimbals: list[CountingGimbal] = []
         self.said: list[str] = []
         self.executor: Executor | None = None
