@@ -14,8 +14,8 @@ from teleop.core.operator_input import Input
 from teleop.inputs.evdev.backend import AllDevices
 from teleop.inputs.hid.backend import HidBackend
 from teleop.inputs.hid.device import open_inputs
-from teleop.inputs.hid.reader import wanted
 from teleop.inputs.hid.recording import RecordedDevices, Recording
+from teleop.inputs.hid.selection import wanted
 
 
 def open_devices(

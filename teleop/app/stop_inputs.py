@@ -16,7 +16,7 @@ from teleop.core.interfaces import Clock
 from teleop.inputs.evdev.backend import AllDevices
 from teleop.inputs.hid.device import HidInput, open_inputs
 from teleop.inputs.hid.pads import may_stop
-from teleop.inputs.hid.reader import wanted
+from teleop.inputs.hid.selection import wanted
 from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
 from teleop.manual.stop_guard import Relay, Resumable, StopGuard

@@ -19,7 +19,7 @@ from teleop.inputs.evdev.backend import AllDevices
 from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, described
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.learn import Found, Kind, Learned, Question, Watch, other_way, questions, still
-from teleop.inputs.hid.reader import wanted
+from teleop.inputs.hid.selection import wanted
 from teleop.inputs.hid.state import HidState
 from teleop.inputs.keyboard import has_keys
 

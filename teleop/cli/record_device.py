@@ -18,8 +18,8 @@ from teleop.core.errors import DeviceError, UsageError
 from teleop.inputs.evdev.backend import AllDevices
 from teleop.inputs.hid.backend import DeviceInfo, HidBackend, described, identified
 from teleop.inputs.hid.pads import is_named
-from teleop.inputs.hid.reader import wanted
 from teleop.inputs.hid.recorder import Recorder
+from teleop.inputs.hid.selection import wanted
 
 _IDS = re.compile(r"([0-9a-fA-F]{1,4}):([0-9a-fA-F]{1,4})")
 

@@ -11,44 +11,24 @@ it is not handed over, the next device is tried, and the pause grows with each r
 
 from __future__ import annotations
 
-import math
 import threading
-from collections.abc import Callable, Collection, Generator, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
 
-from teleop.config.inputs_section import DeviceSection, InputSection
-from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, described, same_unit, unit
+from teleop.config.inputs_section import InputSection
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, described
 from teleop.inputs.hid.claims import Claims
-from teleop.inputs.hid.descriptor.identity import STICKS
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.mapping import Mapped
-from teleop.inputs.hid.pads import Chosen, choose, fits, pad_for
+from teleop.inputs.hid.pads import Chosen, choose
+from teleop.inputs.hid.selection import together, wanted
 from teleop.inputs.hid.state import HidState
+from teleop.inputs.hid.steps import Pause, PolledSteps, Read, Steps
 
-EPSILON = 1e-9  # s
 LOOK_EVERY = 1.0  # s between two looks for a device that is missing
 LOOKS_APART = 8  # times as far apart as that, at most, while the only device there cannot be read
 WAIT = 0.05  # s for a report, after which the thread looks whether it is to end
 ASK_AFTER = 0.1  # s without a report until one is asked for: ten times a second
 _UNASKED = 64  # bytes: the longest report of a full-speed USB device, where a descriptor has none
-_OTHER_HANDS = frozenset({(0x01, 0x02), (0x01, 0x06), (0x01, 0x07)})  # mouse, keyboard, keypad
-
-
-class Pause(NamedTuple):
-    """Wait for so many seconds."""
-
-    seconds: float
-
-
-class Read(NamedTuple):
-    """Wait for a report of this device, for so many seconds at most."""
-
-    device: HidDevice
-    seconds: float
-
-
-Steps = Generator[Pause | Read, bytes, bool]
-"""What a reader does between its waits: it yields what it waits for, and is sent the report, or its OSError thrown."""
 
 
 class Plugged:
@@ -265,86 +245,7 @@ class HidReader:
             report = yield Read(device, WAIT)
 
 
-class PolledSteps:
-    """A reader's steps on a clock that does not wait for it; `time` is how far they have come."""
-
-    def __init__(self, steps: Steps, now: float) -> None:
-        self.time = now
-        self._steps = steps
-        self._request = next(steps)
-
-    def advance(self, now: float) -> None:
-        """Take all steps that are due by `now`. Raises what the reader does."""
-        while True:
-            request = self._request
-            end = self.time + request.seconds
-            due = getattr(request.device, "next_report", math.inf) if isinstance(request, Read) else math.inf
-            if min(due, end) > now + EPSILON:
-                return
-            self.time = max(self.time, min(due, end))
-            try:
-                report = request.device.read(0) if isinstance(request, Read) and due <= end else b""
-            except OSError as error:
-                self._request = self._steps.throw(error)
-            else:
-                self._request = self._steps.send(report)
-
-    def close(self) -> None:
-        self._steps.close()
-
-
-def together(infos: Sequence[DeviceInfo]) -> list[list[DeviceInfo]]:
-    """The devices, each with its other interfaces behind the one that comes first."""
-    groups: list[list[DeviceInfo]] = []
-    for info in infos:
-        for group in groups:
-            first = group[0]
-            one_device = unit(info) == unit(first) and info.port == first.port and (info.port or info.serial)
-            if info.path in [each.path for each in group]:
-                break  # the system lists an interface once for each of its usages
-            if one_device and info.interface not in [each.interface for each in group]:
-                group.append(info)
-                break
-        else:
-            groups.append([info])
-    return groups
-
-
-def wanted(
-    device: DeviceSection, found: Sequence[DeviceInfo], last: DeviceInfo | None, stayed: Collection[bytes] = ()
-) -> Sequence[DeviceInfo]:
-    """The devices that `device` may stand for, the best first.
-
-    After an unplugging that is the `last` one, then its like, then a spare plugged in since: another
-    model that had been there all along (`stayed`, by path) was not meant. A keyboard or a mouse is taken only where its
-    ids are asked for, anything else that is no joystick and no known pad where its name is.
-    """
-    fitting = [info for info in found if fits(device, info) and (device.vendor is not None or _for_hands(device, info))]
-    if last is not None:
-        fitting = [info for info in fitting if _alike(info, last) or info.path not in stayed]
-
-    def rank(info: DeviceInfo) -> tuple[bool, bool, bool, bool, bool, bytes]:
-        usage = (info.usage_page, info.usage)
-        other = last is not None and not _alike(info, last)
-        same = last is None or same_unit(info, last)
-        serial = last.serial if last is not None else ""
-        return other, info.serial != serial, not same, usage not in STICKS, usage in _OTHER_HANDS, info.path
-
-    return sorted(fitting, key=rank)
-
-
 def _as_guessed(info: DeviceInfo, state: HidState) -> DeviceInfo:
     """The device, for the collection that a guess is made for: the system lists one that it is for by chance."""
     page, usage = state.purpose
     return info._replace(usage_page=page, usage=usage) if page else info
-
-
-def _alike(one: DeviceInfo, two: DeviceInfo) -> bool:
-    return (one.vendor_id, one.product_id) == (two.vendor_id, two.product_id)
-
-
-def _for_hands(device: DeviceSection, info: DeviceInfo) -> bool:
-    usage = (info.usage_page, info.usage)
-    if usage in STICKS or pad_for(info):
-        return usage not in _OTHER_HANDS
-    return not device.any and info.usage_page != 0 and usage not in _OTHER_HANDS  # 0: the system does not say

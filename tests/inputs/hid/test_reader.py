@@ -1,4 +1,4 @@
-"""The steps of a reader on the virtual clock: when it looks, reads and asks; and which interfaces are one device."""
+"""The steps of a reader on the virtual clock: when it looks, reads and asks."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from teleop.inputs.hid.claims import Claims
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.mapping import Mapped
 from teleop.inputs.hid.pads import Chosen
-from teleop.inputs.hid.reader import HidReader, Pause, Plugged, PolledSteps, Read, Steps, together
-from teleop.inputs.hid.recording import RecordedDevice, RecordedDevices, Recording, Row
+from teleop.inputs.hid.reader import HidReader, Plugged
+from teleop.inputs.hid.recording import RecordedDevices, Recording, Row
 from teleop.inputs.hid.state import HidState
 
 X_PANS = {"X": ControlSection(axis=Axis.PAN)}
@@ -69,30 +69,6 @@ def test_a_closed_reader_leaves_its_device_to_others() -> None:
     assert polled.reader.plugged is None
 
 
-def test_steps_take_the_waits_that_are_over_and_the_reports_that_are_due() -> None:
-    recording = Recording([PAD], F310, [Row(1.0, REST), Row(1.02, gone=True)])
-    device = RecordedDevice(recording, lambda: 0.0, lambda: 0.0, 0.0)
-    seen: list[tuple[float, object]] = []
-
-    def steps() -> Steps:
-        report = yield Pause(0.9)
-        try:
-            while True:
-                seen.append((polled.time, report))
-                report = yield Read(device, 0.06)
-        except OSError as error:
-            seen.append((polled.time, str(error)))
-        yield Pause(9.0)
-        return False
-
-    polled = PolledSteps(steps(), 0.0)
-    polled.advance(0.89)
-    assert seen == []
-    polled.advance(5.0)
-    assert [what for _, what in seen] == [b"", b"", REST, "unplugged"]
-    assert [time for time, _ in seen] == pytest.approx([0.9, 0.96, 1.0, 1.02])
-
-
 class Asked:
     """A device with a descriptor of one report, asked on a clock that a test moves."""
 
@@ -123,15 +99,3 @@ def test_a_device_that_once_did_not_answer_is_not_asked_again(answers: Callable[
     asked = Asked(answers)
     assert asked.at(0.5, 1.0, 5.0) == 1
     assert asked.plugged.state.last == 0.0
-
-
-def test_the_interfaces_of_a_device_go_together_and_devices_of_one_model_do_not() -> None:
-    other, second = PAD._replace(path=b"1", port="1-3"), PAD._replace(path=b"2", interface=1)
-    assert together([PAD, other, second]) == [[PAD, second], [other]]
-    unplaced = [PAD._replace(path=b"%d" % index, port="", interface=index) for index in (0, 1)]
-    assert together(unplaced) == [[each] for each in unplaced], "nothing says that they are one"
-
-
-def test_a_device_is_there_once_however_many_usages_its_interfaces_have() -> None:
-    second = PAD._replace(path=b"2", interface=1)
-    assert together([PAD, PAD._replace(usage=5), second, second._replace(usage=5)]) == [[PAD, second]]
