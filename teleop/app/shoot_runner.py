@@ -116,8 +116,8 @@ class Shooting:
                 return ended
             waiting = isinstance(faults[0], LinkError) or not reached
             if reached:
-                said = "waiting for the link, then going" if waiting else "going"
-                self._notify(f"{ended.reasons[0]}: {said} on at frame {self._journal.next}")
+                line = "waiting for the link, then going" if waiting else "going"
+                self._notify(f"{ended.reasons[0]}: {line} on at frame {self._journal.next}")
             waited = waited + RETRY if waiting and not reached else 0.0
             if waited > LONGEST_WAIT:
                 return ended
@@ -184,14 +184,14 @@ class Shooting:
         frame = self._journal.in_doubt
         if frame is None:
             return
-        said = f"frame {frame} may be missing: the shoot stopped at its shutter"
+        line = f"frame {frame} may be missing: the shoot stopped at its shutter"
         if self._in_doubt == "skip":
             self._journal.note(frame, FrameState.DOUBTFUL)
             self._journal.catch_up()
             self.progress.doubtful.append(frame)
-            self._notify(f"{said}; it counts as shot")
+            self._notify(f"{line}; it counts as shot")
         else:
-            self._notify(f"{said}; it is shot again, so the camera may have it twice")
+            self._notify(f"{line}; it is shot again, so the camera may have it twice")
         self.progress.frame = self._journal.next
 
     def interrupt(self, reason: str) -> None:

@@ -87,7 +87,7 @@ def serve(
 ) -> None:
     """Pass bytes between links and devices until stopped; raises LinkError when a link is lost."""
     due = clock.now()
-    said = -STATUS
+    printed = -STATUS
     strangers = _strangers(links, due) if foreign_traffic else []
     while not stop.is_set():
         now = clock.now()
@@ -99,8 +99,8 @@ def serve(
                 refusals.look(name, devices[name], now)
         for send in strangers:
             send(now)
-        if sys.stderr.isatty() and now - said >= STATUS:
-            said = now
+        if sys.stderr.isatty() and now - printed >= STATUS:
+            printed = now
             print(*(status(name, device) for name, device in devices.items()), sep="   ", file=sys.stderr)
         due = max(due + POLL_PERIOD, now)
         clock.sleep_until(due)

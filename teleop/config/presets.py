@@ -59,11 +59,11 @@ def default_file(profile: str) -> Path:
 class Presets:
     """The presets of one rig, as they are now; `names` of them by number, "" for one that has none."""
 
-    def __init__(self, file: Path, presets: Mapping[int, Preset] | None = None, said: Sequence[str] = ()) -> None:
+    def __init__(self, file: Path, presets: Mapping[int, Preset] | None = None, messages: Sequence[str] = ()) -> None:
         self._file = file
         self._presets = dict(presets or {})
         self.names: Mapping[int, str] = {}
-        self._said = deque(said)
+        self._messages = deque(messages)
         self._changed = threading.Condition()
         self._unsaved: Mapping[int, Preset] | None = None
         self._closing = False
@@ -87,10 +87,10 @@ class Presets:
             self._save()
         return known
 
-    def heard(self) -> Iterator[str]:
+    def new_messages(self) -> Iterator[str]:
         """What the operator has to know since the last time: a file that could not be written."""
-        while self._said:
-            yield self._said.popleft()
+        while self._messages:
+            yield self._messages.popleft()
 
     def close(self) -> None:
         """Wait for what is being written, but not for ever."""
@@ -122,26 +122,26 @@ class Presets:
             try:
                 write_presets(self._file, presets)
             except OutputError as error:
-                self._said.append(f"presets are not saved: {self._file}: {error.reason}")
+                self._messages.append(f"presets are not saved: {self._file}: {error.reason}")
 
 
 def read_presets(file: Path, limits: Mapping[Axis, Limits], rig: str) -> Presets:
     """The presets in the file, none when it is not there yet; raises DocumentError with a line for everything wrong.
 
-    What only this rig cannot do, because it lacks an axis or its soft limits lie nearer, is left for `heard`.
+    What only this rig cannot do, because it lacks an axis or its soft limits lie nearer, is left for `new_messages`.
     """
     if not file.exists():
         return Presets(file)
     document = read_document(file)
     checked = document.check(PresetsFile, _rules(document.data))
     presets = {int(key): _preset(section) for key, section in checked.presets.items()}
-    said = [
+    messages = [
         document.problem(("presets", str(number), axis.value), text)
         for number, preset in presets.items()
         for axis, position in preset.positions.items()
         if (text := _beyond(axis, position, limits, rig))
     ]
-    return Presets(file, presets, said)
+    return Presets(file, presets, messages)
 
 
 def _rules(data: Any) -> Iterator[Wrong]:

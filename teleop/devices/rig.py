@@ -261,20 +261,20 @@ def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis
 
 def _virtual_rc(section: VirtualRcSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
     last = None if connection.simulated else LastEnable(default_file())
-    grip = VirtualRcControl(connection, section.back_to_rc, section.go_home, last)
-    return _drone(section, grip, connection)
+    mode = VirtualRcControl(connection, section.back_to_rc, section.go_home, last)
+    return _drone(section, mode, connection)
 
 
 def _flight(section: FlightSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
     site = Site(section.guidance, section.indoors)
-    grip = MovementControl(connection, section.combination, section.frame, section.full_scale.model_dump(), site)
-    return _drone(section, grip, connection)
+    mode = MovementControl(connection, section.combination, section.frame, section.full_scale.model_dump(), site)
+    return _drone(section, mode, connection)
 
 
-def _drone(section: VirtualRcSection | FlightSection, grip: ControlMode, connection: Connection) -> Device:
+def _drone(section: VirtualRcSection | FlightSection, mode: ControlMode, connection: Connection) -> Device:
     activation = Activate(0) if connection.simulated else load_credentials().activation()
     telemetry = Telemetry(connection, activation, _cipher(section.encrypted))
-    sink = DroneSink(grip, telemetry, connection.opened, section.low_battery)
+    sink = DroneSink(mode, telemetry, connection.opened, section.low_battery)
     return Device(MOVES[section.type], sink, sink, follow=None)
 
 

@@ -112,7 +112,7 @@ class Operator:
         seconds, self._now, self._actions = now - self._now, now, []
         presses = [(lock, press) for lock in self._locks for press in lock.read(now, self._manual_control).presses]
         notes = [note for lock in self._locks for note in lock.held.notes]
-        for text in (*self._log.changes(self._locks, self._arbitration.drivers), *notes, *self._presets.heard()):
+        for text in (*self._log.changes(self._locks, self._arbitration.drivers), *notes, *self._presets.new_messages()):
             self.notify(text)
         for lock, press in sorted(presses, key=_is_stop):
             self._commands.get(press.command, self._unavailable)(lock, press)

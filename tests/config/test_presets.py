@@ -47,10 +47,10 @@ def test_a_name_and_an_axis_of_another_rig_survive_a_store(tmp_path: Path) -> No
     file = tmp_path / "presets.yaml"
     file.write_text('presets:\n  1: {pan: 1, roll: 5, name: "wide \\u00e9"}\n')
     shelf = read_presets(file, LIMITS, RIG)
-    assert [said.removeprefix(f"{tmp_path}/") for said in shelf.heard()] == [
+    assert [said.removeprefix(f"{tmp_path}/") for said in shelf.new_messages()] == [
         "presets.yaml:2:21: presets.1.roll is not used: Test rig has no roll"
     ]
-    assert list(shelf.heard()) == []
+    assert list(shelf.new_messages()) == []
     shelf.store(1, {Axis.PAN: 2.0})
     shelf.close()
     assert read_presets(file, LIMITS, RIG).get(1) == Preset({Axis.PAN: 2.0, Axis.ROLL: 5.0}, "wide \xe9")
@@ -59,7 +59,7 @@ def test_a_name_and_an_axis_of_another_rig_survive_a_store(tmp_path: Path) -> No
 def test_a_preset_beyond_the_soft_limits_is_said(tmp_path: Path) -> None:
     file = tmp_path / "presets.yaml"
     file.write_text("presets:\n  7: {pan: 200}\n")
-    [said] = read_presets(file, LIMITS, RIG).heard()
+    [said] = read_presets(file, LIMITS, RIG).new_messages()
     assert said.endswith("2:12: presets.7.pan is outside the soft limits (-180..180): a recall stops at the limit")
 
 
@@ -101,7 +101,7 @@ def test_a_disk_that_fails_is_said_and_costs_nothing_else(tmp_path: Path, monkey
     shelf = read_presets(file, LIMITS, RIG)
     shelf.store(2, {Axis.PAN: 2.0})
     shelf.close()
-    assert list(shelf.heard()) == [f"presets are not saved: {file}: No space left on device"]
+    assert list(shelf.new_messages()) == [f"presets are not saved: {file}: No space left on device"]
     assert dict(shelf.names) == {1: "", 2: ""}
     assert file.read_bytes() == before
     assert os.listdir(tmp_path) == ["presets.yaml"]
@@ -112,7 +112,7 @@ def test_a_place_that_cannot_be_made_is_said(tmp_path: Path) -> None:
     shelf = Presets(tmp_path / "file" / "presets.yaml")
     shelf.store(1, {Axis.PAN: 1.0})
     shelf.close()
-    assert "presets are not saved" in next(shelf.heard())
+    assert "presets are not saved" in next(shelf.new_messages())
 
 
 def test_each_rig_has_a_file_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

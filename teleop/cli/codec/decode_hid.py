@@ -117,11 +117,11 @@ def _record(control: Control) -> dict[str, Any]:
 
 def _once(prefix: str) -> Tell:
     """Says each thing on standard error the first time."""
-    said: set[str] = set()
+    printed: set[str] = set()
 
     def tell(text: str) -> None:
-        if text not in said:
-            said.add(text)
+        if text not in printed:
+            printed.add(text)
             print(f"{prefix}: {text}", file=sys.stderr, flush=True)
 
     return tell

@@ -73,7 +73,7 @@ def state_rows(status: OperatorStatus, links: Sequence[Text]) -> list[Text]:
     """Speed and jog step, inputs, camera, follow mode, links, presets."""
     jog = f"   jog {JOG:g} deg (shift {COARSE * JOG:g}, ctrl {FINE * JOG:g})"
     rows = [labelled("speed", _ranges(status).append(jog, "dim"))]
-    rows += [labelled("inputs" if index == 0 else "", _hand(hand)) for index, hand in enumerate(status.inputs)]
+    rows += [labelled("inputs" if index == 0 else "", _input(each)) for index, each in enumerate(status.inputs)]
     camera = Text("● recording", "bold red") if status.recording else Text("○ not recording", "dim")
     rows.append(labelled("camera", camera.append("   follow ", "dim").append(status.follow or "not set")))
     rows += [labelled("link", link) for link in links]
@@ -92,20 +92,20 @@ def _ranges(status: OperatorStatus) -> Text:
     return row
 
 
-def _hand(hand: InputStatus) -> Text:
-    if hand.trouble:
-        return Text.assemble(_dot("red"), (hand.trouble, "red"))
-    if hand.waits_for:
-        return Text.assemble(_dot("yellow"), f"{hand.name}  ", (hand.waits_for, "yellow"))
-    moves = f"moves {', '.join(hand.moves)}" if hand.moves else "ready"
-    return Text.assemble(_dot("green"), f"{hand.name}  ", (moves, "green" if hand.moves else "dim"))
+def _input(status: InputStatus) -> Text:
+    if status.trouble:
+        return Text.assemble(_dot("red"), (status.trouble, "red"))
+    if status.waits_for:
+        return Text.assemble(_dot("yellow"), f"{status.name}  ", (status.waits_for, "yellow"))
+    moves = f"moves {', '.join(status.moves)}" if status.moves else "ready"
+    return Text.assemble(_dot("green"), f"{status.name}  ", (moves, "green" if status.moves else "dim"))
 
 
 def _dot(colour: str) -> tuple[str, str]:
     return "● ", colour
 
 
-def said(message: Message, now: float) -> Text:
+def message_row(message: Message, now: float) -> Text:
     style = "bold red" if message.text.startswith("STOP by") else ""
     return Text.assemble((f" {max(0.0, now - message.time):4.0f} s ago  ", "dim"), (message.text, style))
 

@@ -17,7 +17,7 @@ from rich.text import Text
 
 from teleop.cli.screens.axis_table import axis_rows
 from teleop.cli.screens.drone_rows import drone_rows, summary
-from teleop.cli.screens.live_rows import Traffic, banner, help_rows, key_rows, said, state_rows, title_row
+from teleop.cli.screens.live_rows import Traffic, banner, help_rows, key_rows, message_row, state_rows, title_row
 from teleop.cli.screens.picture import Picture, Rows
 from teleop.cli.screens.stderr_writer import StderrWriter
 from teleop.core.axes import Axis, Limits
@@ -107,7 +107,7 @@ class LiveView:
         else:
             axes = axis_rows(tick, self._limits, width, status.deflections)
         word = [Text(f" {self._word}", "yellow")] if self._word else []
-        messages = word + [said(message, now) for message in status.messages]
+        messages = word + [message_row(message, now) for message in status.messages]
         return Rows(
             title=title_row(self._title, elapsed, status, self._take(), width),
             banner=banner(status, tick.motion if tick else {}, now, width),

@@ -76,10 +76,10 @@ class RunView(Screen):
         return replace(status, recording=recording)
 
     def _say_lines(self, tick: Tick, status: RunStatus) -> None:
-        said = {"stopping": "stopping", "stopped": "STOPPED"}.get(status.stop, status.question)
-        if said and said != self._announced:
-            self._lines.notify(said)
-        self._announced = said
+        shown = {"stopping": "stopping", "stopped": "STOPPED"}.get(status.stop, status.question)
+        if shown and shown != self._announced:
+            self._lines.notify(shown)
+        self._announced = shown
         if status.hints != self._hinted and self._picture.console.is_terminal:  # one on which nothing is drawn
             self._lines.notify("keys: " + "   ".join(f"{key} {does}" for key, does in status.hints))
         self._hinted = status.hints
@@ -138,11 +138,11 @@ def timed(begin: Callable[[], float], duration: float, phase: str) -> Callable[[
     return status
 
 
-def error_table(tally: TrackingErrorMonitor) -> None:
+def error_table(tracking: TrackingErrorMonitor) -> None:
     """Commanded against measured, a row an axis, on stdout."""
     headings = ("Axis", "Commanded", "Measured", "RMS error", "Peak error", "Unit")
     rows = []
-    for axis, score in tally.scores.items():
-        numbers = (*tally.ends(axis), score.rms, score.peak)
+    for axis, score in tracking.scores.items():
+        numbers = (*tracking.ends(axis), score.rms, score.peak)
         rows.append([axis.value, *(f"{round(value, 3) + 0.0:.3f}" for value in numbers), axis.unit or "0..1"])
     print_table("Commanded against measured", headings, rows, words=("Axis", "Unit"), drop=("Unit", "RMS error"))

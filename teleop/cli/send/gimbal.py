@@ -185,8 +185,8 @@ def refusal(record: Record) -> str:
     code = fields.get("return_code", "missing")
     if code != "ok":
         return f"return code {code}"
-    said = ((name, value) for name, value in fields.items() if isinstance(value, str))
-    return next((NOT_DONE[each] for each in said if each in NOT_DONE), "")
+    words = ((name, value) for name, value in fields.items() if isinstance(value, str))
+    return next((NOT_DONE[each] for each in words if each in NOT_DONE), "")
 
 
 def _simulated() -> Device:

@@ -69,8 +69,8 @@ def take_keyframes(
         stream.write(fitted.text.encode())
     if as_json:
         errors = {axis.value: {"error": round(e.size, 6), "time": e.time} for axis, e in fitted.errors.items()}
-        said = {"ok": True, "written": str(output), "keyframes": len(fitted.frames), "tolerance": tolerance}
-        print(json.dumps({**said, "largest_errors": errors}))
+        facts = {"ok": True, "written": str(output), "keyframes": len(fitted.frames), "tolerance": tolerance}
+        print(json.dumps({**facts, "largest_errors": errors}))
     else:
         errors = [f"{axis} {e.size:.3f}{UNIT_SIGNS[axis.unit]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
         count = len(fitted.frames)

@@ -1,7 +1,7 @@
 """A file as plain values that know where they stand, checked with every error of it at once as file:line:column.
 
-Whatever is wrong with it (what its text has that is not used here, what pydantic finds, what a module's own rules find)
-is said together, in the file's order, and in the words of whoever wrote it. How text becomes values is `yaml_text`'s.
+All mistakes (unused keys, what pydantic finds, what a module's own rules find) are reported together, in the file's
+order and in the file's own words. `yaml_loader` turns its text into values.
 """
 
 from __future__ import annotations
