@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from teleop.app.drone_flight import Aboard, is_flown
+from teleop.app.learning import as_planned
 from teleop.app.operator_inputs import open_devices
 from teleop.app.run import RunReport, Screen, Signals, commands, run
 from teleop.app.stop_inputs import open_stop_inputs
@@ -19,6 +20,8 @@ from teleop.core.interfaces import Clock
 from teleop.core.run_status import RunStatus
 from teleop.devices.rig import open_rig
 from teleop.inputs.keyboard import Keyboard
+from teleop.learning.pass_learner import PassLearner
+from teleop.learning.pass_traces import PassObserver
 from teleop.manual.live_offset import LiveOffset
 from teleop.manual.stop_guard import Relay, StopGuard, Together
 from teleop.monitors.repeatability import Repeatability
@@ -65,6 +68,7 @@ class SequenceRun:
     trimmed: TrimmedFile | None = None
     take: Path | None = None
     patient: bool = False
+    learner: PassLearner | None = None
 
     @property
     def axes(self) -> list[Axis]:
@@ -83,20 +87,35 @@ class SequenceRun:
             if source.cycle.trigger is not None:
                 source.cycle.trigger.open(stack)
             rig = stack.enter_context(open_rig(self.profile, self.clock))
-            repeatability = Repeatability(source.place) if source.cycle.compared else None
+            planned = partial(as_planned, source, self.sequence.move)
+            repeatability = Repeatability(source.place, planned) if source.cycle.compared else None
             observers, sinks = commands(rig, axes, self.notify)
             keys = None if self.keys is None else stack.enter_context(self.keys)
-            observers += [each for each in (keys, trim, repeatability) if each is not None]
+            observers += [each for each in (keys, trim, repeatability, self._observed()) if each is not None]
             status_of = partial(run_status, source) if controls is None else controls.status
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             screen = make_screen(self.limits, shown, recorder)
             aboard.board(rig, axes, screen.notify, by_script=True)
             if guard:
                 guard.notify = screen.notify
-            tracking, stopped = TrackingErrorMonitor(lambda: source.begin), (lambda: guard.reason if guard else "")
+            tracking = TrackingErrorMonitor(lambda: source.begin, planned)
+            stopped = lambda: guard.reason if guard else ""  # noqa: E731 - one of several arguments
+            if self.learner:
+                self.learner.notify = screen.notify
             sources = [guard or source]
             report = run(rig, axes, sources, tracking, screen, signals, recorder, observers, sinks, stopped)
+            if self.learner:
+                self.learner.notify = self.notify  # the screen is gone
+                self.learner.finish()
             return SequenceReport(report, trim, repeatability)
+
+    def _observed(self) -> PassObserver | None:
+        """What sees the passes for the learner."""
+        if self.learner is None:
+            return None
+        source = self.source
+        self.learner.observer = PassObserver(source.place, lambda: source.move, lambda: source.waiting)
+        return self.learner.observer
 
     def _recording(self, aboard: Aboard) -> AbstractContextManager[Recorder | None]:
         status, title = aboard.status if is_flown(self.axes) else None, self.sequence.title
