@@ -11,6 +11,7 @@ from pathlib import Path
 from teleop.app.drone_flight import Aboard, is_flown
 from teleop.app.learning import as_planned
 from teleop.app.operator_inputs import open_devices
+from teleop.app.played_status import PlayedStatus, facts_of
 from teleop.app.run import RunReport, Screen, Signals, commands, run
 from teleop.app.stop_inputs import open_stop_inputs
 from teleop.app.trim_writer import TrimWriter
@@ -88,10 +89,13 @@ class SequenceRun:
                 source.cycle.trigger.open(stack)
             rig = stack.enter_context(open_rig(self.profile, self.clock))
             planned = partial(as_planned, source, self.sequence.move)
+            played = None if self.take is None or is_flown(axes) else PlayedStatus(source, self.sequence.move, rig)
+            if recorder and played:
+                recorder.status = played
             repeatability = Repeatability(source.place, planned) if source.cycle.compared else None
             observers, sinks = commands(rig, axes, self.notify)
             keys = None if self.keys is None else stack.enter_context(self.keys)
-            observers += [each for each in (keys, trim, repeatability, self._observed()) if each is not None]
+            observers += [each for each in (keys, trim, repeatability, self._observed(), played) if each is not None]
             status_of = partial(run_status, source) if controls is None else controls.status
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             screen = make_screen(self.limits, shown, recorder)
@@ -120,7 +124,10 @@ class SequenceRun:
     def _recording(self, aboard: Aboard) -> AbstractContextManager[Recorder | None]:
         status, title = aboard.status if is_flown(self.axes) else None, self.sequence.title
         patient, option = self.patient, "--take "
-        return recording(self.take, self.profile.name, title, self.limits, status, patient=patient, option=option)
+        facts = facts_of(self.sequence)
+        return recording(
+            self.take, self.profile.name, title, self.limits, status, patient=patient, option=option, sequence=facts
+        )
 
     def _controls(self, stack: ExitStack) -> tuple[PlaybackControls | None, StopGuard | None, TrimWriter | None]:
         """What its inputs do to it, if there are any, and their STOP; with a trim also what writes that."""
