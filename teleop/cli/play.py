@@ -104,7 +104,7 @@ class Ordered:
     learning: LearnedOptions
 
 
-SETTLE = 1.5  # s
+SETTLE = 2.0  # s
 AS_WRITTEN = Ordered("100%", NO_STAGING, NO_TRIM, NOT_LEARNED)
 
 

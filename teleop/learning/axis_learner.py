@@ -7,6 +7,7 @@ hardly more than is there, or when two trials in a row were worse.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from teleop.core.axes import Limits
 from teleop.learning.basis import Basis
@@ -20,6 +21,7 @@ from teleop.planner.trajectory import Track
 
 WORTH = 0.8  # of the present RMS: a promise of more than that is none
 LEAST = 0.005  # units: a promise of less is none
+NEAR = 1.5 * STEP  # s from a reading: further away nothing is known
 TRIALS = 2  # worse ones in a row, after which learning ends
 
 Readings = tuple[Array, Array]  # times (m,) in s of the move, rising, and positions (m,) in units
@@ -70,16 +72,23 @@ class AxisLearner:
         """The next trial, from what the best pass measured."""
         commanded = added(self.track, self.best).sample(self._times)[0]
         measured = np.interp(self._times, *readings)
-        known = self._times <= readings[0][-1] + STEP
-        taps, _ = fitted(commanded[known], measured[known])
+        known = self._known(readings[0])
+        taps, _ = fitted(commanded, measured, known)
         planned = self.track.sample(self._times)[0]
-        better, promised = self._improver.better(self._best, planned - measured, taps, self._counts)
+        better, promised = self._improver.better(self._best, planned - measured, taps, self._counts * known)
         if promised > WORTH * error.rms or error.rms - promised < LEAST:
             self._end("there is nothing more to gain")
         elif not fits(added(self.track, self._basis.track(better)).peaks(), self._limits):
             self._end("the limits allow no more")
         else:
             self._next = better
+
+    def _known(self, read_at: Array) -> NDArray[np.bool_]:
+        """Where there is a reading: while a move rests, the gimbal is asked less often; before it, it rests too."""
+        index = np.searchsorted(read_at, self._times)
+        before, after = read_at[np.maximum(index - 1, 0)], read_at[np.minimum(index, len(read_at) - 1)]
+        near = np.minimum(np.abs(self._times - before), np.abs(self._times - after)) <= NEAR
+        return near | (self._times < read_at[0])
 
     def _end(self, reason: str) -> None:
         self.ended, self._next = reason, self._best

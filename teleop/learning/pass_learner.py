@@ -48,7 +48,7 @@ class PassLearner:
         save: Callable[[Correction], object],
         known: Correction | None = None,
     ) -> None:
-        self._subject, self._executor, self._save = subject, executor, save
+        self._subject, self._executor, self.save = subject, executor, save
         self.notify = notify
         self._known = known
         self.observer: PassObserver | None = None  # given by the run, as soon as there is a source to observe
@@ -112,7 +112,7 @@ class PassLearner:
         before = {axis: each.ended for axis, each in self._learners.items()}
         for axis, track in plan.tracks.items():
             if axis.is_angle and axis in errors and track.peaks().velocity > 0:
-                if traces.has_gaps(axis, float(track.breaks[-1])):
+                if traces.has_gaps(axis, track):
                     lines.append(f"pass {number}: {axis} was measured too rarely to learn from")
                     continue
                 self._learner(axis).learn(number, errors[axis], traces.readings[axis])
@@ -121,7 +121,7 @@ class PassLearner:
                 at_best = f"pass {each.best_pass} is the best, RMS {each.best_error.rms:.3f}"
                 lines.append(f"{axis}: learning ends: {each.ended}; {at_best}")
         if (found := self.correction) is not None:
-            self._save(found)
+            self.save(found)
             self.saved = True
         tracks = {
             axis: added(track, self._learners[axis].offset) if axis in self._learners else self.move.tracks[axis]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -16,7 +17,9 @@ from teleop.planner.trajectory import Move, Track
 
 AS_PLANNED = 1e-6  # units: what was commanded is that near to the move
 INSTANT = 1e-6  # s
-LONGEST_GAP = 0.3  # s between two readings
+LONGEST_GAP = 0.3  # s between two readings, while an axis moves by more than
+UNSEEN = 1.0  # units
+SAMPLES = 20  # of a gap
 CHANGED = "it was stopped, trimmed, or its speed was changed"
 
 Place = tuple[int, float]  # the pass, from 1, and the move's own time in s
@@ -44,11 +47,14 @@ class PassTraces:
         worst = int(np.abs(error).argmax())
         return Error(len(error), float(np.sqrt(np.mean(error**2))), float(abs(error[worst])), float(times[worst]))
 
-    def has_gaps(self, axis: Axis, end: float) -> bool:
-        """Whether readings of an axis are too rare to learn from."""
+    def has_gaps(self, axis: Axis, plan: Track) -> bool:
+        """Whether an axis moves far without a reading: too far to learn from."""
+        end = float(plan.breaks[-1])
         times, _ = self.readings.get(axis, (np.empty(0), np.empty(0)))
         edges = np.concatenate([[0.0], times[(times > 0) & (times < end)], [end]])
-        return bool(np.diff(edges).max() > LONGEST_GAP)
+        gaps = [(low, high) for low, high in pairwise(edges.tolist()) if high - low > LONGEST_GAP]
+        ways = [np.ptp(plan.sample(np.linspace(*gap, SAMPLES))[0]) for gap in gaps]
+        return max(ways, default=0.0) > UNSEEN
 
 
 class PassObserver:

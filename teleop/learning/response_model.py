@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from teleop.monitors.delay_estimate import Delay, estimate
 from teleop.planner.polynomial import Array
@@ -25,17 +26,20 @@ SCALES = 0.5, 1.5  # times as far as commanded, at most
 MOST_DELAY = 0.5  # s
 
 
-def fitted(commanded: Array, measured: Array) -> tuple[Array, Delay | None]:
-    """The response (TAPS,) by positions (n,) every STEP, and the delay that it started from; both begin at rest."""
+def fitted(commanded: Array, measured: Array, known: NDArray[np.bool_]) -> tuple[Array, Delay | None]:
+    """The response (TAPS,) by positions (n,) every STEP, and the delay that it started from; both begin at rest.
+
+    What is not `known` (n,) of the measured ones does not count.
+    """
     times = np.arange(len(commanded)) * STEP
-    delay = estimate(
-        np.array([times, commanded]).T.tolist(), np.array([times, measured]).T.tolist(), 0.0, float(times[-1])
-    )
+    read = np.array([times[known], measured[known]]).T.tolist()
+    delay = estimate(np.array([times, commanded]).T.tolist(), read, 0.0, float(times[-1]))
     start = _start(delay)
     away = commanded - commanded[0]
     answers = np.stack([np.concatenate([np.zeros(k), away[: len(away) - k]]) for k in range(TAPS)], axis=1)
     model = np.concatenate([np.ones((len(times), 1)), times[:, None], answers], axis=1)
-    left = measured - commanded[0] - answers @ start
+    left = (measured - commanded[0] - answers @ start)[known]
+    model = model[known]
     later = np.maximum.outer(np.arange(TAPS), np.arange(TAPS))
     kernel = FREEDOM**2 * math.exp(-STEP / FADES) ** later
     weight = np.zeros((TAPS + 2, TAPS + 2))

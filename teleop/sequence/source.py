@@ -27,6 +27,7 @@ from teleop.sequence.phases import BEFORE_THE_MOVE, TIMED, TRANSITIONS, PhaseEve
 from teleop.sequence.playback import Playback
 
 EASE_SHARE = 0.5  # of each axis's velocity, acceleration and jerk: on the way to the start nothing is in a hurry
+RHYTHM = 0.2  # s: corrected passes begin so far apart that what is asked at a rate is asked at the same places again
 _INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 
 
@@ -67,6 +68,7 @@ class SequenceSource:
         self._suspended = False
         self.waiting = False  # for the operator, in the middle of the move
         self._began = math.inf  # when this pass did
+        self._origin = 0.0  # when the run did
         self.phase = SequencePhase.EASING
         self.begin = math.inf
         self.number = 1
@@ -81,6 +83,7 @@ class SequenceSource:
         }
 
     def start(self, now: float, motion: Motion) -> None:
+        self._origin = now
         self.phase = SequencePhase.EASING
         self._ease_to_time(self.playback.opening, now, motion)
         self._foresee_begin()
@@ -99,6 +102,8 @@ class SequenceSource:
     def next_change(self, now: float) -> float:
         if self.phase is SequencePhase.OVER:
             return math.inf
+        if self.cycle.corrector is not None:  # a gimbal that drifts must be held, and measured, at rest too
+            return now
         if self.phase is SequencePhase.PREROLL:
             quiet = self.until - KEEP_ALIVE
             return quiet if self.cycle.compared and now < quiet - _INSTANT else self.until
@@ -258,7 +263,10 @@ class SequenceSource:
         """When a pass may begin whose axes arrive then where it begins."""
         if self.number > 1 and self.cycle.endless:
             return arrival
-        return arrival + max(whole_ticks(self.cycle.preroll), KEEP_ALIVE if self.cycle.compared else 0.0)
+        start = arrival + max(whole_ticks(self.cycle.preroll), KEEP_ALIVE if self.cycle.compared else 0.0)
+        if self.cycle.corrector is None:
+            return start
+        return self._origin + RHYTHM * math.ceil((start - self._origin) / RHYTHM - _INSTANT)
 
 
 def whole_ticks(seconds: float) -> float:
