@@ -54,7 +54,9 @@ def learned(path: Path, profile: Profile, sequence: CompiledSequence, limits: Ma
         raise DocumentError([f"{path}: was learned on {found.rig}, not on {profile.name}: learn it again on this rig"])
     if found.sequence != fingerprint(sequence):
         of = f" ({found.title})" if found.title != sequence.title else ""
-        raise DocumentError([f"{path}: was learned for another move{of}, or this one was edited since: learn it again"])
+        raise DocumentError(
+            [f"{path}: was learned for another move{of}; or the move, or the limits, were edited since"]
+        )
     if strangers := [axis for axis in found.offsets if axis not in sequence.move.tracks]:
         raise DocumentError([f"{path}: corrects {', '.join(strangers)}, which the move does not have"])
     if beyond := found.exceeds(sequence.move, limits):

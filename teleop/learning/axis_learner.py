@@ -20,7 +20,8 @@ from teleop.planner.polynomial import Array
 from teleop.planner.trajectory import Track
 
 WORTH = 0.8  # of the present RMS: a promise of more than that is none
-LEAST = 0.005  # units: a promise of less is none
+LEAST = 0.01  # units: a promise of less is none
+NOISY = 1.25  # times the noise of the readings: an RMS of less is nothing else
 NEAR = 1.5 * STEP  # s from a reading: further away nothing is known
 TRIALS = 2  # worse ones in a row, after which learning ends
 
@@ -76,7 +77,8 @@ class AxisLearner:
         taps, _ = fitted(commanded, measured, known)
         planned = self.track.sample(self._times)[0]
         better, promised = self._improver.better(self._best, planned - measured, taps, self._counts * known)
-        if promised > WORTH * error.rms or error.rms - promised < LEAST:
+        noise = _noise(readings, self.track)
+        if promised > WORTH * error.rms or error.rms - promised < LEAST or error.rms < NOISY * noise:
             self._end("there is nothing more to gain")
         elif not fits(added(self.track, self._basis.track(better)).peaks(), self._limits):
             self._end("the limits allow no more")
@@ -92,6 +94,13 @@ class AxisLearner:
 
     def _end(self, reason: str) -> None:
         self.ended, self._next = reason, self._best
+
+
+def _noise(readings: Readings, plan: Track) -> float:
+    """The RMS of what in the errors differs from reading to reading, by their second differences."""
+    errors = plan.sample(readings[0])[0] - readings[1]
+    bends = np.diff(errors, n=2)
+    return float(np.sqrt(np.mean(bends**2) / 6)) if len(bends) else 0.0
 
 
 def track_end(track: Track) -> float:

@@ -36,7 +36,7 @@ def fitted(commanded: Array, measured: Array, known: NDArray[np.bool_]) -> tuple
     delay = estimate(np.array([times, commanded]).T.tolist(), read, 0.0, float(times[-1]))
     start = _start(delay)
     away = commanded - commanded[0]
-    answers = np.stack([np.concatenate([np.zeros(k), away[: len(away) - k]]) for k in range(TAPS)], axis=1)
+    answers = np.stack([np.concatenate([np.zeros(k), away])[: len(away)] for k in range(TAPS)], axis=1)
     model = np.concatenate([np.ones((len(times), 1)), times[:, None], answers], axis=1)
     left = (measured - commanded[0] - answers @ start)[known]
     model = model[known]
