@@ -66,7 +66,7 @@ def test_by_the_third_pass_a_quarter_of_the_error_is_left_or_nearly_none(
 
 
 def test_a_pass_that_was_stopped_teaches_nothing(tmp_path: Path):
-    stop = with_keys((4.0, Command.STOP), (5.0, Command.CLEAR))
+    stop = with_keys((4.0, Command.STOP), (5.0, Command.CLEAR), (5.5, Command.PAUSE))
     found = learned(rig(LATE), FAST, 2, tmp_path, changed=stop)
     assert found.report.run.result is Result.DONE
     assert [each.ignored for each in found.learner.passes] == [CHANGED, ""]
