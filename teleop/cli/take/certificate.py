@@ -31,7 +31,7 @@ def take_certificate(
     /,
     *,
     output: Annotated[Path, Parameter(name=("--output", "-o"), metavar="FILE", help="The page to write (.html).")],
-    fps: Annotated[float, Parameter(help="Frames a second of the .chan files.")] = 24.0,
+    fps: Annotated[float, Parameter(metavar="RATE", help="Frames a second of the .chan files.")] = 24.0,
     vfov: Annotated[
         float, Parameter(metavar="DEGREES", help="Vertical field of view for the .chan files; 0: not known.")
     ] = 0.0,
