@@ -104,7 +104,7 @@ class Ordered:
     learning: LearnedOptions
 
 
-SETTLE = 2.0  # s
+SETTLE = 4.0  # s: a gimbal that is corrected late rings for so long
 AS_WRITTEN = Ordered("100%", NO_STAGING, NO_TRIM, NOT_LEARNED)
 
 

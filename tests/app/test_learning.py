@@ -66,7 +66,7 @@ def test_by_the_third_pass_a_quarter_of_the_error_is_left_or_nearly_none(
 
 
 def test_a_pass_that_was_stopped_teaches_nothing(tmp_path: Path):
-    stop = with_keys((4.0, Command.STOP), (5.0, Command.CLEAR), (5.5, Command.PAUSE))
+    stop = with_keys((6.0, Command.STOP), (7.0, Command.CLEAR), (7.5, Command.PAUSE))
     found = learned(rig(LATE), FAST, 2, tmp_path, changed=stop)
     assert found.report.run.result is Result.DONE
     assert [each.ignored for each in found.learner.passes] == [CHANGED, ""]
@@ -76,7 +76,7 @@ def test_a_pass_that_was_stopped_teaches_nothing(tmp_path: Path):
 
 
 def test_a_run_that_ends_in_its_first_pass_has_learned_nothing(tmp_path: Path):
-    found = learned(rig(LATE), FAST, 2, tmp_path, changed=with_keys((4.0, Command.QUIT)))
+    found = learned(rig(LATE), FAST, 2, tmp_path, changed=with_keys((6.0, Command.QUIT)))
     assert found.report.run.result is not Result.DONE
     assert (found.learner.passes, found.saved) == ([], [])
     assert not (tmp_path / "a.learned.json").exists()

@@ -25,7 +25,7 @@ PAN = {"min": -170, "max": 170, "velocity": 120, "acceleration": 240, "jerk": 12
 TILT = {"min": -50, "max": 140, "velocity": 90, "acceleration": 180, "jerk": 900}
 FAST = {"keyframes": [{"at": 0, "pan": 0}, {"at": 2, "pan": 45, "hold": 0.5}, {"at": 5, "pan": -15}]}
 SLOW = {"keyframes": [{"at": 0, "pan": -10}, {"at": 6, "pan": 40}]}
-SETTLE = 2.0  # s, as `teleop play` has it
+SETTLE = 4.0  # s, as `teleop play` has it
 
 
 @dataclass(frozen=True)
