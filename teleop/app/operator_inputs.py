@@ -50,3 +50,17 @@ def open_devices(
         profile.inputs, clock.now, backend, dead_zone=shaping.dead_zone, expo=shaping.expo, polled=virtual
     )
     return stack.enter_context(opened), ""
+
+
+def device_backend(recordings: Sequence[Recording], clock: Clock, begin: Callable[[], float]) -> HidBackend:
+    """All devices of this computer, and those of the `recordings`, plugged in from `begin` on.
+
+    Raises DeviceError where no device can be read and none is recorded.
+    """
+    try:
+        real: HidBackend | None = AllDevices()
+    except DeviceError:
+        if not recordings:
+            raise
+        real = None
+    return RecordedDevices(recordings, clock.now, begin, real) if recordings or real is None else real
