@@ -38,6 +38,7 @@ class LearnedDevice:
         self._reader: HidReader | None = None
         self._watch: Watch | None = None
         self._before: Mapping[str, Sample] = {}
+        self._at_rest: Mapping[str, Sample] = {}  # also from before it was opened again: it may report only changes
         self._quiet = self._unchanged = 0.0  # since when nothing moves, and no value changes, s
         self._seen = False
 
@@ -92,7 +93,8 @@ class LearnedDevice:
 
     def watch(self, smooth: bool) -> None:
         """Watch its controls from where they are now; see `Watch`."""
-        self._watch = Watch(self._values, smooth, self.known)
+        self._at_rest = {**self._at_rest, **self._values}
+        self._watch = Watch(self._at_rest, smooth, self.known)
 
     def see(self, now: float) -> Found | None:
         if self.plugged is None or self._watch is None:
@@ -101,6 +103,9 @@ class LearnedDevice:
 
     def settled(self, found: Found) -> Found:
         return found if self._watch is None else self._watch.settled(found, self._values)
+
+    def was_released(self, found: Found) -> bool:
+        return self._watch is not None and self._watch.was_released(found, self._values)
 
     @property
     def _values(self) -> Mapping[str, Sample]:

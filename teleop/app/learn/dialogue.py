@@ -114,6 +114,10 @@ class Dialogue:
             self._ask()
             return
         device, found = self._found
+        if self._devices.each[device].was_released(found):
+            self._status = f"{found.name} was held and is released now"
+            self._ask()
+            return
         settled = self._devices.each[device].settled(found)
         if settled.kind is Kind.LEVER and not self._stays:
             self._stays = True  # it stays, or is held: looked at again after a while

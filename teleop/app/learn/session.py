@@ -113,8 +113,10 @@ class LearnSession:
     def _look(self, now: float) -> None:
         if self.trial is None:
             return
+        before = {(row.input, row.control) for row in self.trial.rows if row.is_active}
         self.trial.read(now)
-        self.last_moved = next((row for row in self.trial.rows if row.is_active), self.last_moved)
+        begun = (row for row in self.trial.rows if row.is_active and (row.input, row.control) not in before)
+        self.last_moved = next(begun, self.last_moved)
 
     def _try(self) -> None:
         """Leave the questions for the trial of what was learned; without an answer there is nothing to try."""

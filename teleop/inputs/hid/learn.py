@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from teleop.config.inputs_section import DIRECTIONS, ControlSection
 from teleop.inputs.hid.state import Change, Sample
+from teleop.inputs.stick_shaping import NEAR
 
 FAR = 0.3  # of its range, to be meant: a stick pushed more than half way
 SECOND_CHOICE = 0.5  # s until something of the other kind is taken
@@ -58,7 +59,7 @@ class Watch:
         self._rest = {name: self._true(name, sample) for name, sample in rest.items()}
         self._smooth = smooth
         self._counted: dict[str, float] = {}
-        self._turning = {name: _Turning(sample) for name, sample in self._rest.items() if _may_turn(name, sample)}
+        self._turning = {name: _Turning(sample) for name, sample in self._rest.items()}
         self._since = math.inf  # when something of the other kind was moved
 
     def see(self, values: Mapping[str, Sample], changes: Iterable[Change], now: float) -> Found | None:
@@ -69,7 +70,7 @@ class Watch:
         values = {name: self._true(name, sample) for name, sample in values.items() if not is_hat(name, values)}
         if turned := self._turned(values, now):
             return turned
-        moved = {name: self._moved(name, sample) for name, sample in values.items() if not self._is_counter(name)}
+        moved = {name: self._moved(name, sample) for name, sample in values.items() if not self._runs_on(name)}
         smooth = {name: far for name, far in moved.items() if not _is_button(values[name])}
         abrupt = {name: far for name, far in moved.items() if name not in smooth}
         first, second = (smooth, abrupt) if self._smooth else (abrupt, smooth)
@@ -88,15 +89,27 @@ class Watch:
         away = abs(self._moved(found.name, self._true(found.name, values[found.name])))
         return found._replace(kind=Kind.LEVER) if away >= FAR else found
 
+    def was_released(self, found: Found, values: Mapping[str, Sample]) -> bool:
+        """Whether it only came to its middle from where a hand had held it before."""
+        if found.kind in (Kind.BUTTON, Kind.WHEEL, Kind.COUNTER):
+            return False
+        sample = self._true(found.name, values[found.name])
+        return _is_near_middle(sample, NEAR / 2) and not _is_near_middle(self._rest[found.name], NEAR / 2)
+
     def _turned(self, values: Mapping[str, Sample], now: float) -> Found | None:
         """A counter that has been turned on by enough clicks."""
-        for name, turning in self._turning.items():
-            if name not in values or values[name].null:
+        for name, sample in values.items():
+            if sample.null or not _may_turn(name, sample):
                 continue
-            turning.see(values[name].value, now)
+            turning = self._turning.setdefault(name, _Turning(sample))
+            turning.see(sample.value, now)
             if abs(turning.clicks) >= CLICKS and (self._is_counter(name) or turning.is_counter(now)):
                 return Found(name, Kind.COUNTER, 1 if turning.clicks > 0 else -1)
         return None
+
+    def _runs_on(self, name: str) -> bool:
+        """Whether its value is no place: that of a counter, or of what may be one."""
+        return self._is_counter(name) or (name in self._turning and self._turning[name].wrapped)
 
     def _is_counter(self, name: str) -> bool:
         return name in self._known and self._known[name].value_type == "counter"
@@ -112,7 +125,7 @@ class Watch:
             return self._counted.get(name, 0.0) * FAR / CLICKS
         rest = self._rest.setdefault(name, sample._replace(value=0) if _is_button(sample) else sample)
         if _is_button(sample) and not sample.pressed:
-            self._rest[name] = sample  # a switch that was on: only its next press is meant
+            self._rest[name] = rest = sample  # a switch that was on: only its next press is meant
         span = sample.maximum - sample.minimum
         return 0.0 if sample.null or rest.null or span <= 0 else (sample.value - rest.value) / span
 
@@ -123,9 +136,7 @@ class Watch:
         elif _is_button(sample):
             kind = Kind.BUTTON
         else:
-            middle = (sample.minimum + sample.maximum) / 2
-            near = abs(self._rest[name].value - middle) <= RESTS * (sample.maximum - sample.minimum)
-            kind = Kind.STICK if near else Kind.TRIGGER
+            kind = Kind.STICK if _is_near_middle(self._rest[name], RESTS) else Kind.TRIGGER
         return Found(name, kind, 1 if far > 0 else -1)
 
 
@@ -135,10 +146,17 @@ class _Turning:
     def __init__(self, sample: Sample) -> None:
         self._at, self._turn = sample.value, abs(sample.maximum - sample.minimum) + 1
         self.clicks, self._longest, self._since = 0.0, 0.0, -math.inf
+        self._wrapped = False
+
+    @property
+    def wrapped(self) -> bool:
+        """Whether it has gone from one end of its range to the other, in single steps."""
+        return self._wrapped and self._longest <= 1
 
     def see(self, value: float, now: float) -> None:
         step = (value - self._at + self._turn / 2) % self._turn - self._turn / 2
         if step:
+            self._wrapped = self._wrapped or step != value - self._at
             self.clicks, self._longest, self._since = self.clicks + step, max(self._longest, abs(step)), now
         self._at = value
 
@@ -174,6 +192,11 @@ def _furthest(moved: Mapping[str, float]) -> str | None:
 
 def _is_button(sample: Sample) -> bool:
     return not sample.relative and sample.maximum - sample.minimum == 1
+
+
+def _is_near_middle(sample: Sample, share: float) -> bool:
+    middle = (sample.minimum + sample.maximum) / 2
+    return abs(sample.value - middle) <= share * (sample.maximum - sample.minimum)
 
 
 def _may_turn(name: str, sample: Sample) -> bool:
