@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import time
 from collections.abc import Sequence
@@ -45,7 +46,8 @@ def learn(profile: Profile, rig: str, out: Path | None, recordings: Sequence[Rec
             view.update()
             time.sleep(_TURN)
     if interrupted:
-        complain(f"teleop: {interrupted[0]}: nothing was written")
+        with contextlib.suppress(OSError):  # the terminal may be gone
+            complain(f"teleop: {interrupted[0]}: nothing was written")
         return CODE
     return _report(session, json)
 
@@ -55,7 +57,7 @@ def _keyboard() -> Keyboard:
     if not sys.stdin.isatty():
         raise UsageError("--learn asks questions: run it on a terminal")
     if not has_keys():
-        raise UsageError("--learn cannot see keys on this system: use Linux or macOS, or copy a shipped mapping")
+        raise UsageError("--learn cannot see Enter on this system: use Linux or macOS, or copy a shipped mapping")
     descriptor = terminal()
     if descriptor is None:
         raise UsageError("--learn asks questions: run it in the foreground")

@@ -89,7 +89,8 @@ class Dialogue:
 
     def _press(self, key: Command) -> None:
         if key is TRY:
-            self.over = True
+            self.over = bool(self._answers.given)
+            self._status = "" if self.over else "Nothing is learned yet"
         elif key is SKIP and self._step is Step.MOVE:
             self._status = ""
             self._next()

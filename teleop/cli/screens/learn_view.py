@@ -15,6 +15,7 @@ from teleop.config.inputs_section import ControlSection
 
 _SKIPS = "Enter skips"
 _WIDEST = 28  # cells of a control's name
+_LONGEST = 50  # cells of a path
 _DOES = 30  # cells of what it does
 
 
@@ -52,7 +53,7 @@ class LearnView:
                 page = session.dialogue.page
                 return f"{page.text}; {_SKIPS}" if session.dialogue.asks else page.text
             case Stage.CONFIRM:
-                return f"{session.target.file} exists: y overwrites it, n goes back"
+                return f"{_short(str(session.target.file))} exists: y overwrites it"
         return "Try every control. Nothing moves. Enter accepts, q leaves without writing"
 
     @property
@@ -67,7 +68,7 @@ class LearnView:
         place = f"question {page.number} of {page.total}" if asking else "trial"
         title = f" Learn the controls of {session.devices.names}"[: max(0, width - len(place) - 3)]
         head = [Text(), Text(f" {self._headline}", "bold"), Text(f" {self._status}", "yellow"), Text()]
-        room = max(1, height - len(head) - 6)
+        room = max(1, height - len(head) - 7)
         notes = [Text(f" {note}", "yellow") for note in self._notes()]
         rows = self._learned(room) if asking else self._tried(room - len(notes))
         return Rows(
@@ -92,14 +93,14 @@ class LearnView:
             return [f"{_SKIPS}   b asks the one before again   t tries what was learned", "q leaves without writing"]
         again = session.again
         repeat = f"r asks again: {again.text}" if again else ""
-        return [repeat, f"Enter {self._accepts}   q leaves without writing"]
+        return [f"Enter {self._accepts}", repeat, "q leaves without writing"]
 
     @property
     def _accepts(self) -> str:
         target = self._session.target
         if target.file is None:
             return "prints the inputs (-o FILE writes a profile)"
-        return f"{'updates' if target.updates else 'writes'} {target.file}"
+        return f"{'updates' if target.updates else 'writes'} {_short(str(target.file))}"
 
     def _learned(self, room: int) -> list[Text]:
         """The latest answers."""
@@ -116,6 +117,11 @@ class LearnView:
         at = next((index for index, row in enumerate(rows) if _same(row, session.last_moved)), 0)
         first = max(0, min(at - room // 2, len(rows) - room))
         return [_row(row, _same(row, session.last_moved)) for row in rows[first : first + room]]
+
+
+def _short(path: str) -> str:
+    """The end of a long path."""
+    return path if len(path) <= _LONGEST else f"...{path[-_LONGEST:]}"
 
 
 def _same(row: Row, other: Row | None) -> bool:
