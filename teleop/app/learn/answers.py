@@ -36,7 +36,8 @@ class Answer:
             return {}
         number = {} if question.number is None else {"number": question.number}
         hold = {} if question.hold is None else {"hold": question.hold.value}
-        return {"press": question.press.value, **number, **hold}
+        command = {"command": question.command} if question.command else {}
+        return {"press": question.press.value, **number, **hold, **command}
 
     def _described(self) -> Mapping[str, Any]:
         if self.known is None or self.known.value_type is None:

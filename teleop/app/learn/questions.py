@@ -12,7 +12,7 @@ PRESETS = (1, 2, 3, 4)
 
 
 class Question(NamedTuple):
-    """What a control is asked for: `axis` or `dial`, a `press` with its `number`, or `enable`; exactly one of these.
+    """What a control is asked for: `axis` or `dial`, a `press` with its `number` or `command`, or `enable`.
 
     `text` has no end: the screen says how to skip it. `back` is the text for the other direction of an axis.
     """
@@ -23,6 +23,7 @@ class Question(NamedTuple):
     press: Command | None = None
     hold: Command | None = None
     number: int | None = None
+    command: str = ""
     enable: bool = False
     back: str = ""
 
@@ -38,7 +39,8 @@ class Question(NamedTuple):
         if self.dial:
             return bool(action.get("dial"))
         numbered = self.number is None or action.get("number") == self.number
-        return self.press is not None and action.get("press") == self.press.value and numbered
+        same = numbered and action.get("command", "") == self.command
+        return self.press is not None and action.get("press") == self.press.value and same
 
 
 _AXES: Mapping[Axis, tuple[str, str]] = {
@@ -69,8 +71,7 @@ _RUNS: Sequence[tuple[str, Command]] = (
     ("KEEP THE TRIM", Command.KEEP),
     ("QUIT", Command.QUIT),
 )
-WRITTEN_BY_HAND = frozenset({Command.TELL})
-"""Commands that no control alone can answer: tell has words of its own."""
+_TOLD = "gimbal follow lock"  # a device's own command, to have its words changed in the file
 
 
 def questions(axes: Iterable[Axis], dial: bool = False, drone: bool = False) -> Sequence[Question]:
@@ -86,7 +87,10 @@ def questions(axes: Iterable[Axis], dial: bool = False, drone: bool = False) -> 
     if drone:
         asked.append(_press("DISENGAGE THE DRONE (held: engage it)", Command.DISENGAGE, Command.ENGAGE))
     asked += [_press(text, command) for text, command in _RUNS]
-    return [*asked, *(_press(f"DELETE PRESET {number}", Command.DELETE, number=number) for number in PRESETS)]
+    asked += [_press(f"DELETE PRESET {number}", Command.DELETE, number=number) for number in PRESETS]
+    if dial:
+        asked.append(_press(f"TELL {_TOLD}", Command.TELL)._replace(command=_TOLD))
+    return asked
 
 
 def _axis(axis: Axis) -> Question:
