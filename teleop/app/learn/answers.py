@@ -76,12 +76,16 @@ class Answers:
         return names[0] if names else None
 
 
-def refusal(question: Question, found: Found) -> str:
-    """Why this control cannot answer, "" where it can."""
+def refusal(question: Question, found: Found, hats: Sequence[str] = ()) -> str:
+    """Why this control of a device with these `hats` cannot answer, "" where it can."""
+    if question.dial and hat_direction(found.name, hats)[1]:
+        return f"{found.name} cannot turn the dial"
     if found.kind is Kind.LEVER and (question.dial or question.axis in STICKS):
         return f"{found.name} does not return to its center"
     if found.kind in (Kind.WHEEL, Kind.COUNTER) and question.axis in STICKS:
         return f"{found.name} is turned and cannot be held"
+    if found.kind is Kind.TRIGGER and found.towards < 0 and question.axis in STICKS:
+        return f"{found.name} rests at its upper end"
     presses = found.kind is Kind.BUTTON or (found.kind is Kind.TRIGGER and found.towards > 0)
     if not question.moves and not presses:
         return f"{found.name} is no button"

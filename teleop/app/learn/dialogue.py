@@ -13,6 +13,7 @@ from teleop.app.learn.answers import ONE_WAY, Answer, Answers, refusal
 from teleop.app.learn.devices import LearnedDevices
 from teleop.app.learn.questions import Question
 from teleop.core.operator_input import Command
+from teleop.inputs.hid.backend import identified
 from teleop.inputs.hid.learn import Found, Kind
 
 QUIET = 0.5  # s without a movement: everything has been let go
@@ -133,8 +134,14 @@ class Dialogue:
     def _look(self, now: float) -> None:
         for index, device in enumerate(self._devices.each):
             if found := device.see(now):
-                self._found, self._step, self._status = (index, found), Step.SETTLE, f"{found.name}: release it"
+                self._found, self._step = (index, found), Step.SETTLE
+                self._status = f"{self._called(index, found)}: release it"
                 return
+
+    def _called(self, device: int, found: Found) -> str:
+        """The control, with its device where there are several."""
+        several = len(self._devices.each) > 1
+        return f"{identified(self._devices.each[device].info)}: {found.name}" if several else found.name
 
     def _answered(self, device: int, found: Found) -> None:
         question = self._questions[self._at]
@@ -144,7 +151,7 @@ class Dialogue:
             return
         learned = self._devices.each[device]
         self._answers.given.append(Answer(question, device, found, self._back, learned.known.get(found.name)))
-        self._status = f"{found.name}: learned"
+        self._status = f"{self._called(device, found)}: learned"
         if found.kind in ONE_WAY and question.moves and not self._back:
             self._back = True
             self._ask()
@@ -158,7 +165,7 @@ class Dialogue:
         asked_again = any(each.question.enable for each in self._answers.given)
         if not question.enable and found.name == self._in_use[device] and not asked_again:
             return f"{found.name} is the enable button"
-        return refusal(question, found)
+        return refusal(question, found, self._devices.each[device].hats)
 
     def _next(self) -> None:
         self._back = False

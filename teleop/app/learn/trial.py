@@ -68,6 +68,11 @@ class Trial:
     def __exit__(self, *_: object) -> None:
         self._stack.close()
 
+    @property
+    def names(self) -> Sequence[str]:
+        """What each input is called."""
+        return [each.name for each in self._inputs]
+
     def read(self, now: float) -> None:
         """Raises DeviceError when an input is unplugged."""
         rows: list[Row] = []

@@ -113,10 +113,17 @@ class LearnView:
     def _tried(self, room: int) -> list[Text]:
         """Each control of the trial; of many those around the one moved last."""
         session = self._session
-        rows = list(session.trial.rows) if session.trial else []
-        at = next((index for index, row in enumerate(rows) if _same(row, session.last_moved)), 0)
-        first = max(0, min(at - room // 2, len(rows) - room))
-        return [_row(row, _same(row, session.last_moved)) for row in rows[first : first + room]]
+        if session.trial is None:
+            return []
+        names, lines, at, before = session.trial.names, list[Text](), 0, -1
+        for row in session.trial.rows:
+            if len(names) > 1 and row.input != before:
+                lines.append(Text(f" {names[row.input]}", "bold"))
+            before, is_last = row.input, _same(row, session.last_moved)
+            at = len(lines) if is_last else at
+            lines.append(_row(row, is_last))
+        first = max(0, min(at - room // 2, len(lines) - room))
+        return lines[first : first + room]
 
 
 def _short(path: str) -> str:
