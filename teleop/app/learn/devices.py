@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any
 
 from teleop.config.inputs_section import DIRECTIONS, ControlSection, DeviceSection, InputSection
 from teleop.config.profile import Profile
@@ -29,10 +28,16 @@ class LearnedDevice:
 
     def __init__(self, info: DeviceInfo, backend: HidBackend, now: Callable[[], float], polled: bool) -> None:
         self.info, self._backend, self._now, self._polled = info, backend, now, polled
-        keys: dict[str, Any] = {"vendor": info.vendor_id, "product": info.product_id}
-        given = {"serial": info.serial or None, "port": info.port or None, "name": info.name or None}
-        keys["interface"] = info.interface if info.interface >= 0 else None
-        self._section = InputSection(device=DeviceSection(**keys, **given))
+        self._section = InputSection(
+            device=DeviceSection(
+                vendor=info.vendor_id,
+                product=info.product_id,
+                name=info.name or None,
+                serial=info.serial or None,
+                port=info.port or None,
+                interface=info.interface if info.interface >= 0 else None,
+            )
+        )
         self.known: Mapping[str, ControlSection] = {}
         self.hats: Sequence[str] = ()
         self._reader: HidReader | None = None

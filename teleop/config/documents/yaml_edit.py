@@ -145,8 +145,8 @@ def _child(node: Any, step: str | int) -> tuple[Any, Any]:
 def _with_value(text: str, parent: Any, key: Any, node: Any, value: Any) -> str:
     """With another value in place of the node's."""
     begin, end = node.start_mark.index, _end(node)
-    one_line = key is not None and key.start_mark.line == node.start_mark.line == node.end_mark.line
-    if one_line and _is_large(value) and not parent.flow_style:
+    in_line = key is not None and key.start_mark.line == node.start_mark.line == node.end_mark.line
+    if key is not None and in_line and _is_large(value) and not parent.flow_style:
         behind = _line_end(text, end)
         lines = block(value, key.start_mark.column + _INDENT)
         kept = text[:begin].rstrip(" ") + text[end:behind]
