@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import sys
 import time
 from collections.abc import Sequence
@@ -24,6 +25,7 @@ from teleop.inputs.learn_keymap import KEYS
 from teleop.inputs.playback_keymap import PlayKeys
 
 _TURN = 0.02  # s between two looks at the devices
+_OPENING = 1.0  # s for all devices to be opened, before what is recorded begins
 
 
 def learn(profile: Profile, rig: str, out: Path | None, recordings: Sequence[Recording], json: bool) -> int:
@@ -34,14 +36,17 @@ def learn(profile: Profile, rig: str, out: Path | None, recordings: Sequence[Rec
     keyboard = _keyboard()
     target = Target(rig, out)
     clock = SystemClock()
-    begin = clock.now()
-    session = LearnSession(profile, target, device_backend(recordings, clock, lambda: begin), clock.now)
+    begin = [math.inf]  # of the recordings: once their devices are read, as they are before a run
+    session = LearnSession(profile, target, device_backend(recordings, clock, lambda: begin[0]), clock.now)
+    latest = clock.now() + _OPENING
     interrupted: list[str] = []
     with signals_to(interrupted.append), keyboard, session, LearnView(session) as view:
         while not session.over and not interrupted:
             held = keyboard.read(clock.now())
             if held.trouble:
                 interrupted.append(held.trouble)
+            if begin[0] == math.inf and (session.devices.are_read or clock.now() > latest):
+                begin[0] = clock.now()
             session.turn(clock.now(), [press.command for press in held.presses])
             view.update()
             time.sleep(_TURN)

@@ -164,6 +164,11 @@ class LearnedDevices:
             raise DeviceError(refused[0])
 
     @property
+    def are_read(self) -> bool:
+        """Whether every one of them is open."""
+        return all(device.plugged for device in self.each)
+
+    @property
     def names(self) -> str:
         return ", ".join(dict.fromkeys(described(device.info) for device in self.each))
 

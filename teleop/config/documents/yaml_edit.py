@@ -100,9 +100,6 @@ def _differences(old: Any, new: Any, path: Location) -> Iterator[_Edit]:
     if old == new and type(old) is type(new):
         return
     if isinstance(old, dict) and isinstance(new, dict) and new and old:
-        if not old.keys() & new.keys():
-            yield _Edit(path, new)
-            return
         for key, value in new.items():
             if key in old:
                 yield from _differences(old[key], value, (*path, key))

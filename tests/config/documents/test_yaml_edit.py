@@ -76,6 +76,12 @@ def test_a_new_list_or_entry_wherever_it_goes(text: str, expected: str) -> None:
     assert loaded(expected) == data
 
 
+def test_all_keys_of_a_mapping_are_replaced_in_its_own_style() -> None:
+    text = "a:\n  - b: 1   # old\n    c: {d: 2}\n  # end\n"
+    assert edited(text, {"a": [{"x": 3}]}, "rig.yaml") == "a:\n  - x: 3\n  # end\n"
+    assert edited(text, {"a": [{"b": 1, "c": {"e": 4}}]}, "rig.yaml") == text.replace("d: 2", "e: 4")
+
+
 def test_what_an_alias_repeats_is_not_changed_behind_its_back() -> None:
     text = "a: &x {b: 1}\nc: *x\n"
     with pytest.raises(DocumentError, match="cannot be updated, because of an alias"):
