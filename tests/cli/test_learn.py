@@ -48,7 +48,6 @@ def test_the_whole_dialogue_on_a_terminal_of_80_columns(tmp_path: Path, rig: Pat
         term.look(term.wait_for("Move the control for PAN RIGHT; Enter skips"), "q leaves without writing")
         term.wait_for("X: release it")
         term.look(term.wait_for("Move the control for TILT UP"))
-        term.wait_for("Move the control for TILT UP; Enter skips")
         term.type("\r")
         term.wait_for("Move the control for ROLL CLOCKWISE")
         term.type("t")

@@ -51,6 +51,7 @@ class Dialogue:
         self._once = False  # one question is repeated, and that is all
         self._step = Step.RELEASE
         self._found: tuple[int, Found] | None = None
+        self._skips = False  # Enter was pressed while the control that was moved had yet to be released
         self._stays = False  # the control that was moved has not gone back
         self._status = ""
         self._resting = False
@@ -68,6 +69,11 @@ class Dialogue:
     def asks(self) -> bool:
         """Whether a control is waited for."""
         return self._step is Step.MOVE
+
+    @property
+    def may_skip(self) -> bool:
+        """Whether a question is on the page."""
+        return self._step is not Step.RELEASE
 
     def repeat(self, question: Question) -> None:
         """Ask this question again, alone; what answered it before is forgotten."""
@@ -95,6 +101,8 @@ class Dialogue:
         elif key is SKIP and self._step is Step.MOVE:
             self._status = ""
             self._next()
+        elif key is SKIP:
+            self._skips = True
         elif key is BACK and not self._once:
             before = self._at if self._back else max(0, self._at - 1)
             self._answers.drop(self._questions[before])
@@ -102,7 +110,8 @@ class Dialogue:
 
     def _go_to(self, index: int) -> None:
         self._at, self._back, self._found, self._status = index, False, None, ""
-        self._step, self._resting, self._stays, self.over = Step.RELEASE, False, False, False
+        self._step, self._resting, self._stays, self._skips = Step.RELEASE, False, False, False
+        self.over = False
 
     def _wait(self, now: float) -> None:
         """For everything to be let go."""
@@ -117,8 +126,7 @@ class Dialogue:
             return
         device, found = self._found
         if self._devices.each[device].was_released(found):
-            self._status = f"{found.name} was held and is released now"
-            self._ask()
+            self._refuse(f"{found.name} was held and is released now")
             return
         settled = self._devices.each[device].settled(found)
         if settled.kind is Kind.LEVER and not self._stays:
@@ -127,7 +135,7 @@ class Dialogue:
         self._answered(device, settled)
 
     def _ask(self) -> None:
-        self._step, self._found, self._stays = Step.MOVE, None, False
+        self._step, self._found, self._stays, self._skips = Step.MOVE, None, False, False
         for device in self._devices.each:
             device.watch(smooth=self._questions[self._at].moves)
 
@@ -146,8 +154,7 @@ class Dialogue:
     def _answered(self, device: int, found: Found) -> None:
         question = self._questions[self._at]
         if why := self._why_not(device, found):
-            self._status = f"{why}: choose another"
-            self._ask()
+            self._refuse(f"{why}: choose another")
             return
         learned = self._devices.each[device]
         self._answers.given.append(Answer(question, device, found, self._back, learned.known.get(found.name)))
@@ -157,6 +164,14 @@ class Dialogue:
             self._ask()
         else:
             self._next()
+
+    def _refuse(self, why: str) -> None:
+        """Ask again, unless the question was to be skipped."""
+        self._status = "" if self._skips else why
+        if self._skips:
+            self._next()
+        else:
+            self._ask()
 
     def _why_not(self, device: int, found: Found) -> str:
         question = self._questions[self._at]

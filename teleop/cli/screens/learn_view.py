@@ -51,7 +51,7 @@ class LearnView:
         match session.stage:
             case Stage.QUESTIONS:
                 page = session.dialogue.page
-                return f"{page.text}; {_SKIPS}" if session.dialogue.asks else page.text
+                return f"{page.text}; {_SKIPS}" if session.dialogue.may_skip else page.text
             case Stage.CONFIRM:
                 return f"{_short(str(session.target.file))} exists: y overwrites it"
         return "Try every control. Nothing moves. Enter accepts, q leaves without writing"

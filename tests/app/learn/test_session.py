@@ -297,6 +297,18 @@ def test_one_question_back(bench: LearnBench, pad: Pad) -> None:
     assert answer.found.towards == 1
 
 
+def test_enter_while_a_control_is_released_skips_only_what_it_cannot_answer(bench: LearnBench, pad: Pad) -> None:
+    for asked, follows in (("PAN RIGHT", "TILT UP"), ("TILT UP", "ROLL CLOCKWISE")):
+        bench.asked(asked)
+        pad.report(RIGHT)
+        bench.turn(0.1)
+        bench.turn(0.1, Command.GO)
+        pad.report(REST)
+        bench.until(lambda: bench.session.dialogue.asks, "the next question")
+        assert follows in bench.session.dialogue.page.text
+    assert [answer.found.name for answer in bench.session.answers.given] == ["X"]
+
+
 def test_a_shipped_rig_is_never_written_and_its_lines_are_printed(time: Time, pad: Pad) -> None:
     with learning("sim", time, Pads([pad])) as bench:
         bench.answer("PAN RIGHT", pad, RIGHT, REST)
