@@ -8,13 +8,27 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from fake_hid import GAMEPAD
+from fake_hid import GAMEPAD, real
 
 from teleop.app.learn.session import LearnSession
 from teleop.app.learn.target import Target
 from teleop.config.profile import load_profile
+from teleop.config.resources import folder
 from teleop.core.operator_input import Command
 from teleop.inputs.hid.backend import DeviceInfo, HidBackend
+
+SIM = (folder("profiles") / "sim.yaml").read_text()
+F310 = real("Logitech F310")["descriptor"]
+REST = "7f7f7f7f08000000"
+RIGHT, LEFT, UP, BUTTON_1, BUTTON_2 = (
+    "ff7f7f7f08000000",
+    "007f7f7f08000000",
+    "7f007f7f08000000",
+    "7f7f7f7f18000000",
+    "7f7f7f7f28000000",
+)
+TRIGGERS, HAT_UP, SHOULDER = ("7f7f7f7f08080000", "7f7f7f7f08040000"), "7f7f7f7f00000000", "7f7f7f7f08010000"
+"""Reports of a Logitech F310."""
 
 TURN = 0.02  # s
 LONGEST = 60.0  # s in which what is waited for has to come

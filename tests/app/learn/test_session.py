@@ -6,55 +6,35 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from fake_hid import JOYSTICK, real
-from learn_bench import LearnBench, Pad, Pads, Time, learning
+from fake_hid import JOYSTICK
+from learn_bench import (
+    BUTTON_1,
+    BUTTON_2,
+    F310,
+    HAT_UP,
+    LEFT,
+    REST,
+    RIGHT,
+    SHOULDER,
+    SIM,
+    TRIGGERS,
+    UP,
+    LearnBench,
+    Pad,
+    Pads,
+    Time,
+    learning,
+)
 
 from teleop.app.learn.session import Stage
 from teleop.config.profile import load_profile
-from teleop.config.resources import folder
 from teleop.core.errors import DeviceError, UsageError
 from teleop.core.operator_input import Command
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.recording import RecordedDevices, read_recording
 from teleop.inputs.hid.state import HidState
 
-SIM = (folder("profiles") / "sim.yaml").read_text()
 RECORDINGS = Path(__file__).parents[2] / "data" / "hid-recordings"
-F310 = real("Logitech F310")["descriptor"]
-REST = "7f7f7f7f08000000"
-RIGHT, LEFT, UP, BUTTON_1, BUTTON_2 = (
-    "ff7f7f7f08000000",
-    "007f7f7f08000000",
-    "7f007f7f08000000",
-    "7f7f7f7f18000000",
-    "7f7f7f7f28000000",
-)
-TRIGGERS, HAT_UP, SHOULDER = ("7f7f7f7f08080000", "7f7f7f7f08040000"), "7f7f7f7f00000000", "7f7f7f7f08010000"
-
-
-@pytest.fixture
-def time() -> Time:
-    return [0.0]
-
-
-@pytest.fixture
-def pad(time: Time) -> Pad:
-    pad = Pad(time, F310, name="Logitech F310", usage=JOYSTICK)
-    pad.report(REST)
-    return pad
-
-
-@pytest.fixture
-def rig(tmp_path: Path) -> Path:
-    file = tmp_path / "mine.yaml"
-    file.write_text(SIM)
-    return file
-
-
-@pytest.fixture
-def bench(rig: Path, time: Time, pad: Pad) -> Iterator[LearnBench]:
-    with learning(rig, time, Pads([pad])) as bench:
-        yield bench
 
 
 def test_every_answer_is_in_the_profile_and_all_else_is_as_it_was(bench: LearnBench, pad: Pad, rig: Path) -> None:
@@ -134,49 +114,6 @@ def test_a_control_that_goes_the_wrong_way_is_asked_for_again(bench: LearnBench,
         "Y": ("tilt", True),
         "X": ("pan", False),
     }
-
-
-MINE = (
-    SIM
-    + """\
-inputs:   # what is in the hand
-  - name: Left pad   # with the red tape
-    device: {vendor: 0x046d, product: 0xc216}
-    # the left stick
-    controls:
-      Z: {axis: pan}    # was too fast
-      Y: {axis: tilt, expo: 0.5}   # fine
-      Rz: {axis: roll}   # stays
-      Button 9: {press: quit}
-sticks: {expo: 0.4}   # at the end
-"""
-)
-
-
-def test_an_update_keeps_comments_skipped_controls_and_how_a_stick_is_shaped(rig: Path, time: Time, pad: Pad) -> None:
-    rig.write_text(MINE)
-    with learning(rig, time, Pads([pad])) as bench:
-        bench.answer("PAN RIGHT", pad, RIGHT, REST)
-        bench.answer("TILT UP", pad, UP, REST)
-        bench.tried()
-        bench.turn(0.1, Command.GO)
-    expected = MINE.replace("      Z: {axis: pan}    # was too fast\n", "").replace(
-        "expo: 0.5}", "expo: 0.5, invert: true}"
-    )
-    quits = "      Button 9: {press: quit}\n"
-    assert rig.read_text() == expected.replace(quits, f"{quits}      X: {{axis: pan}}\n")
-
-
-def test_what_a_named_pad_has_on_another_control_is_left_out(rig: Path, time: Time, pad: Pad) -> None:
-    rig.write_text(SIM + "inputs:\n  - pad: logitech-gamepad   # as shipped\n")
-    with learning(rig, time, Pads([pad])) as bench:
-        bench.answer("PAN RIGHT", pad, "7f7fff7f08000000", REST)
-        bench.tried()
-        assert bench.session.trial is not None
-        bench.turn(0.1, Command.GO)
-    controls = load_profile(str(rig)).inputs[0].controls
-    assert {name: each and each.axis for name, each in controls.items()} == {"X": None, "Z": "pan"}
-    assert "pad: logitech-gamepad   # as shipped" in rig.read_text()
 
 
 def test_of_several_devices_the_one_that_is_moved_is_meant(rig: Path, time: Time, pad: Pad) -> None:
@@ -307,55 +244,6 @@ def test_enter_while_a_control_is_released_skips_only_what_it_cannot_answer(benc
         bench.until(lambda: bench.session.dialogue.asks, "the next question")
         assert follows in bench.session.dialogue.page.text
     assert [answer.found.name for answer in bench.session.answers.given] == ["X"]
-
-
-def test_a_shipped_rig_is_never_written_and_its_lines_are_printed(time: Time, pad: Pad) -> None:
-    with learning("sim", time, Pads([pad])) as bench:
-        bench.answer("PAN RIGHT", pad, RIGHT, REST)
-        bench.tried()
-        bench.turn(0.1, Command.GO)
-        assert bench.session.stage is Stage.OUTPUT
-        assert bench.session.output.endswith("    controls:\n      X: {axis: pan}\n")
-    assert (folder("profiles") / "sim.yaml").read_text() == SIM
-    with pytest.raises(UsageError, match="a shipped rig is never written"):
-        learning("sim", time, Pads([pad]), folder("profiles") / "sim.yaml").__enter__()
-
-
-def test_another_file_is_not_written_over_unasked(rig: Path, time: Time, pad: Pad, tmp_path: Path) -> None:
-    out = tmp_path / "out.yaml"
-    out.write_text("precious\n")
-    with learning(rig, time, Pads([pad]), out) as bench:
-        bench.answer("PAN RIGHT", pad, RIGHT, REST)
-        bench.tried()
-        bench.turn(0.1, Command.GO)
-        assert bench.session.stage is Stage.CONFIRM
-        bench.turn(0.1, Command.CLEAR)
-        assert bench.session.stage is Stage.TRIAL
-        assert out.read_text() == "precious\n"
-        bench.turn(0.1, Command.GO)
-        bench.turn(0.1, Command.KEEP)
-    assert load_profile(str(out)).inputs[0].controls.keys() == {"X"}
-    assert rig.read_text() == SIM
-
-
-def test_a_file_that_changed_meanwhile_keeps_its_change(bench: LearnBench, pad: Pad, rig: Path) -> None:
-    bench.answer("PAN RIGHT", pad, RIGHT, REST)
-    bench.tried()
-    changed = SIM.replace("name: Simulated rig", "name: Another name")
-    rig.write_text(changed)
-    bench.turn(0.1, Command.GO)
-    assert rig.read_text().startswith(changed)
-    assert load_profile(str(rig)).name == "Another name"
-
-
-def test_a_file_that_is_no_profile_any_more_is_left_and_said(bench: LearnBench, pad: Pad, rig: Path) -> None:
-    bench.answer("PAN RIGHT", pad, RIGHT, REST)
-    bench.tried()
-    rig.write_text("name: half a file\n")
-    bench.turn(0.1, Command.GO)
-    assert bench.session.stage is Stage.TRIAL
-    assert "axes" in bench.session.problem
-    assert rig.read_text() == "name: half a file\n"
 
 
 def test_the_enable_button_of_the_profile_gets_no_other_use(rig: Path, time: Time, pad: Pad) -> None:
