@@ -59,7 +59,7 @@ class LearnView:
     @property
     def _status(self) -> str:
         session = self._session
-        return session.dialogue.page.status if session.stage is Stage.QUESTIONS else session.problem
+        return session.dialogue.page.status if session.stage is Stage.QUESTIONS else session.problem.partition("\n")[0]
 
     def _draw(self, width: int, height: int) -> Rows:
         session = self._session
