@@ -33,16 +33,14 @@ def open_devices(
     `recordings` are devices too, from `begin` on; in `virtual` time they are the only ones. Without `keys` a device has
     to be there: raises UsageError, whose text is `without`, when none is, and DeviceError when no device can be read.
     """
-    backend: HidBackend | None = None
     try:
-        backend = None if virtual else AllDevices()
+        backend: HidBackend = (
+            RecordedDevices(recordings, clock.now, begin) if virtual else device_backend(recordings, clock, begin)
+        )
     except DeviceError as error:
-        if not recordings:
-            if not keys:
-                raise
-            return [], str(error)
-    if recordings or backend is None:
-        backend = RecordedDevices(recordings, clock.now, begin, backend)
+        if not keys:
+            raise
+        return [], str(error)
     if not keys and not profile.inputs and not wanted(DeviceSection(), backend.enumerate(), None):
         raise UsageError(without)
     shaping = profile.sticks
@@ -50,3 +48,17 @@ def open_devices(
         profile.inputs, clock.now, backend, dead_zone=shaping.dead_zone, expo=shaping.expo, polled=virtual
     )
     return stack.enter_context(opened), ""
+
+
+def device_backend(recordings: Sequence[Recording], clock: Clock, begin: Callable[[], float]) -> HidBackend:
+    """All devices of this computer, and those of the `recordings`, plugged in from `begin` on.
+
+    Raises DeviceError where no device can be read and none is recorded.
+    """
+    try:
+        real: HidBackend | None = AllDevices()
+    except DeviceError:
+        if not recordings:
+            raise
+        real = None
+    return RecordedDevices(recordings, clock.now, begin, real) if recordings or real is None else real

@@ -1,151 +1,84 @@
-"""`teleop live --learn`: a mapping by moving each control when asked for it.
-
-The questions go to stderr and the mapping to stdout, so that `teleop live --learn > inputs.yaml` keeps it; nothing is
-ever written over. Only this reads the device: there is no rig to keep waiting.
-"""
+"""`teleop live --learn`: asks for each control on the terminal, shows what they do, and writes the profile."""
 
 from __future__ import annotations
 
-import select
+import contextlib
+import math
 import sys
-from collections.abc import Callable, Sequence
-from typing import Protocol
+import time
+from collections.abc import Sequence
+from pathlib import Path
 
-from teleop.config.inputs_section import DeviceSection
-from teleop.core.axes import Axis
+from teleop.app.learn.session import LearnSession, Stage
+from teleop.app.learn.target import Target
+from teleop.app.operator_inputs import device_backend
+from teleop.cli.options import announce, announce_json
+from teleop.cli.screens.folded import complain
+from teleop.cli.screens.learn_view import LearnView
+from teleop.cli.signals import CODE, signals_to
+from teleop.config.profile import Profile
 from teleop.core.clock import SystemClock
-from teleop.core.errors import DeviceError, UsageError
-from teleop.inputs.evdev.backend import AllDevices
-from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, described
-from teleop.inputs.hid.descriptor.parser import parse_descriptor
-from teleop.inputs.hid.learn import Found, Kind, Learned, Question, Watch, other_way, questions, still
-from teleop.inputs.hid.selection import wanted
-from teleop.inputs.hid.state import HidState
-from teleop.inputs.keyboard import has_keys
+from teleop.core.errors import UsageError
+from teleop.inputs.hid.recording import Recording
+from teleop.inputs.keyboard import Keyboard, has_keys, terminal
+from teleop.inputs.learn_keymap import KEYS
+from teleop.inputs.playback_keymap import PlayKeys
 
-QUIET = 0.5  # s without a movement: everything has been let go
-HELD = 2.0  # s: what is away from its rest for longer was put there, and is not merely held
-_WAIT = 0.02  # s for a report
-_ONE_WAY = (Kind.TRIGGER, Kind.BUTTON)
+_TURN = 0.02  # s between two looks at the devices
+_OPENING = 1.0  # s for all devices to be opened, before what is recorded begins
 
 
-class Asker(Protocol):
-    """Who is asked."""
+def learn(profile: Profile, rig: str, out: Path | None, recordings: Sequence[Recording], json: bool) -> int:
+    """Ask for each axis and command of the rig, and write the `inputs:` of its profile, or of a new one at `out`.
 
-    def notify(self, text: str) -> None: ...
-
-    def skips(self) -> bool:
-        """Whether Enter has been pressed since the last call: nothing is to do that."""
-        ...
-
-
-class Terminal:
-    """The operator's terminal; raises UsageError when stdin is none."""
-
-    def __init__(self) -> None:
-        if not sys.stdin.isatty():
-            raise UsageError("--learn asks questions: run it on a terminal")
-        if not has_keys():
-            raise UsageError("--learn cannot see Enter on this system: use Linux or macOS, or copy a shipped mapping")
-
-    def notify(self, text: str) -> None:
-        print(text, file=sys.stderr, flush=True)
-
-    def skips(self) -> bool:
-        pressed = False
-        while select.select([sys.stdin], [], [], 0)[0]:
-            if not sys.stdin.readline():
-                raise UsageError("--learn: the terminal was closed; nothing was learned")
-            pressed = True
-        return pressed
-
-
-def learn(
-    axes: Sequence[Axis],
-    backend: HidBackend | None = None,
-    asker: Asker | None = None,
-    now: Callable[[], float] | None = None,
-) -> int:
-    """Ask for each of `axes` and each command which control is to do it; prints the `inputs:` of a profile.
-
-    Raises UsageError without a terminal or a joystick, DeviceError when the joystick cannot be read or is unplugged.
+    Raises UsageError without a terminal or a device, DeviceError when the device cannot be read or is unplugged.
     """
-    backend, asker, now = backend or AllDevices(), asker or Terminal(), now or SystemClock().now
-    found = wanted(DeviceSection(), backend.enumerate(), None)
-    if not found:
-        raise UsageError("--learn: no joystick found: plug one in; `teleop devices` lists the devices")
-    info = found[0]
-    try:
-        device = backend.open(info.path)
-    except OSError as error:
-        raise DeviceError(
-            f"{described(info)}: cannot be opened ({error}): check its udev rule: teleop doctor"
-        ) from None
-    try:
-        learned = _Dialogue(info, device, asker, now).hold(axes)
-    except OSError:
-        raise DeviceError(f"{described(info)}: unplugged; nothing was learned") from None
-    finally:
-        device.close()
-    print(learned.text(info.vendor_id, info.product_id, described(info)), end="")
-    asker.notify("Copy these lines into your profile.")
+    keyboard = _keyboard()
+    target = Target(rig, out)
+    clock = SystemClock()
+    begin = [math.inf]  # of the recordings: once their devices are read, as they are before a run
+    session = LearnSession(profile, target, device_backend(recordings, clock, lambda: begin[0]), clock.now)
+    latest = clock.now() + _OPENING
+    interrupted: list[str] = []
+    with signals_to(interrupted.append), keyboard, session, LearnView(session) as view:
+        while not session.over and not interrupted:
+            held = keyboard.read(clock.now())
+            if held.trouble:
+                interrupted.append(held.trouble)
+            if begin[0] == math.inf and (session.devices.are_read or clock.now() > latest):
+                begin[0] = clock.now()
+            session.turn(clock.now(), [press.command for press in held.presses])
+            view.update()
+            time.sleep(_TURN)
+    if interrupted:
+        with contextlib.suppress(OSError):  # the terminal may be gone
+            complain(f"teleop: {interrupted[0]}: nothing was written")
+        return CODE
+    return _report(session, json)
+
+
+def _keyboard() -> Keyboard:
+    """Raises UsageError without a terminal whose keys may be read."""
+    if not sys.stdin.isatty():
+        raise UsageError("--learn asks questions: run it on a terminal")
+    if not has_keys():
+        raise UsageError("--learn cannot see Enter on this system: use Linux or macOS, or copy a shipped mapping")
+    descriptor = terminal()
+    if descriptor is None:
+        raise UsageError("--learn asks questions: run it in the foreground")
+    return Keyboard(descriptor, PlayKeys(KEYS))
+
+
+def _report(session: LearnSession, json: bool) -> int:
+    file = session.target.file
+    if session.stage is Stage.LEFT:
+        complain("teleop: nothing was written")
+    elif session.stage is Stage.OUTPUT and file is None:
+        print(session.output, end="")
+        complain("Copy these lines into your profile, or run it again with -o FILE.")
+    elif file is not None:
+        if session.stage is Stage.OUTPUT:
+            session.target.write(session.output)
+        done = f"{file}: its inputs are what was learned. Try it: teleop live --rig {file}"
+        announce_json({"ok": True, "file": str(file)}, file) if json else announce(done, file)
     return 0
-
-
-class _Dialogue:
-    def __init__(self, info: DeviceInfo, device: HidDevice, asker: Asker, now: Callable[[], float]) -> None:
-        self._info, self._device, self._asker, self._now = info, device, asker, now
-        self._state = HidState(parse_descriptor(device.get_report_descriptor()))
-        self._state.watched = self._state.relative
-        self._learned = Learned()
-
-    def hold(self, axes: Sequence[Axis]) -> Learned:
-        """Raises OSError when the device is unplugged."""
-        self._asker.notify(f"{described(self._info)}: release all controls.")
-        self._rest()
-        for question in questions(axes):
-            answer = self._answer(question)
-            if answer is None:
-                continue
-            self._learned.add(question, answer)
-            back = question.axis is not None and answer.kind in _ONE_WAY
-            if back and (answer := self._answer(other_way(question))):
-                self._learned.add(question, answer, back=True)
-        return self._learned
-
-    def _answer(self, question: Question) -> Found | None:
-        """The control that was moved and released again; None when the question is skipped."""
-        self._asker.notify(f"{question.text}. Enter: skip.")
-        while True:
-            watch = Watch(self._state.values, smooth=question.axis is not None)
-            found = self._moved(watch)
-            if found is None:
-                return None
-            self._asker.notify(f"  {found.name}; release it")
-            self._rest()
-            if watch.settled(found, self._state.values).kind is Kind.LEVER:
-                self._rest(HELD)
-            if not self._learned.has(found.name):
-                return watch.settled(found, self._state.values)
-            self._asker.notify(f"  {found.name} is already in use: choose another")
-
-    def _moved(self, watch: Watch) -> Found | None:
-        while not self._asker.skips():
-            self._poll()
-            if found := watch.see(self._state.values, self._state.changes(), self._now()):
-                return found
-        return None
-
-    def _rest(self, quiet: float = QUIET) -> None:
-        """Wait until nothing has moved for so long."""
-        before, since = self._state.values, self._now()
-        while self._now() - since < quiet:
-            self._poll()
-            if not still(before, self._state.values):
-                before, since = self._state.values, self._now()
-        for _ in self._state.changes():
-            pass  # what was counted meanwhile is no answer
-
-    def _poll(self) -> None:
-        if report := self._device.read(_WAIT):
-            self._state.take(report, self._now())

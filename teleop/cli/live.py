@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -25,7 +25,7 @@ from teleop.core.axes import Axis, Limits
 from teleop.core.errors import UsageError
 from teleop.core.events import Action
 from teleop.core.run_status import RunStatus
-from teleop.inputs.hid.recording import read_recording
+from teleop.inputs.hid.recording import Recording, read_recording
 from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.recorded_sticks import Sticks, SticksSource, read_sticks
 from teleop.recording.writer import Recorder
@@ -47,9 +47,15 @@ def live(
     presets: Annotated[
         Path | None, Parameter(metavar="FILE", help="File of the presets; without it, one for each rig.")
     ] = None,
+    targets: Annotated[
+        Path | None, Parameter(metavar="FILE", help="Sequence file for the targets that key t marks; may be new.")
+    ] = None,
     learn: Annotated[
-        bool, Parameter(help="Ask what each control should do, and print the mapping.", negative=(), show_default=False)
+        bool, Parameter(help="Ask for each control, try it, and write the profile.", negative=(), show_default=False)
     ] = False,
+    output: Annotated[
+        Path | None, Parameter(name=("-o", "--output"), metavar="FILE", help="With --learn: the profile to write.")
+    ] = None,
     fast: Fast = False,
     take: Take = None,
     i_understand: Understood = False,
@@ -57,19 +63,24 @@ def live(
 ) -> int:
     """Move a rig by joystick, dial and keys, or by sticks replayed from a file, which ends after its last row."""
     profile = options.profile()
+    recordings = [read_recording(file, number) for number, file in enumerate(input_recording or [], 1)]
     if learn:
-        return _learn(profile)
+        _refuse_beside_learn(sticks=sticks, fast=fast, take=take, presets=presets)
+        return _learn(profile, options, output, recordings)
+    if output is not None:
+        raise UsageError("-o: needs --learn")
     refuse_offsets(profile)
     if sticks is None and not input_recording and fast:
         raise UsageError("--fast: needs --sticks or --input-recording: an operator's inputs are in real time")
     recorded = None if sticks is None else read_sticks(sticks, list(profile.axes))
-    recordings = [read_recording(file, number) for number, file in enumerate(input_recording or [], 1)]
     title = profile.name if sticks is None else sticks.name
     keyboard = None if fast else _keyboard()
     alone = None if recordings else recorded
     if alone is not None:
         profile = profile.in_use(alone.axes, () if keyboard is None else [Action.RECORD])
-    run = LiveRun(profile, title, the_clock(fast, profile), keyboard, recorded, recordings, presets, take, fast)
+    run = LiveRun(
+        profile, title, the_clock(fast, profile), keyboard, recorded, recordings, presets, take, fast, targets
+    )
     if alone is not None and keyboard is None:
         ask_to_fly(title, alone.axes, i_understand)
         return _unattended(run, alone, options)
@@ -104,7 +115,14 @@ def _keyboard() -> Keyboard | None:
     return None if descriptor is None else Keyboard(descriptor)
 
 
-def _learn(profile: Profile) -> int:
+def _refuse_beside_learn(**options: object) -> None:
+    """Raises UsageError for options that have no meaning there: it asks in real time, and moves nothing."""
+    for name, value in options.items():
+        if value:
+            raise UsageError(f"--{name}: not together with --learn, which moves nothing and asks in real time")
+
+
+def _learn(profile: Profile, options: Options, output: Path | None, recordings: Sequence[Recording]) -> int:
     from teleop.cli.learn import learn
 
-    return learn(list(profile.axes))
+    return learn(profile, options.rig, output, recordings, options.json)

@@ -17,7 +17,7 @@ from pydantic import Field
 from teleop.config.device_commands import DRONE
 from teleop.config.documents.base_model import Finite, Section
 from teleop.config.documents.document import Document, DocumentError, Wrong, mapping, number
-from teleop.config.documents.yaml_loader import read_document
+from teleop.config.documents.yaml_loader import parse_document, read_document
 from teleop.config.enable_rules import enable_rules
 from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import InputSection, input_rules
@@ -141,9 +141,17 @@ def load_profile(name: str, links: Mapping[str, str] | None = None, option: str 
     Raises DocumentError with a line for each mistake; one about a replaced link begins with `option`.
     """
     document = read_document(*find(name, "profiles", "rig"))
+    return _with_links(_checked(document), document, links or {}, option)
+
+
+def checked_profile(text: str, name: str) -> Profile:
+    """The profile that `text` would be in a file, called `name` in errors; raises DocumentError."""
+    return _checked(parse_document(text.removeprefix("\ufeff"), name))
+
+
+def _checked(document: Document) -> Profile:
     refuse_other_kind(document, "profile")
-    profile = document.check(Profile, _rules(document.data))
-    return _with_links(profile, document, links or {}, option)
+    return document.check(Profile, _rules(document.data))
 
 
 def _rules(data: Any) -> Iterator[Wrong]:

@@ -31,7 +31,7 @@ class Command(StrEnum):
     RECENTER = "recenter"
     RECORD = "record"  # on, and off again
     SHUTTER = "shutter"
-    TELL = "tell"  # a device's own command: `gimbal follow lock`
+    TELL = "tell"  # a device's own command: `gimbal follow lock`; a typed target: `target door,4.2`
     ENGAGE = "engage"  # the drone
     DISENGAGE = "disengage"
     QUIT = "quit"

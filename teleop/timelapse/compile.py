@@ -25,11 +25,13 @@ from teleop.planner.keyframes.planner import Key, stretch
 from teleop.planner.polynomial import Array
 from teleop.planner.time_scaling import at_most
 from teleop.planner.trajectory import Move, Track
+from teleop.sequence.aim import UnaimedError
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.keys import axes_of, keys_of, line_at
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import TimelapseSection, is_timelapse
+from teleop.sequence.timeline import aims_of
 from teleop.timelapse.budget import Phases, budget
 from teleop.timelapse.schedule import Schedule
 
@@ -144,13 +146,19 @@ def _compiled(
 ) -> Timelapse:
     slots = _slots(section, model.fps)
     phases = Phases.of(section, model.fps)
-    keys = keys_of(model.model_copy(update={"fps": 1.0}))  # a frame for a second
+    in_frames = model.model_copy(update={"fps": 1.0})  # a frame for a second
+    try:
+        keys, aims = keys_of(in_frames), aims_of(document, in_frames)
+    except UnaimedError as error:
+        raise DocumentError([document.problem(error.place, f": {error}")]) from None
     step = slots.at(slots.frames - 1) / (slots.frames - 1) if slots.frames > 1 else slots.first
     timed = {axis: [key.later(step) for key in of_axis] for axis, of_axis in keys.items()}
     try:
         move, factor = stretch(timed, limits, model.tension)
     except Infeasible as error:
         raise UnplayableError([line_at(document, finding.last, str(finding)) for finding in error.findings]) from None
+    if problems := [text for aimed in aims if (text := aimed.problem(move, step * factor))]:
+        raise UnplayableError(problems)
     path = FramePath(move, step * factor, section.lead_in)
     continuous = section.mode == "continuous"
     problems, warnings = budget(phases, slots, path, limits, continuous)

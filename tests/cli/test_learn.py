@@ -1,136 +1,122 @@
-"""`teleop live --learn`: a dialogue with somebody at a real pad's reports, and the mapping that is printed."""
+"""`teleop live --learn` on a terminal, with a recorded pad in a hand that moves its stick again and again."""
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Mapping, Sequence
+import json
+import signal
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from command import teleop
-from fake_hid import FakeBackend, FakeDevice, real
+from terminal import Terminal, terminal
+from terminal_screen import screen
 
-from teleop.cli.learn import learn
 from teleop.config.profile import load_profile
 from teleop.config.resources import folder
-from teleop.core.axes import Axis
-from teleop.core.errors import DeviceError, UsageError
 
-REST = "7f7f7f7f08000000"
-HAND: Mapping[str, Sequence[str]] = {
-    "pan right": ["a07f7f7f08000000", "ff7f7f7f08000000"],
-    "tilt up": ["7f007f7f08000000"],
-    "focus farther": ["7f7f7f7f08080000"],
-    "focus nearer": ["7f7f7f7f08040000"],
-    "for: STOP": ["7f7f7f7f18000000"],
-    "for: record": ["7f7f7f7f18000000"],
-    "recall preset 1": ["7f7f7f7f00000000"],
-    "must be held": ["7f7f7f7f08010000"],
-}
+RECORDINGS = Path(__file__).parents[1] / "data" / "hid-recordings"
+SIM = (folder("profiles") / "sim.yaml").read_text()
+REST, RIGHT = "7f7f7f7f08000000", "ff7f7f7f08000000"
+LONG = 120.0  # s: longer than any machine takes
 
 
-class Hand:
-    """Somebody who does with the pad what they are asked for, or presses Enter."""
-
-    def __init__(self, pad: FakeDevice) -> None:
-        self.pad, self.heard = pad, list[str]()
-        self._presses = False
-
-    def notify(self, text: str) -> None:
-        self.heard.append(text)
-        does = next((reports for words, reports in HAND.items() if words in text), None)
-        if does is not None:
-            self.pad.report(*map(bytes.fromhex, does))
-        elif text.endswith(("release it", "release all controls.")):
-            self.pad.report(bytes.fromhex(REST))
-        elif "already" in text:
-            self.pad.report(bytes.fromhex("7f7f7f7f28000000"))
-        elif "Enter" in text:
-            self._presses = True
-
-    def skips(self) -> bool:
-        pressed, self._presses = self._presses, False
-        return pressed
+def recorded(file: Path, unplugged: float = LONG) -> Path:
+    """An F310 whose stick goes right again and again; a slow machine answers with the next one."""
+    rows = [{"time": 0, "report": REST}]
+    begin = 1.0
+    while begin + 1.3 < unplugged:
+        rows += [{"time": begin, "report": RIGHT}, {"time": begin + 0.4, "report": REST}]
+        begin += 1.3
+    end = [{"time": unplugged, "unplugged": True}]
+    first = (RECORDINGS / "steady-at-the-stop.jsonl").read_text().splitlines()[0]
+    file.write_text(first + "\n" + "".join(json.dumps(row) + "\n" for row in [*rows, *end]))
+    return file
 
 
-def pad() -> FakeDevice:
-    return FakeDevice(bytes.fromhex(real("Logitech F310")["descriptor"]), (0x046D, 0xC216), "Logitech Dual Action")
+@pytest.fixture
+def rig(tmp_path: Path) -> Path:
+    file = tmp_path / "mine.yaml"
+    file.write_text(SIM)
+    return file
 
 
-def test_a_mapping_by_moving_each_control(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    device = pad()
-    device.report(bytes.fromhex(REST))
-    hand, clock = Hand(device), itertools.count()
-    assert learn([Axis.PAN, Axis.TILT, Axis.FOCUS], FakeBackend(device), hand, lambda: next(clock) * 0.1) == 0
-    printed = capsys.readouterr().out
-    assert (
-        printed
-        == """\
-inputs:   # Logitech Dual Action
-  - device: {vendor: 0x046d, product: 0xc216}
-    enable: Button 5
-    controls:
-      X: {axis: pan}
-      Y: {axis: tilt, invert: true}
-      Button 8: {axis: focus}
-      Button 7: {axis: focus, invert: true}
-      Button 1: {press: stop}
-      Button 2: {press: record}
-      Hat switch:
-        up: {press: recall, number: 1, hold: store}
-"""
-    )
-    assert "  Button 1 is already in use: choose another" in hand.heard
-    assert device.closed == 1
-    rig = tmp_path / "rig.yaml"
-    rig.write_text((folder("profiles") / "sim.yaml").read_text() + printed)
-    assert load_profile(str(rig)).inputs[0].enable == "Button 5"
+def test_the_whole_dialogue_on_a_terminal_of_80_columns(tmp_path: Path, rig: Path) -> None:
+    pad = recorded(tmp_path / "pad.jsonl")
+    arguments = ("live", "--learn", "--rig", rig.name, "--input-recording", pad.name)
+    with screen(*arguments, folder=tmp_path, cwd=tmp_path) as term:
+        term.look(term.wait_for("Move the control for PAN RIGHT; Enter skips"), "q leaves without writing")
+        term.wait_for("X: release it")
+        term.look(term.wait_for("Move the control for TILT UP"))
+        term.type("\r")
+        term.wait_for("Move the control for ROLL CLOCKWISE")
+        term.type("t")
+        term.look(term.wait_for("Try every control. Nothing moves."), "q leaves without writing")
+        term.look(term.wait_for("pan +1.00"))
+        assert rig.read_text() == SIM
+        term.type("\r")
+        assert term.end() == 0
+        term.look()
+        assert "its inputs are what was learned" in term.text
+    assert rig.read_text().startswith(SIM)
+    assert load_profile(str(rig)).inputs[0].controls.keys() == {"X"}
 
 
-def test_a_stick_that_is_held_for_a_while_is_not_taken_for_a_slider(capsys: pytest.CaptureFixture[str]) -> None:
-    device = pad()
-    device.report(bytes.fromhex(REST))
-    time = [0.0]
-
-    def now() -> float:
-        time[0] += 0.1
-        return time[0]
-
-    class Slow(Hand):
-        """Lets go a second after being told to."""
-
-        def notify(self, text: str) -> None:
-            if not text.endswith("release it"):
-                super().notify(text)
-                return
-            told, read = time[0], device.read
-
-            def later(timeout: float) -> bytes:
-                if time[0] - told > 1:
-                    device.read = read
-                    device.report(bytes.fromhex(REST))
-                return read(timeout)
-
-            device.read = later
-
-    learn([Axis.PAN, Axis.TILT], FakeBackend(device), Slow(device), now)
-    assert "X: {axis: pan}\n" in capsys.readouterr().out
+def interrupt(term: Terminal) -> None:
+    term.type("\x03")
 
 
-def test_a_joystick_that_is_pulled_out_ends_it() -> None:
-    device = pad()
-    device.pull()
-    with pytest.raises(DeviceError, match="Logitech Dual Action: unplugged; nothing was learned"):
-        learn([Axis.PAN], FakeBackend(device), Hand(device))
-    assert device.closed == 1
+def terminate(term: Terminal) -> None:
+    term.process.send_signal(signal.SIGTERM)
 
 
-def test_without_a_joystick_it_says_so() -> None:
-    with pytest.raises(UsageError, match="no joystick found: plug one in"):
-        learn([Axis.PAN], FakeBackend(), Hand(pad()))
+@pytest.mark.parametrize("end", [interrupt, terminate, Terminal.hang_up])
+def test_however_it_ends_the_file_is_as_it_was_and_so_is_the_terminal(
+    end: Callable[[Terminal], None], tmp_path: Path, rig: Path
+) -> None:
+    pad = recorded(tmp_path / "pad.jsonl")
+    with terminal("live", "--learn", "--rig", str(rig), "--input-recording", str(pad), folder=tmp_path) as term:
+        term.wait_for("X: release it")
+        end(term)
+        assert term.end() == (130, "")
+        if term.slave >= 0:
+            assert term.restored
+            assert "nothing was written" in term.shown
+    assert rig.read_text() == SIM
+    assert [file.name for file in tmp_path.iterdir() if file.suffix != ".jsonl"] == ["mine.yaml"]
 
 
-def test_it_wants_a_terminal() -> None:
-    done = teleop("live", "--learn")
+def test_an_unplugged_device_ends_it(tmp_path: Path, rig: Path) -> None:
+    pad = recorded(tmp_path / "pad.jsonl", unplugged=1)
+    with terminal("live", "--learn", "--rig", str(rig), "--input-recording", str(pad), folder=tmp_path) as term:
+        code, _ = term.end()
+        assert code == 1
+        assert term.restored
+        assert "Logitech F310: unplugged; nothing was written" in term.shown
+    assert rig.read_text() == SIM
+
+
+def test_a_shipped_rig_and_no_file_print_the_inputs_for_a_pipe(tmp_path: Path) -> None:
+    pad = recorded(tmp_path / "pad.jsonl")
+    with terminal("live", "--learn", "--input-recording", str(pad), folder=tmp_path) as term:
+        term.wait_for("X: learned")
+        term.type("t")
+        term.wait_for("prints the inputs")
+        term.type("\r")
+        code, out = term.end()
+    assert code == 0
+    assert out.endswith("# Logitech F310\n    controls:\n      X: {axis: pan}\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["--learn"], "teleop: --learn asks questions: run it on a terminal"),
+        (["-o", "mine.yaml"], "teleop: -o: needs --learn"),
+        (["--learn", "--fast"], "teleop: --fast: not together with --learn, which moves nothing and asks in real time"),
+    ],
+)
+def test_what_it_needs_is_said_in_one_line(arguments: list[str], line: str) -> None:
+    done = teleop("live", *arguments)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "teleop: --learn asks questions: run it on a terminal\n"
+    assert done.stderr == f"{line}\n"

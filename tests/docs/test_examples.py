@@ -18,7 +18,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from teleop.config.inputs_section import ControlSection, PadSection
+from teleop.config.documents.base_model import Section
+from teleop.config.inputs_section import ControlSection, DeviceSection, InputSection, PadSection
 from teleop.config.profile import load_profile
 from teleop.config.resources import folder
 from teleop.core.operator_input import Command
@@ -117,15 +118,29 @@ def test_pads(page: str) -> None:
             PadSection.model_validate(yaml.safe_load(text))
 
 
-def test_every_action_and_key_of_a_control_has_a_line_and_an_example() -> None:
-    page = "docs/how-to/pads.md"
-    examples = "".join(text for _, mark, text in blocks(page) if mark in ("rig=sim", "pad"))
+def test_every_action_and_key_of_the_inputs_has_a_line_and_an_example() -> None:
+    page = "docs/how-to/inputs.md"
+    examples = "".join(text for _, mark, text in blocks(page) if mark == "rig=sim")
     for command in set(Command) - {Command.ENABLE}:  # a key alone: of a device a button is held
         assert f"`{command}`" in PAGES[page]
         assert re.search(rf"(press|hold): {command}\b", examples), command
-    for key in ControlSection.model_fields:
-        assert f"`{key}" in PAGES[page]
-        assert f"{key}: " in examples, key
+    for section in (InputSection, DeviceSection, ControlSection):
+        for key in section.model_fields:
+            assert re.search(rf"^\|[^|]*`{key}`", PAGES[page], re.MULTILINE), key
+            assert f"{key}: " in examples or f"{key}:\n" in examples, key
+
+
+@pytest.mark.parametrize(
+    ("key", "section"), [("by", ControlSection), ("value_type", ControlSection), ("reports", InputSection)]
+)
+def test_every_value_of_a_key_of_the_inputs_is_named(key: str, section: type[Section]) -> None:
+    for value in re.findall(r"'([\w-]+)'", str(section.model_fields[key].annotation)):
+        assert f"`{value}`" in PAGES["docs/how-to/inputs.md"], value
+
+
+def test_the_tables_of_the_pads_are_those_of_their_mappings() -> None:
+    made = subprocess.run([sys.executable, str(ROOT / "docs" / "make_pad_tables.py"), "--check"], timeout=100)
+    assert made.returncode == 0, "python docs/make_pad_tables.py"
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -46,6 +46,17 @@ class ControlValues:
         else:
             self.deflections[section.axis] = _limited(self.deflections.get(section.axis, 0.0) + deflection)
 
+    def add(self, other: ControlValues) -> None:
+        """What another control asks for too."""
+        for axis, deflection in other.deflections.items():
+            self.deflections[axis] = _limited(self.deflections.get(axis, 0.0) + deflection)
+        for axis, step in other.steps.items():
+            self.steps[axis] = self.steps.get(axis, 0.0) + step
+            self.click[axis] = max(self.click.get(axis, 0.0), other.click.get(axis, 0.0))
+        self.positions.update(other.positions)
+        self.dial = _limited(self.dial + other.dial)
+        self.presses.extend(other.presses)
+
 
 class ControlReader(Protocol):
     """Reads one control; `fine`: its fine button is held."""

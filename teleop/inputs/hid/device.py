@@ -68,6 +68,16 @@ class HidInput:
         last = self._reader.last
         return self._section.name or (described(last) if last else str(self._section.device))
 
+    @property
+    def mapped(self) -> Mapped | None:
+        """Its mapping as `read` uses it, while the device is there."""
+        return self._plugged and self._plugged.mapped
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether it was there and is gone."""
+        return self._reader.last is not None and self._reader.plugged is None
+
     def start(self) -> None:
         if not self._polled:
             self._reader.start()
@@ -122,8 +132,8 @@ class HidInput:
             return None
         if stops <= set(plugged.missing):
             return f"{self.name}: no control {', '.join(sorted(stops))}"
-        if undescribed := _undescribed(plugged, now):
-            return f"{self.name}: {undescribed}"
+        if text := undescribed(plugged, now):
+            return f"{self.name}: {text}"
         if not plugged.on_change and now - state.last > state.patience:
             return f"{self.name}: no report for {state.patience:g} s"
         return ""
@@ -181,8 +191,8 @@ class HidInput:
         if self._misnamed:
             return self._misnamed
         deflected = bool(held.dial) or any(held.deflections.values())
-        if undescribed := _undescribed(plugged, now):
-            return undescribed
+        if text := undescribed(plugged, now):
+            return text
         if not plugged.mapped.names & state.values.keys():
             return "no report yet"
         if plugged.mapped.finding:
@@ -205,7 +215,7 @@ class HidInput:
             yield f"{self.name}: {names} was not centered and is ignored until it is: release it"
 
 
-def _undescribed(plugged: Plugged, now: float) -> str:
+def undescribed(plugged: Plugged, now: float) -> str:
     """Why only reports come that nothing can be read of: on Bluetooth a program has switched the pad to longer ones.
 
     Once its calibration has been read a DualSense sends 0x31, a DualShock 0x11. Beside readable reports such a one is

@@ -24,7 +24,8 @@ class Mapped:
     own. `guessed`: no profile has this mapping, so that what does not rest in its middle is locked until it does.
     `centers` are those known from before an unplugging; `puck`: it is a multi-axis controller, which rests at 0.
     `names` are the controls that it needs, `stops` those that are a STOP, `watched` those whose every change counts,
-    `counting` whether those that the descriptor describes wrongly report counts.
+    `counting` whether those that the descriptor describes wrongly report counts. Where `each` is a dict, it has what
+    each control asked for at the last look.
     """
 
     def __init__(
@@ -39,6 +40,7 @@ class Mapped:
         puck: bool = False,
     ) -> None:
         flat = _flat(controls)
+        self.each: dict[str, ControlValues] | None = None
         self._enable, self._guessed = enable, guessed
         self._fine = {name: section.fine_button for name, section in flat.items()}
         self._sticks = {
@@ -96,7 +98,11 @@ class Mapped:
         for name, reader in self._readers.items():
             if (sample := values.get(name)) is not None:
                 fine = _pressed(values, self._fine[name])
-                reader.read(sample, changed.get(name, ()), now, fine, read)
+                own = read if self.each is None else ControlValues()
+                reader.read(sample, changed.get(name, ()), now, fine, own)
+                if self.each is not None:
+                    self.each[name] = own
+                    read.add(own)
         if self._guessed:
             self._find_triggers()
         enabled = None if self._enable is None else _pressed(values, self._enable)

@@ -2,16 +2,12 @@
 
 import itertools
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import pytest
 
-from teleop.config.documents.yaml_loader import read_document
-from teleop.config.inputs_section import InputSection, input_rules
+from teleop.config.inputs_section import ControlSection
 from teleop.core.axes import Axis
-from teleop.core.operator_input import Command
-from teleop.inputs.hid.descriptor.names import USAGES
-from teleop.inputs.hid.learn import Found, Kind, Learned, Question, Watch, other_way, questions, still
+from teleop.inputs.hid.learn import Found, Kind, Watch, still
 from teleop.inputs.hid.state import Change, Sample
 
 
@@ -86,68 +82,41 @@ def test_everything_is_still_when_nothing_moves_and_no_button_is_held() -> None:
     assert not still(REST, {**REST, "Button 7": ON})
 
 
-def test_the_rigs_axes_are_asked_for_and_a_way_back_where_one_is_needed() -> None:
-    asked = questions([Axis.PAN, Axis.FOCUS])
-    assert [question.axis for question in asked if question.axis] == [Axis.PAN, Axis.FOCUS]
-    assert asked[0].text == "Move the control for: pan right"
-    assert other_way(asked[1]).text == "Move the control for: focus nearer"
-    assert {question.press for question in asked} >= {Command.STOP, Command.CLEAR, Command.RECALL}
-    assert asked[-1].enable
+def test_a_switch_that_is_on_rests_and_only_its_next_press_is_meant() -> None:
+    switched = {**REST, "Button 7": ON}
+    assert not still(switched, switched)
+    assert still(switched, switched, switches=True)
+    assert answer(False, switched, REST, rest=switched) is None
+    assert answer(False, REST, switched, rest=switched) == Found("Button 7", Kind.BUTTON, 1)
 
 
-def test_the_answers_become_the_inputs_of_a_profile() -> None:
-    pan, tilt, focus = (Question("", axis=axis) for axis in (Axis.PAN, Axis.TILT, Axis.FOCUS))
-    learned = Learned()
-    learned.add(pan, Found("X", Kind.STICK, 1))
-    learned.add(tilt, Found("Y", Kind.STICK, -1))
-    learned.add(focus, Found("Ry", Kind.TRIGGER, 1))
-    learned.add(focus, Found("Rx", Kind.TRIGGER, 1), back=True)
-    learned.add(Question("", axis=Axis.ROLL), Found("Slider", Kind.LEVER, -1))
-    learned.add(Question("", press=Command.RECALL, number=2), Found("Hat switch up", Kind.BUTTON, 1))
-    learned.add(Question("", press=Command.STOP), Found("Button 1", Kind.BUTTON, 1))
-    learned.add(Question("", enable=True), Found("Button 5", Kind.BUTTON, 1))
-    assert learned.has("Button 5")
-    assert learned.has("Hat switch up")
-    assert (
-        learned.text(0x54C, 0x9CC, "Wireless Controller")
-        == """\
-inputs:   # Wireless Controller
-  - device: {vendor: 0x054c, product: 0x09cc}
-    enable: Button 5
-    controls:
-      X: {axis: pan}
-      Y: {axis: tilt, invert: true}
-      Ry: {axis: focus, rest: low}
-      Rx: {axis: focus, rest: low, invert: true}
-      Slider: {axis: roll, by: position, invert: true}
-      Hat switch:
-        up: {press: recall, number: 2, hold: store}
-      Button 1: {press: stop}
-"""
-    )
+def test_a_stick_that_was_held_and_is_released_has_not_answered() -> None:
+    held = {**REST, "X": byte(255)}
+    watch = Watch(held, smooth=True)
+    found = watch.see(REST, (), 0)
+    assert found is not None
+    assert watch.was_released(found, REST)
+    pushed = Watch(REST, smooth=True)
+    assert not pushed.was_released(found, REST)
+    assert not pushed.was_released(found, held)
 
 
-def test_whatever_a_control_is_called_the_profile_holds_that_name(tmp_path: Path) -> None:
-    names = [name for usages in USAGES.values() for name in usages.values() if name != "Hat switch"]
-    learned = Learned()
-    for name in names:
-        learned.add(Question("", axis=Axis.PAN), Found(name, Kind.STICK, 1))
-    learned.add(Question("", enable=True), Found("Key non-US #", Kind.BUTTON, 1))
-    file = tmp_path / "inputs.yaml"
-    file.write_text(learned.text(1, 2, "A keyboard"))
-    (section,) = read_document(file).data["inputs"]
-    assert list(section["controls"]) == names
-    assert section["enable"] == "Key non-US #"
+@pytest.mark.parametrize("name", ["Dial", "joystick 2: Dial", "Wheel 2"])
+def test_a_wheel_that_sends_a_number_that_runs_on_is_a_counter(name: str) -> None:
+    looks = [{name: byte(value)} for value in (254, 255, 0, 1)]
+    assert answer(True, *looks[1:], rest=looks[0]) == Found(name, Kind.COUNTER, 1)
+    assert answer(True, *looks, rest={}) == Found(name, Kind.COUNTER, 1), "one that reports only changes"
 
 
-kinds = [Found("A", kind, towards) for kind in Kind for towards in (1, -1)]
+def test_a_steering_wheel_is_a_stick() -> None:
+    looks = [{"Wheel": byte(value)} for value in (140, 170, 255)]
+    assert answer(True, *looks, rest={"Wheel": byte(128)}) == Found("Wheel", Kind.STICK, 1)
 
 
-@pytest.mark.parametrize("found", kinds, ids=lambda found: f"{found.kind.value} {found.towards}")
-@pytest.mark.parametrize("back", [False, True])
-def test_every_answer_is_one_that_a_profile_may_hold(found: Found, back: bool) -> None:
-    learned = Learned()
-    learned.add(Question("", axis=Axis.PAN), found, back)
-    section = {"controls": dict(learned.nested())}
-    assert list(input_rules({"axes": {"pan": {}}, "inputs": [section]})) == []
-    InputSection.model_validate(section)
+def test_what_a_shipped_mapping_says_of_a_control_counts() -> None:
+    known = {"Wheel": ControlSection(axis=Axis.PAN, value_type="absolute", range=[-7, 7])}
+    watch = Watch({"Wheel": Sample(0, -128, 127)}, smooth=True, known=known)
+    assert watch.see({"Wheel": Sample(6, -128, 127)}, (), 0) == Found("Wheel", Kind.STICK, 1)
+    counter = {"Dial": ControlSection(axis=Axis.FOCUS, value_type="counter")}
+    watch = Watch({"Dial": byte(200)}, smooth=True, known=counter)
+    assert watch.see({"Dial": byte(197)}, (), 0) == Found("Dial", Kind.COUNTER, -1)

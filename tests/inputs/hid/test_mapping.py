@@ -267,3 +267,26 @@ def test_a_guessed_trigger_that_is_held_at_the_start_never_becomes_a_stick() -> 
     for index in range(60, 120):
         assert not guessed.read({"Rx": byte(0), "Ry": byte(128)}, (), index / 100).deflections
     assert not guessed.read({"Rx": byte(0), "Ry": byte(0)}, (), 2.0).deflections
+
+
+def test_what_each_control_asks_for_adds_up_to_what_all_do() -> None:
+    controls = {
+        "X": {"axis": "pan"},
+        "Z": {"axis": "pan", "rest": "low"},
+        "Dial": {"axis": "focus", "coarse": 0.01},
+        "Slider": {"axis": "roll", "by": "position"},
+        "Wheel": {"dial": True},
+        "Button 1": {"press": "stop"},
+    }
+    values = {"X": byte(128), "Z": byte(0), "Slider": byte(9), "Button 1": button(False)}
+    clicks = [Change(1.0, name, Sample(2, -127, 127, relative=True)) for name in ("Dial", "Wheel")]
+    seen = [*clicks, *changes("Button 1", (1.0, button(True)))]
+    moved = {**values, "X": byte(200), "Z": byte(90), **{change.name: change.sample for change in seen}}
+    together, apart = (settled(mapped(controls, relative={"Dial", "Wheel"}), values) for _ in range(2))
+    apart.each = {}
+    expected = together.read(moved, seen, 1.0)
+    assert apart.read(moved, seen, 1.0) == expected
+    assert expected.deflections[Axis.PAN] > apart.each["X"].deflections[Axis.PAN] > 0
+    assert {name: each.presses for name, each in apart.each.items() if each.presses} == {
+        "Button 1": [Press(Command.STOP)]
+    }
