@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import scipy.sparse as sparse
+from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
 from teleop.planner.polynomial import Array
@@ -22,7 +23,9 @@ DEGREE = 5
 SPACING = 0.08  # s between knots: twice as fine as 3 Hz needs
 ORDERS = 4  # position, velocity, acceleration, jerk
 _ENDS = 3  # coefficients that are 0 at either end: no offset, at rest
+Numbers = NDArray[np.intp]
 Sparse = Any  # scipy.sparse: its own type stubs do not say what an operation returns
+diagonals: Any = sparse.diags
 
 
 class Basis:
@@ -40,7 +43,7 @@ class Basis:
         return sum(self._counts)
 
     @cached_property
-    def free(self) -> Array:
+    def free(self) -> Numbers:
         """The numbers of the coefficients that are not held at 0."""
         kept, first = [], 0
         for count in self._counts:
@@ -54,7 +57,7 @@ class Basis:
         for vector in self._vectors:
             here = (times >= vector[0]) & (times <= vector[-1]) & ~done
             done |= here
-            rows = BSpline.design_matrix(times[here], vector, DEGREE).tocoo()
+            rows: Sparse = BSpline.design_matrix(times[here], vector, DEGREE).tocoo()
             index = np.flatnonzero(here)[rows.row]
             blocks.append(sparse.coo_matrix((rows.data, (index, rows.col)), (len(times), rows.shape[1])))
         return sparse.hstack(blocks).tocsc()
@@ -68,12 +71,12 @@ class Basis:
                 widths = knots[degree + 1 : -1] - knots[1 : -degree - 1]
                 size = len(widths)
                 ones = np.ones(size)
-                step = sparse.diags([-ones, ones], [0, 1], shape=(size, size + 1))
+                step = diagonals([-ones, ones], [0, 1], shape=(size, size + 1))
                 matrix, knots = sparse.diags(degree / widths) @ step @ matrix, knots[1:-1]
             blocks.append(matrix)
         return sparse.block_diag(blocks).tocsc()
 
-    def supports(self, order: int) -> tuple[Array, Array]:
+    def supports(self, order: int) -> tuple[Numbers, Numbers]:
         """Of each coefficient of that derivative, the first of the spans between `knots` it reaches, and one past."""
         first, last = [], []
         for vector in self._vectors:
@@ -96,7 +99,7 @@ class Basis:
         times = np.union1d(self.knots, np.linspace(self.knots[0], self.knots[-1], 4 * len(self.knots)))
         matrix = self.values(times)[:, self.free]
         found = np.zeros(self.count)
-        found[self.free] = spsolve((matrix.T @ matrix).tocsc(), matrix.T @ offset.sample(times)[0])
+        found[self.free] = np.asarray(spsolve((matrix.T @ matrix).tocsc(), matrix.T @ offset.sample(times)[0]))
         return found
 
     def _at_knots(self, coefficients: Array, order: int) -> Array:

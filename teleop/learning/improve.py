@@ -13,7 +13,7 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import spsolve
 
-from teleop.learning.basis import Basis, Sparse
+from teleop.learning.basis import Basis, Sparse, diagonals
 from teleop.learning.response_model import STEP
 from teleop.learning.room import Room
 from teleop.planner.keyframes.qp_solver import minimize
@@ -39,7 +39,7 @@ class Improver:
         `counts` (n,) is 1 for an error that counts and 0 for one that does not.
         """
         count = len(error)
-        answer = sparse.diags(
+        answer = diagonals(
             [np.full(count - k, tap) for k, tap in enumerate(taps) if k < count],
             [-k for k in range(min(len(taps), count))],
             shape=(count, count),
@@ -50,7 +50,7 @@ class Improver:
         cost = (effect.T @ effect + rough).tocsc()
         aim = effect.T @ (counts * error + effect @ present[self._basis.free])
         found = np.zeros(self._basis.count)
-        found[self._basis.free] = spsolve(cost, aim)
+        found[self._basis.free] = np.asarray(spsolve(cost, aim))
         if not self._is_legal(found):
             found = self._bounded(cost, aim)
         left = counts * error - effect @ (found - present)[self._basis.free]

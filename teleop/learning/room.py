@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from teleop.core.axes import Limits
-from teleop.learning.basis import ORDERS, Basis
+from teleop.learning.basis import ORDERS, Basis, Numbers
 from teleop.planner.offset_track import is_within, spans
 from teleop.planner.polynomial import Array
 from teleop.planner.trajectory import Peaks, Track
@@ -55,7 +55,7 @@ def _nearby(speeds: Array, knots: Array) -> Array:
     return STILL + SECONDS * _over(np.maximum, speeds, first, last)
 
 
-def _over(least_or_most: np.ufunc, values: Array, first: Array, last: Array) -> Array:
+def _over(least_or_most: np.ufunc, values: Array, first: Numbers, last: Numbers) -> Array:
     """The least or the most of `values` within each [first, last)."""
     ranges: Sequence[tuple[int, int]] = list(zip(first.tolist(), last.tolist(), strict=True))
     return np.array([least_or_most.reduce(values[low:high]) for low, high in ranges])

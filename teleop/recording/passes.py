@@ -48,7 +48,7 @@ def passes(take: Take) -> Iterator[Pass]:
 
 def _pass(take: Take, number: int, parts: Sequence[tuple[Mark, float]]) -> Pass:
     planned = {axis: _path(take.times, take.planned(axis), parts) for axis in take.axes}
-    measured = {axis: _path(*rows, parts) for axis, rows in take.measured.items() if axis in planned}
+    measured = {axis: _path(rows[0], rows[1], parts) for axis, rows in take.measured.items() if axis in planned}
     measured = {axis: path for axis, path in measured.items() if len(path[0])}
     first = parts[0][0]
     begin, end = (int(each) for each in np.searchsorted(take.times, [first.time - SAME, parts[-1][1] - SAME]))

@@ -52,7 +52,8 @@ class SequenceSource:
         self.duration = compiled.duration
         self.moves_drone = any(axis.is_stick for axis in compiled.move.tracks)
         corrector = self.cycle.corrector
-        self.move = (corrector and corrector.next_move()) or compiled.move  # what this pass plays
+        known = None if corrector is None else corrector.next_move()
+        self.move = compiled.move if known is None else known  # what this pass plays
         self._last_cue = max((cue.at for cue in compiled.cues), default=0.0)
         self._limits = {axis: limits[axis] for axis in self.move.tracks}
         self.key_times = sorted({key.at for of_axis in compiled.keys.values() for key in of_axis})
