@@ -4,23 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
-from teleop.core.axes import Axis, Limits, Motion, State
-from teleop.core.events import DeviceCommand, Tick
+from teleop.core.axes import Axis, Limits
+from teleop.core.events import DeviceCommand
 from teleop.learning.correction import Correction
 from teleop.learning.correction_file import read_correction, write_correction
 from teleop.learning.pass_learner import PassLearner, Subject
+from teleop.learning.pass_traces import PassObserver
 from teleop.planner.trajectory import Move
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Wait
+from teleop.sequence.cycle import Corrector, Cycle
 from teleop.sequence.fingerprint import fingerprint
 from teleop.sequence.source import SequenceSource
+
+SETTLE = 4.0  # s: a gimbal that is corrected late rings for so long
 
 
 @dataclass(frozen=True)
@@ -88,15 +92,12 @@ def learner(
     return PassLearner(subject, executor, notify, partial(write_correction, file), known)
 
 
-def as_planned(source: SequenceSource, plan: Move, tick: Tick) -> Motion:
-    """The tick's motion without what a correction has added: what the measured one is to be compared with."""
-    place = source.place(tick.time)
-    if place is None or source.move is plan:
-        return tick.motion
-    played, planned = source.move.at(place[1]), plan.at(place[1])
-    return {
-        axis: State(state.position - played[axis].position + planned[axis].position, *state[1:])
-        if axis in planned
-        else state
-        for axis, state in tick.motion.items()
-    }
+def corrected(cycle: Cycle, corrector: Corrector) -> Cycle:
+    """Passes that are corrected, each from rest: what the ease before it has left would not be the same again."""
+    return replace(cycle, corrector=corrector, preroll=max(cycle.preroll, SETTLE))
+
+
+def observe_passes(learner: PassLearner, source: SequenceSource) -> PassObserver:
+    """What sees the passes of a source for the learner."""
+    learner.observer = PassObserver(source.place, lambda: source.move, lambda: source.waiting)
+    return learner.observer

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from teleop.core.axes import Motion, State
 from teleop.core.events import Tick
 from teleop.devices.gimbal.version import VersionQuestion
 from teleop.devices.rig import Rig
@@ -39,3 +40,17 @@ def facts_of(sequence: CompiledSequence) -> SequenceFacts:
     return SequenceFacts(
         fingerprint(sequence), {axis: [key.at for key in keys] for axis, keys in sequence.keys.items()}
     )
+
+
+def as_planned(source: SequenceSource, plan: Move, tick: Tick) -> Motion:
+    """The tick's motion without what a correction has added: what the measured one is to be compared with."""
+    place = source.place(tick.time)
+    if place is None or source.move is plan:
+        return tick.motion
+    played, planned = source.move.at(place[1]), plan.at(place[1])
+    return {
+        axis: State(state.position - played[axis].position + planned[axis].position, *state[1:])
+        if axis in planned
+        else state
+        for axis, state in tick.motion.items()
+    }

@@ -7,11 +7,11 @@ from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from teleop.app.drone_flight import Aboard, is_flown
-from teleop.app.learning import as_planned
 from teleop.app.operator_inputs import open_devices
-from teleop.app.played_status import PlayedStatus, facts_of
+from teleop.app.played_status import PlayedStatus, as_planned, facts_of
 from teleop.app.run import RunReport, Screen, Signals, commands, run
 from teleop.app.stop_inputs import open_stop_inputs
 from teleop.app.trim_writer import TrimWriter
@@ -21,8 +21,6 @@ from teleop.core.interfaces import Clock
 from teleop.core.run_status import RunStatus
 from teleop.devices.rig import open_rig
 from teleop.inputs.keyboard import Keyboard
-from teleop.learning.pass_learner import PassLearner
-from teleop.learning.pass_traces import PassObserver
 from teleop.manual.live_offset import LiveOffset
 from teleop.manual.stop_guard import Relay, StopGuard, Together
 from teleop.monitors.repeatability import Repeatability
@@ -34,6 +32,10 @@ from teleop.sequence.playback_controls import PlaybackControls
 from teleop.sequence.progress import run_status
 from teleop.sequence.source import SequenceSource
 from teleop.sequence.trim_export import TrimmedFile
+
+if TYPE_CHECKING:
+    from teleop.learning.pass_learner import PassLearner
+    from teleop.learning.pass_traces import PassObserver
 
 NO_INPUT = "play --trim: no joystick and no terminal: plug in a joystick, or run it on a terminal"
 
@@ -117,9 +119,9 @@ class SequenceRun:
         """What sees the passes for the learner."""
         if self.learner is None:
             return None
-        source = self.source
-        self.learner.observer = PassObserver(source.place, lambda: source.move, lambda: source.waiting)
-        return self.learner.observer
+        from teleop.app.learning import observe_passes  # with scipy, only where something is learned
+
+        return observe_passes(self.learner, self.source)
 
     def _recording(self, aboard: Aboard) -> AbstractContextManager[Recorder | None]:
         status, title = aboard.status if is_flown(self.axes) else None, self.sequence.title

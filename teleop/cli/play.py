@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -104,7 +104,6 @@ class Ordered:
     learning: LearnedOptions
 
 
-SETTLE = 4.0  # s: a gimbal that is corrected late rings for so long
 AS_WRITTEN = Ordered("100%", NO_STAGING, NO_TRIM, NOT_LEARNED)
 
 
@@ -183,8 +182,9 @@ class Lessons:
     file: Path
 
     def staged(self, cycle: Cycle) -> Cycle:
-        """Each pass begins at rest: what the ease before it has left would not be the same again."""
-        return replace(cycle, corrector=self.corrector, preroll=max(cycle.preroll, SETTLE))
+        from teleop.app.learning import corrected
+
+        return corrected(cycle, self.corrector)
 
 
 def _lessons(

@@ -10,6 +10,7 @@ from typing import Any, cast
 import pytest
 from learning_bench import FAST, SLOW, learned, rig
 
+import teleop
 from teleop.core.axes import Axis
 from teleop.core.events import Tick
 from teleop.core.operator_input import Command, Held, Press
@@ -18,6 +19,12 @@ from teleop.inputs.keyboard import Keyboard
 from teleop.learning.correction_file import read_correction
 from teleop.learning.pass_traces import CHANGED
 
+PROFILE = """
+name: Bench
+links: {gimbal: "sim:"}
+axes: {pan: {min: -90, max: 90, velocity: 120, acceleration: 240, jerk: 1200}}
+sinks: [{type: gimbal, link: gimbal, mode: speed, rate: 50, simulated: {lag: 0.08, dead_time: 0.03}}]
+"""
 LATE = {"lag": 0.08, "dead_time": 0.03, "backlash": 0.05}
 
 
@@ -93,3 +100,18 @@ def test_what_is_reported_is_against_the_plan_and_not_against_what_was_sent(tmp_
     again = learned(rig(LATE), FAST, 2, tmp_path, known=first.saved[-1])
     assert again.rms()[-2] <= max(first.rms()[0] / 4, 0.06)
     assert [each.number for each in again.learner.passes] == [1, 2, 3, 4]  # goes on from what the file has
+
+
+def test_a_program_learns_and_plays_what_it_has_learned(tmp_path: Path):
+    (tmp_path / "rig.yaml").write_text(PROFILE)
+    with teleop.open(tmp_path / "rig.yaml", virtual=True) as opened:
+        report = opened.play(FAST, passes=2, learn=True, take=tmp_path / "a.mcap")
+        first, second = (each["pan"].rms for each in report.passes)
+        assert second <= max(first / 4, 0.06)
+        with pytest.raises(teleop.UsageError, match="already exists"):
+            opened.play(FAST, passes=2, learn=tmp_path / "a.learned.json")
+        with pytest.raises(teleop.UsageError, match="needs passes"):
+            opened.play(FAST, learn=True, take=tmp_path / "b.mcap")
+        again = opened.play(FAST, learned=tmp_path / "a.learned.json")
+    assert again.axes["pan"].rms <= max(first / 4, 0.06)
+    assert teleop.read_take(tmp_path / "a.mcap").about.sequence.fingerprint
