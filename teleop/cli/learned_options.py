@@ -113,10 +113,13 @@ class LearningReport:
     def print(self) -> None:
         for axis, (number, error) in self._learner.best.items():
             tell(f"{axis}: the best is pass {number}, RMS {error.rms:.3f} deg, worst {error.worst:.3f} deg")
-        if self._learner.saved:
+        found = self._learner.correction
+        if found is not None and not found.offsets:
+            tell(f"{self._file}: no correction was better than none")
+        elif self._learner.saved:
             tell(f"{self._file}: the best correction; play with it: --learned {self._file}")
         else:
-            tell("no correction was better than none: no file is written")
+            tell("no pass has taught anything: no file is written")
 
 
 def _plain(errors: PassErrors) -> dict[str, object]:

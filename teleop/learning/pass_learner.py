@@ -79,13 +79,13 @@ class PassLearner:
 
     @property
     def correction(self) -> Correction | None:
-        """The best so far; None where no correction was better than none."""
+        """The best so far, of no axis where none is better than nothing; None before a pass has taught."""
         offsets, best = {}, {}
         for axis, learner in self._learners.items():
             if learner.best_error is not None and learner.best.coefficients.any():
                 offsets[axis], best[axis] = learner.best, learner.best_pass
         of = self._subject
-        return Correction(of.rig, of.title, of.fingerprint, offsets, best, self.passes) if offsets else None
+        return Correction(of.rig, of.title, of.fingerprint, offsets, best, self.passes) if self.best else None
 
     @property
     def best(self) -> Mapping[Axis, tuple[int, Error]]:
