@@ -75,7 +75,8 @@ class Stick:
         self._dead_zone = dead_zone if section.dead_zone is None else section.dead_zone
         self._expo = expo if section.expo is None else section.expo
         self.center: Center | None = None
-        self.is_trigger = False  # by its guessed mapping, and where it first was
+        self.is_trigger = False  # by its guessed mapping, and where it first was (see Pair)
+        self.at_center = False
         self.is_inside = False  # deflected, and not to the end of its range
 
     @property
@@ -99,13 +100,14 @@ class Stick:
 
     def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, values: ControlValues) -> None:  # noqa: ARG002
         section = self._section
-        self.is_inside = False
+        self.is_inside = self.at_center = False
         low, high = section.range or (sample.minimum, sample.maximum)
         if sample.null or low == high:
             return
         if (section.rest or ("low" if (low, high) == (0, 1) else "middle")) == "middle":
             self.center = self.center or Center(low, high, self._given(low, high))
             self.center.see(sample.value, now)
+            self.at_center = self.center.has(sample.value)
             if self.is_locked or self.center.value is None:
                 return
             deflection = deflect(sample.value, low, self.center.value, high)

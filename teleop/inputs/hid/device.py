@@ -19,7 +19,7 @@ from teleop.config.inputs_section import DIRECTIONS, ActionSection, ControlSecti
 from teleop.config.operator_settings import DEAD_ZONE, EXPO
 from teleop.config.pad_file import load_pad
 from teleop.core.operator_input import Command, Held
-from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.evdev.backend import AllDevices, missing_package
 from teleop.inputs.hid.backend import DeviceInfo, HidBackend, Unit, described, identified, unit
 from teleop.inputs.hid.claims import Claims
 from teleop.inputs.hid.mapping import Mapped
@@ -96,7 +96,7 @@ class HidInput:
                 self._keep_centers(self._plugged)
             last_words = self._plugged and self._look(self._plugged, now)
             self._plugged, self._judged, self._misnamed = plugged, set(), self._enable_trouble(plugged)
-            if plugged is not None and (self._reader.rivals or self._is_spare(plugged)):
+            if plugged is not None and (self._reader.is_chosen or self._is_spare(plugged)):
                 notes.append(f"{self._section.name or self._section.device}: using {identified(plugged.info)}")
             if plugged is not None and plugged.missing and not plugged.chosen.guessed:
                 notes.append(f"{self.name}: no control {', '.join(plugged.missing)}: its mapping is ignored")
@@ -218,6 +218,8 @@ def _undescribed(plugged: Plugged, now: float) -> str:
     if plugged.on_change and state.values and state.is_described(number):
         return ""
     text = f"sends report {number:#04x}, which its descriptor does not describe"
+    if install := missing_package():
+        return f"{text}: connect it by cable, or read its event device: {install}"
     return f"{text}: connect it by cable, or turn it off and on with no other program using it"
 
 
@@ -253,7 +255,7 @@ def open_inputs(
     all, DocumentError when a pad cannot be used.
     """
     devices, sections = backend or AllDevices(), sections or [InputSection()]
-    claims = Claims(sections)
+    claims = Claims(sections, exchangeable=stop_only)
     shipped()  # read now: once the loop runs nothing shall keep it waiting
     with ExitStack() as stack:
         inputs = [

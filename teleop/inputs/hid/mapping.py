@@ -12,9 +12,8 @@ from teleop.config.inputs_section import DIRECTIONS, ControlSection
 from teleop.core.operator_input import Held
 from teleop.inputs.hid.controls import Button, ControlReader, ControlValues, Lever, Stick, Wheel
 from teleop.inputs.hid.pads import stops
+from teleop.inputs.hid.pairs import PAIRS, Pair
 from teleop.inputs.hid.state import Change, Sample
-
-PAIRS = (("Rx", "Ry"), ("Z", "Rz"))  # of a guess: a right stick or two triggers; X and Y are a stick on every pad
 
 
 class Mapped:
@@ -49,6 +48,8 @@ class Mapped:
         others = {
             name: _reader(section, name in relative) for name, section in flat.items() if name not in self._sticks
         }
+        pairs = [[self._sticks[name] for name in pair if name in self._sticks] for pair in PAIRS if guessed]
+        self._pairs = [Pair(sticks) for sticks in pairs if sticks]
         self.stops = frozenset(name for name, section in flat.items() if stops(section))
         self._readers: Mapping[str, ControlReader] = {**self._sticks, **others}
         buttons = {name for name in (enable, *self._fine.values()) if name}
@@ -79,14 +80,6 @@ class Mapped:
         known = {name: stick.center for name, stick in self._sticks.items()}
         return {name: of.value for name, of in known.items() if of and of.learned and of.value is not None}
 
-    def _find_triggers(self) -> None:
-        """Two controls that were not centered, one of them at its low end, are triggers: the other may be held."""
-        for pair in PAIRS:
-            sticks = [self._sticks[name] for name in pair if name in self._sticks]
-            if any(stick.center is not None and stick.center.at_low for stick in sticks):
-                for stick in sticks:
-                    stick.is_trigger = stick.uncentered
-
     def read(self, values: Mapping[str, Sample], changes: Iterable[Change], now: float) -> Held:
         """What the controls ask for at `now`; of a control that has not reported, or has no value, nothing."""
         read = ControlValues()
@@ -97,8 +90,8 @@ class Mapped:
             if (sample := values.get(name)) is not None:
                 fine = _pressed(values, self._fine[name])
                 reader.read(sample, changed.get(name, ()), now, fine, read)
-        if self._guessed:
-            self._find_triggers()
+        for pair in self._pairs:
+            pair.see(now)
         enabled = None if self._enable is None else _pressed(values, self._enable)
         return Held(
             read.deflections,
