@@ -17,6 +17,8 @@ from teleop.inputs.hid.device import open_inputs
 from teleop.inputs.hid.recording import RecordedDevices, Recording
 from teleop.inputs.hid.selection import wanted
 
+_NO_JOYSTICK = "live: no joystick was recorded: name the device that was under inputs: in the profile (--rig)"
+
 
 def open_devices(
     stack: ExitStack,
@@ -44,7 +46,7 @@ def open_devices(
     if recordings or backend is None:
         backend = RecordedDevices(recordings, clock.now, begin, backend)
     if not keys and not profile.inputs and not wanted(DeviceSection(), backend.enumerate(), None):
-        raise UsageError(without)
+        raise UsageError(_NO_JOYSTICK if recordings else without)
     shaping = profile.sticks
     opened = open_inputs(
         profile.inputs, clock.now, backend, dead_zone=shaping.dead_zone, expo=shaping.expo, polled=virtual

@@ -11,4 +11,4 @@ from input_fuzz import fuzz
 
 if __name__ == "__main__":
     events, seed = (int(word) for word in (sys.argv[1:] + ["1000000", "1"][len(sys.argv) - 1 :])[:2])
-    print(f"{events} events: {fuzz(events, seed)} ticks moved something; none before a center, no exception")
+    print(f"seed {seed}: {fuzz(events, seed)}; none without a hand, no exception")

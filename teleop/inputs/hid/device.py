@@ -3,7 +3,7 @@
 Three troubles lock it: unplugged, silent for 0.2 s, and frozen, the very same report for 10 s while something is
 deflected and not at the end of its range. A device that reports only changes is silent by nature: at rest that is no
 trouble, and while it is deflected it is asked. One that repeats itself more rarely is silent only when a repetition is
-missing. Which kind a device is, its reports show (`HidState.steady`, `interval`) unless the profile says it.
+missing. Which kind a device is, its reports show (`Cadence`) unless the profile says it.
 
 Reading here never waits: a thread of the reader's does all that may.
 """
@@ -21,11 +21,13 @@ from teleop.config.pad_file import load_pad
 from teleop.core.operator_input import Command, Held
 from teleop.inputs.evdev.backend import AllDevices, missing_package
 from teleop.inputs.hid.backend import DeviceInfo, HidBackend, Unit, described, identified, unit
+from teleop.inputs.hid.cadence import SILENT
 from teleop.inputs.hid.claims import Claims
+from teleop.inputs.hid.descriptor.identity import MULTI_AXIS
 from teleop.inputs.hid.mapping import Mapped
-from teleop.inputs.hid.pads import MULTI_AXIS, Chosen, may_stop, shipped
+from teleop.inputs.hid.pads import Chosen, may_stop, shipped
 from teleop.inputs.hid.reader import HidReader, Plugged
-from teleop.inputs.hid.state import SILENT, HidState
+from teleop.inputs.hid.state import HidState
 
 RUN_COMMANDS = {Command.STOP, Command.CLEAR, Command.PAUSE, Command.GO, Command.QUIT}  # of a run that moves by itself
 
@@ -124,8 +126,8 @@ class HidInput:
             return f"{self.name}: no control {', '.join(sorted(stops))}"
         if undescribed := _undescribed(plugged, now):
             return f"{self.name}: {undescribed}"
-        if not plugged.on_change and now - state.last > state.patience:
-            return f"{self.name}: no report for {state.patience:g} s"
+        if not plugged.on_change and now - state.last > state.cadence.patience:
+            return f"{self.name}: no report for {state.cadence.patience:g} s"
         return ""
 
     @property
@@ -180,17 +182,22 @@ class HidInput:
         state = plugged.state
         if self._misnamed:
             return self._misnamed
-        deflected = bool(held.dial) or any(held.deflections.values())
+        deflected = held.deflected
         if undescribed := _undescribed(plugged, now):
             return undescribed
         if not plugged.mapped.names & state.values.keys():
             return "no report yet"
         if plugged.mapped.finding:
             return "finding its center: release the sticks"
-        if now - state.last > state.patience and (deflected or not plugged.on_change):
-            return f"no report for {state.patience:g} s"
+        patience = state.cadence.patience
+        if now - state.last > patience and (deflected or not plugged.on_change):
+            return f"no report for {patience:g} s"
+        if deflected and state.is_overdue(plugged.mapped.deflected, now):
+            return "its reports of a stick that is deflected have ended"
+        if plugged.mapped.is_unrested:
+            return "center its sticks"
         unchanged = now - state.differed > plugged.chosen.stuck_timeout
-        if unchanged and plugged.mapped.is_inside and not state.has_heartbeat:
+        if unchanged and plugged.mapped.is_inside and not state.cadence.has_heartbeat:
             return f"reports unchanged for {plugged.chosen.stuck_timeout:g} s; stuck_timeout in the profile changes it"
         return ""
 

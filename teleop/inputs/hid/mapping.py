@@ -75,6 +75,16 @@ class Mapped:
         return any(stick.is_inside for stick in self._sticks.values())
 
     @property
+    def deflected(self) -> Collection[str]:
+        """The sticks that are not at rest."""
+        return [name for name, stick in self._sticks.items() if stick.is_deflected]
+
+    @property
+    def is_unrested(self) -> bool:
+        """Whether a stick is deflected that was never seen at rest: its first report may come after the others'."""
+        return any(stick.is_unrested for stick in self._sticks.values())
+
+    @property
     def centers(self) -> Mapping[str, float]:
         """The centers that were learned."""
         known = {name: stick.center for name, stick in self._sticks.items()}
@@ -92,6 +102,9 @@ class Mapped:
                 reader.read(sample, changed.get(name, ()), now, fine, read)
         for pair in self._pairs:
             pair.see(now)
+        if values:
+            for stick in self._sticks.values():
+                stick.expect()
         enabled = None if self._enable is None else _pressed(values, self._enable)
         return Held(
             read.deflections,
@@ -101,6 +114,7 @@ class Mapped:
             enabled,
             positions=read.positions,
             click=read.click,
+            deflected=read.deflected,
         )
 
 

@@ -46,7 +46,7 @@ class Plugged:
     @property
     def on_change(self) -> bool:
         """Whether its silence is no fault, as long as it is at rest or answers when asked."""
-        return self.chosen.reports == "on-change" or (self.chosen.reports == "auto" and not self.state.steady)
+        return self.chosen.reports == "on-change" or (self.chosen.reports == "auto" and not self.state.cadence.steady)
 
     def ask(self, device: HidDevice, now: Callable[[], float]) -> None:
         """Ask for its reports, if it has been quiet for a while and answers; one that once did not is left alone."""
@@ -201,10 +201,8 @@ class HidReader:
             return None
         state = HidState(parse_descriptor(descriptor))
         chosen = choose(self._section, _as_guessed(info, state), state.guessable)
-        if chosen.unreadable:
-            install = missing_package()
-            cure = f"; read its event device: {install}" if install else ""
-            self._refusal = f"{described(info)} cannot be used: {chosen.unreadable}{cure}"
+        if unusable := _unusable(chosen):
+            self._refusal = f"{described(info)} cannot be used: {unusable}"
             device.close()
             return None
         return device, Plugged(info, state, chosen, self._mapped(chosen, state, info))
@@ -261,3 +259,13 @@ def _as_guessed(info: DeviceInfo, state: HidState) -> DeviceInfo:
     """The device, for the collection that a guess is made for: the system lists one that it is for by chance."""
     page, usage = state.purpose
     return info._replace(usage_page=page, usage=usage) if page else info
+
+
+def _unusable(chosen: Chosen) -> str:
+    """Why the device does nothing with this mapping, and the cure; "" where it does something."""
+    if chosen.unreadable:
+        install = missing_package()
+        return f"{chosen.unreadable}; read its event device: {install}" if install else chosen.unreadable
+    if chosen.guessed and not chosen.controls:
+        return "it has no stick or button to guess a mapping for; teleop live --learn makes one"
+    return ""

@@ -4,32 +4,25 @@ The reader puts a whole new mapping of values in place of the old one, and queue
 looks: every change of a button, every count of a wheel. Assigning an attribute and appending to a deque are atomic in
 Python, so that neither side needs a lock.
 
-Whether a device reports all the time or only when something changes is seen from the reports themselves: only the
-first kind repeats itself, and then many times. How often it does is learned too: `patience` is how long a silence of
-this device is normal. Vendors' fields are left out of this and of all else: a pad has clocks and gyroscopes there.
+Whether a device reports all the time or only when something changes, and how often, is seen from the reports
+themselves (`Cadence`). Vendors' fields are left out of this and of all else: a pad has clocks and gyroscopes there.
 """
 
 from __future__ import annotations
 
 import math
-from collections import deque
+from collections import defaultdict, deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from teleop.inputs.hid.cadence import Cadence
 from teleop.inputs.hid.descriptor.fields import VENDOR_PAGES, Field
-from teleop.inputs.hid.descriptor.identity import LONGEST_ARRAY
+from teleop.inputs.hid.descriptor.identity import LONGEST_ARRAY, MULTI_AXIS
 from teleop.inputs.hid.descriptor.parser import Descriptor
 from teleop.inputs.hid.descriptor.report import Control, read_report
 from teleop.inputs.hid.hat import DIRECTIONS, HAT, Hat, points_to
 
-SILENT = 0.2  # s without a report, after which a device is not trusted that was not seen to report more rarely
-REPEATS = 9  # the latest repetitions whose interval is looked at
-FEW_REPEATS = 3  # enough of them to know the interval
-SLOWEST_REPEAT = 1.0  # s: what is repeated after longer is no sign of life to be expected
-LATE = 2.5  # times the usual interval: then a report is missing
-HEARTBEAT = 0.15  # s: what repeats itself more rarely reports changes at once, and lives between them
-STEADY = 20  # reports in a row without a change: more than any device that reports changes sends for one
 MAX_CHANGES = 4096  # changes pile up while no run reads them
 
 
@@ -67,9 +60,12 @@ class HidState:
         fields = [field for field in descriptor.fields if field.usage_page < VENDOR_PAGES]
         self._descriptor = replace(descriptor, fields=tuple(fields))
         self.names = frozenset(name for field in fields for name in _names(field))
-        self.guessable = frozenset(name for field in self._descriptor.primary_fields for name in _names(field))
         self.purpose = descriptor.purpose
         self.relative = frozenset(name for field in fields if field.relative for name in _names(field))
+        primary = self._descriptor.primary_fields
+        if self.purpose != MULTI_AXIS:  # whose places are called relative: what counts is no stick to be guessed
+            primary = [field for field in primary if not field.relative]
+        self.guessable = frozenset(name for field in primary for name in _names(field))
         self.watched: Collection[str] = frozenset()
         self.counting: Mapping[str, bool] = {}
         self.vital: Collection[int] = frozenset(field.report_id for field in fields)
@@ -80,26 +76,13 @@ class HidState:
         self._ids = {name: field.report_id for field in reversed(fields) for name in _names(field)}
         self._reports: dict[int, bytes] = {}
         self._held: dict[int, Mapping[str, Sample]] = {}
-        self._same = 0
         self._hats: dict[str, Hat] = {}
-        self._arrived = -math.inf  # when the last report came by itself
-        self._intervals: deque[float] = deque(maxlen=REPEATS)  # before reports that repeated the one before
-        self.interval = 0.0  # s, the usual one of these, 0 until it is known
+        self.cadence = Cadence()
+        self._cadences: defaultdict[int, Cadence] = defaultdict(Cadence)  # of each report
 
-    @property
-    def patience(self) -> float:
-        """s without a report after which one is missing."""
-        return max(SILENT, LATE * self.interval)
-
-    @property
-    def has_heartbeat(self) -> bool:
-        """Whether it reports changes at once and, between them, that it lives."""
-        return self.interval > HEARTBEAT
-
-    @property
-    def steady(self) -> bool:
-        """Whether it has been seen to report without anything having changed."""
-        return self._same >= STEADY
+    def is_overdue(self, names: Collection[str], now: float) -> bool:
+        """Whether a report with one of these controls has ended, which was repeated all the time."""
+        return any(self._cadences[number].is_overdue(now) for number in self.report_ids(names) if number in self._held)
 
     def report_ids(self, names: Collection[str]) -> Sequence[int]:
         """The reports that these controls are in."""
@@ -133,22 +116,14 @@ class HidState:
         before = self._held.get(number, {})
         held.update(_released(before.keys() - held.keys(), before))
         if not asked:
-            self._learn_interval(held == before and not any(map(_counts, held.values())), now)
+            repeats = held == before and not any(map(_counts, held.values()))
+            self.cadence.take(repeats, now)
+            self._cadences[number].take(repeats, now)
         self._held[number] = held
         for name, sample in held.items():
             if name in self.watched and (sample.value if sample.relative else sample != before.get(name, sample)):
                 self._changes.append(Change(now, name, sample))
         self.values = {**self.values, **held} if len(self._held) > 1 else held
-
-    def _learn_interval(self, repeats: bool, now: float) -> None:
-        """`repeats`: this report is the one before it once more."""
-        interval, self._arrived = now - self._arrived, now
-        if repeats and interval <= SLOWEST_REPEAT:
-            self._intervals.append(interval)
-            if len(self._intervals) >= FEW_REPEATS:
-                self.interval = sorted(self._intervals)[len(self._intervals) // 2]
-        if self._same < STEADY:
-            self._same = self._same + 1 if repeats and interval <= SLOWEST_REPEAT else 0
 
     def _samples(self, control: Control) -> Iterator[tuple[str, Sample]]:
         """The control, and of a hat its four directions as buttons."""
