@@ -163,7 +163,7 @@ class _Shelf(Presets):
     """Presets that are on no disk."""
 
     def _save(self) -> None:
-        pass
+        self._name()
 
 
 @dataclass

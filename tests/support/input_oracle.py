@@ -21,6 +21,8 @@ class Oracle:
     def __init__(self, inputs: Sequence[HidInput]) -> None:
         self._inputs = inputs
         self._rested: dict[Plugged, set[str]] = {}  # the controls of a device that were seen at their rest
+        self._first: dict[tuple[Plugged, str], float] = {}  # where sliders and counters were first seen
+        self._touched: set[tuple[Plugged, str]] = set()  # those that were elsewhere since
 
     def judge(self, status: OperatorStatus, before: Motion, after: Motion) -> int:
         """How many axes set off in this tick; AssertionError for one that may not have."""
@@ -28,6 +30,9 @@ class Oracle:
         for each in plugged:
             if each is not None:
                 rested = self._rested.setdefault(each, set())
+                for name, _, sample in _sticks(each):
+                    if self._first.setdefault((each, name), sample.value) != sample.value:
+                        self._touched.add((each, name))
                 rested.update(
                     name for name, section, sample in _sticks(each) if abs(_deflection(each, section, sample)) < NEAR
                 )
@@ -41,8 +46,15 @@ class Oracle:
         return [
             name
             for name, section, sample in _sticks(plugged)
-            if section.axis is axis and name in self._rested[plugged] and _deflection(plugged, section, sample)
+            if section.axis is axis and self._is_moved(plugged, name, section, sample)
         ]
+
+    def _is_moved(self, plugged: Plugged, name: str, section: ControlSection, sample: Sample) -> bool:
+        if sample.relative:
+            return True  # a wheel says only that it was turned
+        if section.by == "position" or section.value_type == "counter":
+            return (plugged, name) in self._touched
+        return name in self._rested[plugged] and bool(_deflection(plugged, section, sample))
 
 
 def _sticks(plugged: Plugged) -> list[tuple[str, ControlSection, Sample]]:

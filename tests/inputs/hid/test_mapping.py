@@ -267,3 +267,22 @@ def test_a_guessed_trigger_that_is_held_at_the_start_never_becomes_a_stick() -> 
     for index in range(60, 120):
         assert not guessed.read({"Rx": byte(0), "Ry": byte(128)}, (), index / 100).deflections
     assert not guessed.read({"Rx": byte(0), "Ry": byte(0)}, (), 2.0).deflections
+
+
+def test_two_deflections_that_cancel_each_other_out_are_no_rest() -> None:
+    triggers = mapped({"Z": {"axis": "focus", "rest": "low", "invert": True}, "Rz": {"axis": "focus", "rest": "low"}})
+    both = look(triggers, Z=byte(128), Rz=byte(128))
+    assert both.deflections == {Axis.FOCUS: 0}
+    assert both.deflected
+    assert not look(triggers, Z=byte(0), Rz=byte(0)).deflected
+
+
+def test_a_stick_that_comes_later_than_the_first_report_has_to_be_seen_at_rest() -> None:
+    puck = mapped({"Rz": {"axis": "pan", "center": 0}, "Rx": {"axis": "tilt", "center": 0}})
+    look(puck, Rx=Sample(300, -350, 350))
+    assert not puck.is_unrested, "the interlock waits for what is in the first report"
+    look(puck, Rx=Sample(0, -350, 350), Rz=Sample(350, -350, 350))
+    assert puck.is_unrested
+    look(puck, Rx=Sample(0, -350, 350), Rz=Sample(0, -350, 350))
+    look(puck, Rx=Sample(0, -350, 350), Rz=Sample(350, -350, 350))
+    assert not puck.is_unrested
