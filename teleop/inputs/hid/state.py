@@ -41,6 +41,9 @@ class Sample(NamedTuple):
         return not self.null and 2 * self.value > self.minimum + self.maximum
 
 
+_ON = Sample(1, 0, 1)  # a control of an array that is there
+
+
 class Change(NamedTuple):
     """A control has a new value, or a relative one has counted."""
 
@@ -76,6 +79,7 @@ class HidState:
         self._ids = {name: field.report_id for field in reversed(fields) for name in _names(field)}
         self._reports: dict[int, bytes] = {}
         self._held: dict[int, Mapping[str, Sample]] = {}
+        self._blank: set[int] = set()  # whose latest report had no controls, though others had
         self._hats: dict[str, Hat] = {}
         self.cadence = Cadence()
         self._cadences: defaultdict[int, Cadence] = defaultdict(Cadence)  # of each report
@@ -99,46 +103,62 @@ class HidState:
     def take(self, report: bytes, now: float, asked: bool = False) -> None:
         """A report as the device sent it, its id in front where it has one; `asked`: it did not come by itself."""
         number = report[0] if self._descriptor.numbered and report else 0
+        before = self._held.get(number, {})
         if self._reports.get(number) != report:
             self._reports[number] = report
             self.differed = now
-        held: dict[str, Sample] = {}
-        for control in read_report(self._descriptor, report):
-            if control.usage_page >= VENDOR_PAGES:
-                continue  # an array's usage: fields of these pages are left out already
-            for name, sample in self._samples(control):
-                held[name] = sample._replace(relative=self.counting[name]) if name in self.counting else sample
+            held = self._read(report)
+        elif self.relative or self.counting or number in self._blank:
+            held = self._read(report)
+        else:
+            held = before  # byte for byte, and nothing in it counts: what most reports of most devices are
         if not held:
+            self._blank.add(number)
             self.opaque = number, now
             return
+        self._blank.discard(number)
         if number in self.vital:
             self.last = now
-        before = self._held.get(number, {})
-        held.update(_released(before.keys() - held.keys(), before))
-        if not asked:
-            repeats = held == before and not any(map(_counts, held.values()))
-            self.cadence.take(repeats, now)
-            self._cadences[number].take(repeats, now)
+        if held is before:
+            self._count(number, True, now, asked)
+            return
+        if gone := before.keys() - held.keys():
+            held.update(_released(gone, before))
+        self._count(number, held == before and not any(map(_counts, held.values())), now, asked)
         self._held[number] = held
         for name, sample in held.items():
             if name in self.watched and (sample.value if sample.relative else sample != before.get(name, sample)):
                 self._changes.append(Change(now, name, sample))
         self.values = {**self.values, **held} if len(self._held) > 1 else held
 
-    def _samples(self, control: Control) -> Iterator[tuple[str, Sample]]:
+    def _read(self, report: bytes) -> dict[str, Sample]:
+        held: dict[str, Sample] = {}
+        for control in read_report(self._descriptor, report):
+            if control.usage_page < VENDOR_PAGES:  # an array's usage: fields of these pages are left out already
+                self._add(control, held)
+        for name in self.counting.keys() & held.keys():
+            held[name] = held[name]._replace(relative=self.counting[name])
+        return held
+
+    def _count(self, number: int, repeats: bool, now: float, asked: bool) -> None:
+        if not asked:
+            self.cadence.take(repeats, now)
+            self._cadences[number].take(repeats, now)
+
+    def _add(self, control: Control, held: dict[str, Sample]) -> None:
         """The control, and of a hat its four directions as buttons."""
+        name = control.name
         if control.raw is not None:
-            yield control.name, Sample(1, 0, 1)
+            held[name] = _ON
             return
-        yield control.name, Sample(control.value, control.minimum, control.maximum, control.relative, control.null)
-        if (control.usage_page, control.usage) != HAT:
-            return
-        hat = self._hats.setdefault(control.name, Hat())
-        angle = hat.angle(control)
-        for direction, at in DIRECTIONS:
-            name = f"{control.name} {direction}"
-            pressed = hat.first == direction if name in self.watched else points_to(angle, at)
-            yield name, Sample(int(pressed), 0, 1)
+        held[name] = Sample(control.value, control.minimum, control.maximum, control.relative, control.null)
+        if (control.usage_page, control.usage) == HAT:
+            hat = self._hats.setdefault(name, Hat())
+            angle = hat.angle(control)
+            for direction, at in DIRECTIONS:
+                way = f"{name} {direction}"
+                pressed = hat.first == direction if way in self.watched else points_to(angle, at)
+                held[way] = Sample(int(pressed), 0, 1)
 
     def changes(self) -> Iterator[Change]:
         """What has been queued since the last call."""
