@@ -163,7 +163,7 @@ def test_a_roll_onto_a_diagonal_queues_no_press_of_the_neighbor() -> None:
 
 def test_a_report_without_controls_that_is_repeated_says_nothing_of_those_before() -> None:
     state = HidState(parse_descriptor(bytes.fromhex(real("Logitech F310")["descriptor"])))
-    state.take(F310_REST, 1.0)
+    state.take(bytes.fromhex(F310_REST), 1.0)
     for time in (2.0, 2.1, 2.2):
         state.take(b"", time)
         assert (state.last, state.opaque) == (1.0, (0, time))
