@@ -132,7 +132,7 @@ TOUCHED = [
     ),
     pytest.param(
         collection(JOYSTICK, inputs([X, Y], 0, 254, 8, NULL), EIGHT),
-        pushed(b"\x7f\x7f\0", b"\xfe\x7f\0") + held(b"\xff\xff\0", 2, 3),
+        [*pushed(b"\x7f\x7f\0", b"\xfe\x7f\0"), *held(b"\xff\xff\0", 2, 3)],
         id="a stick with a null state",
     ),
     pytest.param(

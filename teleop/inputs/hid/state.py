@@ -123,7 +123,7 @@ class HidState:
             self._count(number, True, now, asked)
             return
         if gone := before.keys() - held.keys():
-            held.update(_released(gone, before))
+            held = {**held, **dict(_released(gone, before))}
         self._count(number, held == before and not any(map(_counts, held.values())), now, asked)
         self._held[number] = held
         for name, sample in held.items():
