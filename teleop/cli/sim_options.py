@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from types import MappingProxyType
+from typing import Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
@@ -134,8 +136,8 @@ class GimbalSim:
         bool, flag(GIMBAL, "Send on ids 0x530, 0x531 and 0x426 400 times a second, as gimbals do.")
     ] = False
 
-    def made(self) -> SimulatedGimbal:
-        """A gimbal with this firmware. Raises UsageError."""
+    def made(self, settings: Mapping[str, Any] = MappingProxyType({})) -> SimulatedGimbal:
+        """A gimbal with this firmware, and other settings of a SimulatedGimbal. Raises UsageError."""
         if not 0 < self.push_rate <= 100:
             raise UsageError(f"--push-rate must be above 0 and at most 100 Hz, not {self.push_rate:g}")
         if not 0 <= self.reaction < 60:
@@ -157,7 +159,7 @@ class GimbalSim:
             self.roll_error,
             self.pitch_max,
         )
-        return SimulatedGimbal(push_rate=self.push_rate, reaction=self.reaction, firmware=firmware)
+        return SimulatedGimbal(push_rate=self.push_rate, reaction=self.reaction, firmware=firmware, **settings)
 
 
 def _signs(option: str, text: str) -> tuple[int, int, int]:

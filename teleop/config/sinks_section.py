@@ -11,7 +11,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from teleop.config.documents.base_model import NoTruth, Section
-from teleop.config.wiring import Wiring
+from teleop.config.simulated_section import SimulatedSection
+from teleop.config.wiring import Angle, Wiring
 from teleop.core.axes import STICKS, Axis
 from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, ReferenceFrame, Vertical, Yaw
 from teleop.dji.drone.virtual_rc import CENTER, DEFLECTION
@@ -31,7 +32,6 @@ Magnitude = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
 Rate = Annotated[Literal[1, 2, 4, 5, 10, 20, 25, 50, 100], NoTruth]  # Hz: whole numbers of the loop's ticks
 Sign = Annotated[Literal[1, -1], NoTruth]
-Angle = Literal["pan", "tilt", "roll"]
 Channel = Annotated[int, Field(ge=CENTER - DEFLECTION, le=CENTER + DEFLECTION)]
 LowBattery = Annotated[int, Field(ge=10, le=90)]
 
@@ -88,6 +88,8 @@ class GimbalSection(Section):
 
     full_stick: dict[Angle, Magnitude] = Field(default_factory=dict)
     """Speed at full deflection by the gimbal's own settings, in deg/s, for mode stick."""
+    simulated: SimulatedSection = SimulatedSection()
+    """How the simulated gimbal of a `sim:` link, and of `teleop sim`, moves and reports."""
 
     @property
     def axes(self) -> Sequence[Axis | None]:

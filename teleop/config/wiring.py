@@ -8,9 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Literal
 
 from teleop.core.axes import Axis
 
+Angle = Literal["pan", "tilt", "roll"]  # the axes of a gimbal, as files and commands name them
 STRAIGHT = (Axis.PAN, Axis.ROLL, Axis.TILT)
 
 

@@ -1,13 +1,31 @@
-"""The firmware that an in-process `sim:` gimbal simulates, so that a rehearsal agrees with the profile's signs."""
+"""The gimbal of a `sim:` link: firmware with the signs of the profile, and the dynamics that the profile gives it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from teleop.config.profile import Profile
+from teleop.config.simulated_section import SimulatedSection
 from teleop.config.sinks_section import GimbalSection
 from teleop.core.axes import Axis
+from teleop.sim.gimbal.dynamics import Dynamics
 from teleop.sim.gimbal.firmware import DOCUMENTED, Firmware
+
+
+def profile_gimbal(profile: Profile, link: str) -> dict[str, Any]:
+    """Dynamics, mount and lost readings of the gimbal on `link`, as settings of a SimulatedGimbal; none as default."""
+    sections = [section for section in profile.sinks if isinstance(section, GimbalSection) and section.link == link]
+    default, dynamics = SimulatedSection(), [Dynamics()] * 3
+    settings: dict[str, Any] = {}
+    for section in sections:
+        simulated = section.simulated
+        for index, axis in enumerate(section.axes):
+            if axis is not None:
+                dynamics[index] = Dynamics(**simulated.of(axis.value))
+        settings["mount"] = simulated.mount or 0.0
+        settings["lost_readings"] = simulated.lost_readings
+    return {**settings, "dynamics": dynamics} if any(each.simulated != default for each in sections) else {}
 
 
 def profile_firmware(profile: Profile, link: str) -> Firmware:

@@ -7,13 +7,15 @@ and `refusals` has it with its reason. Reserved bits are not looked at where cli
 
 Every part is a function of time between commands, so looking often or seldom makes no difference.
 
-What goes wrong with real ones can be asked for: a reboot, an axis held by hand, missing angle reports, and the
-time that it takes to react.
+What goes wrong with real ones can be asked for: a reboot, an axis held by hand, missing angle reports, the time that it
+takes to react, and other dynamics, from the start or from any moment on.
 """
 
 from __future__ import annotations
 
+import random
 from collections import Counter, deque
+from collections.abc import Iterable, Sequence
 from operator import itemgetter
 from typing import Any
 
@@ -24,6 +26,7 @@ from teleop.dji.gimbal.session import Session
 from teleop.dji.message import FieldError, Message, Result, ReturnCode
 from teleop.sim.gimbal.accessories import Camera, FocusMotor
 from teleop.sim.gimbal.autotune import Autotune
+from teleop.sim.gimbal.dynamics import Dynamics
 from teleop.sim.gimbal.firmware import DOCUMENTED, Firmware
 from teleop.sim.gimbal.gimbal_axes import Angles, GimbalAxes
 from teleop.sim.gimbal.handlers import Answer, Handlers, without_reserved
@@ -48,6 +51,10 @@ class SimulatedGimbal:
     firmware before 01.04.00.20 does. `push_rate` is in Hz, once the push is switched on. What moves it is carried out
     `reaction` seconds after it came. While `tells_angles` is False it neither answers for its angles nor pushes them.
     `firmware` is how else it differs from the document.
+
+    `dynamics` are how each axis moves and reports, one for all or yaw, roll and pitch; they overrule `lag`. `changes`
+    are when (s after it was first given a time) which take their place, as with another payload. `mount` is the yaw in
+    deg to which the mount is turned at boot, `lost_readings` the share of angle reports that get lost.
     """
 
     def __init__(
@@ -65,12 +72,23 @@ class SimulatedGimbal:
         reaction: float = 0.0,
         version: str = "02.02.00.07",
         firmware: Firmware = DOCUMENTED,
+        dynamics: Dynamics | Sequence[Dynamics] | None = None,
+        changes: Iterable[tuple[float, Dynamics | Sequence[Dynamics]]] = (),
+        mount: float = 0.0,
+        lost_readings: float = 0.0,
     ) -> None:
         self.counts: Counter[str] = Counter()  # messages by name, as they were understood
         self.follow = gimbal.FollowMode.YAW
         self.settings = Settings(version)
         self.refusals = Refusals()
-        self._head = GimbalAxes(Angles(*boot), Angles(*signs), lag, Angles(*joystick_speed), continuous, firmware)
+        own = _of_each(dynamics if dynamics is not None else Dynamics(lag=lag))
+        self._head = GimbalAxes(
+            Angles(*boot), Angles(*signs), lag, Angles(*joystick_speed), continuous, firmware, own, mount
+        )
+        self._changes = deque(sorted(((time, _of_each(then)) for time, then in changes), key=itemgetter(0)))
+        self._started: float | None = None  # s
+        self._lost_readings = lost_readings
+        self._chance = random.Random(1)  # losses repeat
         self._camera = Camera()
         calibrated = focus_calibrated and firmware.focus_motor == "calibrated"
         self._focus = FocusMotor(focus_speed, calibrated, firmware.focus_motor == "absent", firmware.ignores_zero_focus)
@@ -134,7 +152,7 @@ class SimulatedGimbal:
                 continue
             self.counts[received.message.name] += 1
             answer = self._obey(received.message)
-            answers = self.tells_angles or not isinstance(received.message, gimbal.Angles)
+            answers = not isinstance(received.message, gimbal.Angles) or self._tells_angles_now()
             if frame.cmd_type & _REPLY_TYPE and answers and not _has_no_reply(received.message):
                 self._reply(frame, answer)
         if self._session.last_damage is not damage and self._session.last_damage:
@@ -161,17 +179,28 @@ class SimulatedGimbal:
         self._pass(now)
         self._head.hold(now, Angles(yaw, roll, pitch))
 
+    def change(self, now: float, dynamics: Dynamics | Sequence[Dynamics]) -> None:
+        """It moves and reports so from `now` on, as with another payload; commands before keep what they had."""
+        self._pass(now)
+        self._head.change(_of_each(dynamics))
+
     def _pass(self, now: float) -> None:
         self._now = max(self._now, now)
+        self._started = self._now if self._started is None else self._started
+        while self._changes and self._changes[0][0] <= self._now - self._started:
+            self._head.change(self._changes.popleft()[1])
         while self._to_come and self._to_come[0][0] <= self._now:
             time, message = self._to_come.popleft()
             self._handlers[type(message)](message, time)
         due: list[Due] = self._tuning.due(self._now)
         if self._push:
             beats = self._push.due(self._now)
-            due += [(time, self._parameters(time)) for time in beats if self.tells_angles]
+            due += [(time, self._parameters(time)) for time in beats if self._tells_angles_now()]
         for _, push in sorted(due, key=itemgetter(0)):
             self._outgoing += pushed(self._session.command(push), push, self._firmware)
+
+    def _tells_angles_now(self) -> bool:
+        return self.tells_angles and not (self._lost_readings and self._chance.random() < self._lost_readings)
 
     def _obey(self, message: Message) -> Answer:
         handler = self._handlers.get(type(message))
@@ -232,6 +261,11 @@ class SimulatedGimbal:
             **self._head.limits(),
             **{f"{axis}_stiffness": value for axis, value in self.settings.stiffness.items()},
         )
+
+
+def _of_each(dynamics: Dynamics | Sequence[Dynamics]) -> Sequence[Dynamics]:
+    """Of yaw, roll and pitch."""
+    return [dynamics] * len(Angles._fields) if isinstance(dynamics, Dynamics) else dynamics
 
 
 def _has_no_reply(message: Message) -> bool:
