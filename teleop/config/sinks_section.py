@@ -54,6 +54,13 @@ class GainsSection(Section):
     """Correction in deg/s2 per deg of error; 0 turns it off."""
 
 
+class MountSection(Section):
+    """How the gimbal is mounted."""
+
+    yaw: Annotated[float, Field(ge=-360, le=360)] = 0.0
+    """The yaw in deg that the gimbal reports where pan is 0: 180 for one that was mounted or started turned round."""
+
+
 class GimbalSection(Section):
     """Pan, tilt and roll of a gimbal over the R SDK."""
 
@@ -81,6 +88,8 @@ class GimbalSection(Section):
     """As `signs`, for reported angles only; needed where they are counted otherwise than positions."""
     legacy_angles: Literal["yaw-roll-pitch", "yaw-pitch-roll"] = "yaw-roll-pitch"
     """Order of the angles in replies of old firmware."""
+    mount: MountSection = MountSection()
+    """How the gimbal is mounted; an underslung one may report a yaw of 180 straight ahead."""
     mapping: dict[Literal["yaw", "roll", "pitch"], Angle] = Field(
         default_factory=lambda: {"yaw": "pan", "roll": "roll", "pitch": "tilt"}
     )
@@ -103,7 +112,7 @@ class GimbalSection(Section):
             {Axis(axis): sign for axis, sign in each.items()}
             for each in (self.signs, self.speed_signs, self.report_signs)
         )
-        return Wiring(self.axes, signs, speed_signs, report_signs)
+        return Wiring(self.axes, signs, speed_signs, report_signs, self.mount.yaw)
 
     def sign_line(self, axis: Axis) -> str:
         """What this section needs when `axis` goes the other way than it is sent in this mode."""

@@ -13,7 +13,7 @@ from collections.abc import Container, Mapping
 from functools import cache
 from importlib.metadata import version
 
-from teleop.config.wiring import Wiring
+from teleop.config.wiring import Wiring, half_turn
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
@@ -187,7 +187,7 @@ class PositionSink:
 
 def position_command(angles: Mapping[Axis, float], wiring: Wiring, seconds: float) -> gimbal.Position:
     """Go to these angles (deg, the operator's signs) over `seconds`; an axis that is not among them is ignored."""
-    yaw, roll, pitch = wiring.to_gimbal({axis: _wrapped(angle) for axis, angle in angles.items()})
+    yaw, roll, pitch = wiring.to_gimbal({axis: half_turn(angle) for axis, angle in angles.items()})
     no_yaw, no_roll, no_pitch = wiring.undriven(angles)
     return gimbal.Position(
         yaw,
@@ -206,8 +206,3 @@ def _own_version() -> str:
     """This program's version as AA.BB.CC.DD."""
     numbers = [int(part) for part in version("rs-teleop").split(".")[:4] if part.isdecimal()]
     return ".".join(f"{number:02}" for number in (numbers + [0] * 4)[:4])
-
-
-def _wrapped(angle: float) -> float:
-    """A continuous axis's angle within -180..180, where the protocol has it; +-180 stay apart."""
-    return angle if -180 <= angle <= 180 else angle - 360 * round(angle / 360)

@@ -8,6 +8,7 @@ from typing import Any
 from teleop.config.profile import Profile
 from teleop.config.simulated_section import SimulatedSection
 from teleop.config.sinks_section import GimbalSection
+from teleop.config.wiring import half_turn
 from teleop.core.axes import Axis
 from teleop.sim.gimbal.dynamics import Dynamics
 from teleop.sim.gimbal.firmware import DOCUMENTED, Firmware
@@ -16,16 +17,18 @@ from teleop.sim.gimbal.firmware import DOCUMENTED, Firmware
 def profile_gimbal(profile: Profile, link: str) -> dict[str, Any]:
     """Dynamics, mount and lost readings of the gimbal on `link`, as settings of a SimulatedGimbal; none as default."""
     sections = [section for section in profile.sinks if isinstance(section, GimbalSection) and section.link == link]
-    default, dynamics = SimulatedSection(), [Dynamics()] * 3
+    dynamics = [Dynamics()] * 3
     settings: dict[str, Any] = {}
     for section in sections:
         simulated = section.simulated
         for index, axis in enumerate(section.axes):
             if axis is not None:
                 dynamics[index] = Dynamics(**simulated.of(axis.value))
-        settings["mount"] = simulated.mount or 0.0
+        mount = half_turn(section.wiring.commanded_mount)
+        settings["mount"] = mount if simulated.mount is None else simulated.mount
         settings["lost_readings"] = simulated.lost_readings
-    return {**settings, "dynamics": dynamics} if any(each.simulated != default for each in sections) else {}
+    usual = all(section.simulated == SimulatedSection() and not section.mount.yaw for section in sections)
+    return {} if usual else {**settings, "dynamics": dynamics}
 
 
 def profile_firmware(profile: Profile, link: str) -> Firmware:
