@@ -16,7 +16,7 @@ from teleop.dji.drone.encryption import Cipher
 from teleop.sim.drone.device import SimulatedDrone
 from teleop.sim.drone.settings import MOVEMENT_TIMEOUT, VIRTUAL_RC_TIMEOUT, DroneSettings
 from teleop.sim.gimbal.device import PUSH_RATE, SimulatedGimbal
-from teleop.sim.gimbal.firmware import Firmware
+from teleop.sim.gimbal.firmware import Firmware, Order
 
 DRONE = Group("Drone", sort_key=1)
 GIMBAL = Group("Gimbal", sort_key=2)
@@ -105,8 +105,8 @@ class GimbalSim:
         bool, flag(GIMBAL, "Reply without set and id, to 0x02 without the type byte too, as old firmware does.")
     ] = False
     legacy_order: Annotated[
-        Literal["yaw-roll-pitch", "yaw-pitch-roll"],
-        Parameter(group=GIMBAL, help="The order of the angles in a legacy reply."),
+        Order,
+        Parameter(group=GIMBAL, help="The order of the angles in a legacy reply; all-...: in every reply."),
     ] = "yaw-roll-pitch"
     push_rate: Annotated[float, Parameter(metavar="HZ", group=GIMBAL, help="Pushes a second, once they are on.")] = (
         PUSH_RATE

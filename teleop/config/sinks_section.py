@@ -32,6 +32,7 @@ Magnitude = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
 Rate = Annotated[Literal[1, 2, 4, 5, 10, 20, 25, 50, 100], NoTruth]  # Hz: whole numbers of the loop's ticks
 Sign = Annotated[Literal[1, -1], NoTruth]
+AngleOrder = Literal["yaw-roll-pitch", "yaw-pitch-roll", "all-yaw-pitch-roll"]
 Channel = Annotated[int, Field(ge=CENTER - DEFLECTION, le=CENTER + DEFLECTION)]
 LowBattery = Annotated[int, Field(ge=10, le=90)]
 
@@ -86,8 +87,8 @@ class GimbalSection(Section):
     """As `signs`, for speeds only; needed where the gimbal counts speeds otherwise than positions."""
     report_signs: dict[Angle, Sign] = Field(default_factory=dict)
     """As `signs`, for reported angles only; needed where they are counted otherwise than positions."""
-    legacy_angles: Literal["yaw-roll-pitch", "yaw-pitch-roll"] = "yaw-roll-pitch"
-    """Order of the angles in replies of old firmware."""
+    legacy_angles: AngleOrder = "yaw-roll-pitch"
+    """Order of the angles in replies of old firmware; all-yaw-pitch-roll: in every reply, whatever the firmware."""
     mount: MountSection = MountSection()
     """How the gimbal is mounted; an underslung one may report a yaw of 180 straight ahead."""
     mapping: dict[Literal["yaw", "roll", "pitch"], Angle] = Field(
@@ -121,6 +122,18 @@ class GimbalSection(Section):
         now = self.wiring.speed_sign(axis) if in_speeds else self.wiring.report_sign(axis)
         signs = {**written, axis.value: -now}
         return f"{key}: {{{', '.join(f'{name}: {sign}' for name, sign in signs.items())}}}"
+
+    @property
+    def pitch_and_roll(self) -> tuple[Axis, Axis] | None:
+        """The axes of the gimbal's pitch and roll, None where it drives only one of them."""
+        _, roll, pitch = self.axes
+        return None if pitch is None or roll is None else (pitch, roll)
+
+    def order_line(self, bare: bool) -> str:
+        """What this section needs when pitch and roll are exchanged in replies, `bare` ones of old firmware or not."""
+        exchanged = self.legacy_angles == "all-yaw-pitch-roll" or (bare and self.legacy_angles == "yaw-pitch-roll")
+        order = "yaw-roll-pitch" if exchanged else "yaw-pitch-roll" if bare else "all-yaw-pitch-roll"
+        return f"legacy_angles: {order}"
 
     def full(self, axis: Axis, velocity: float) -> float:
         """What full deflection gives an axis whose own velocity is `velocity`, both in deg/s."""

@@ -39,14 +39,16 @@ class Angles:
     asked to push, and read from its pushes while it does not answer; they come seldom, and with no time of their own.
 
     `legacy_order` is how replies of old firmware order the angles: two sources say yaw, roll, pitch, one says yaw,
-    pitch, roll.
+    pitch, roll; with all-yaw-pitch-roll every reply does. `bare` is whether the last reply was one of old firmware.
 
     Angles come in -180..180; a reading continues the one before it, so that an axis may turn on and on.
     """
 
     def __init__(self, connection: Connection, wiring: Wiring, legacy_order: str = "yaw-roll-pitch") -> None:
         self._connection, self._wiring = connection, wiring
+        self.bare = False
         self._legacy_swapped = legacy_order == "yaw-pitch-roll"
+        self._all_swapped = legacy_order == "all-yaw-pitch-roll"
         self._pace, self._greeting = RateDivider(POLL_RATE), RateDivider(GREETING_RATE)
         self._readings: dict[Axis, Reading] = {}
         self._push_request = RateDivider(GREETING_RATE)
@@ -73,7 +75,9 @@ class Angles:
         if isinstance(reply, gimbal.LegacyAnglesReply) or reply.kind == AngleKind.ATTITUDE:
             self._answered_at = answer.sent
             second, third = reply.roll, reply.pitch
-            roll, pitch = (third, second) if answer.bare and self._legacy_swapped else (second, third)
+            self.bare = answer.bare
+            swapped = self._all_swapped or (answer.bare and self._legacy_swapped)
+            roll, pitch = (third, second) if swapped else (second, third)
             self._read(reply.yaw, roll, pitch, answer.sent)
 
     def _pushed(self, push: Message, now: float) -> None:

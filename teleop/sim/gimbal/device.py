@@ -16,6 +16,7 @@ from __future__ import annotations
 import random
 from collections import Counter, deque
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from operator import itemgetter
 from typing import Any
 
@@ -233,6 +234,8 @@ class SimulatedGimbal:
         message = Result(answer) if isinstance(answer, ReturnCode) else answer
         if self._firmware.legacy_replies and isinstance(message, gimbal.AnglesReply):
             message = legacy_angles(message, self._firmware.legacy_order)
+        elif isinstance(message, gimbal.AnglesReply) and self._firmware.legacy_order == "all-yaw-pitch-roll":
+            message = replace(message, roll=message.pitch, pitch=message.roll)
         self._outgoing += self._session.reply(frame, message, bare=self._bare_replies)
 
     def _switch_push(self, message: gimbal.PushSettings, now: float) -> Answer:

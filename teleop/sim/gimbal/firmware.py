@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Order = Literal["yaw-roll-pitch", "yaw-pitch-roll"]
+Order = Literal["yaw-roll-pitch", "yaw-pitch-roll", "all-yaw-pitch-roll"]
 FocusMotorState = Literal["calibrated", "uncalibrated", "absent"]
 
 
@@ -17,7 +17,7 @@ class Firmware:
       signs of the angles. Some gimbals have other ones: one driver negates roll in 0x01 alone. `report_signs` likewise
       of the angles that it reports and pushes.
     - `legacy_replies`: replies without set and id, that of 0x02 without the type byte too, its angles in `legacy_order`
-      (yaw, roll, pitch by two sources; yaw, pitch, roll by one).
+      (yaw, roll, pitch by two sources; yaw, pitch, roll by one). With all-yaw-pitch-roll so are those of every reply.
     - `push_reply_bit`: pushes have CmdType 0x20. `short_push`: a push of 25 bytes (flags, yaw, roll, pitch).
     - `ignores_speed`: 0x01 is answered and does nothing, as some RS 3 Pro and RS 4 Pro firmware does.
     - `focus_motor`: one that is not calibrated ignores positions; without one, it is answered that that failed.

@@ -16,7 +16,7 @@ _SHORT: Final = 9  # bytes: set, id, flags, yaw, roll, pitch, which make a frame
 def legacy_angles(reply: gimbal.AnglesReply, order: Order) -> Message:
     """The angles without their type, in the order that one source or the others have seen."""
     angles = {"yaw": reply.yaw, "roll": reply.roll, "pitch": reply.pitch}
-    tenths = (round(10 * angles[axis]) for axis in order.split("-"))
+    tenths = (round(10 * angles[axis]) for axis in order.removeprefix("all-").split("-"))
     return Opaque(b"", struct.pack("<B3h", reply.return_code, *tenths))
 
 
