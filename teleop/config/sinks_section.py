@@ -12,7 +12,7 @@ from pydantic import Field
 
 from teleop.config.documents.base_model import NoTruth, Section
 from teleop.config.simulated_section import SimulatedSection
-from teleop.config.wiring import Angle, Wiring
+from teleop.config.wiring import Angle, AngleOrder, Sign, Wiring
 from teleop.core.axes import STICKS, Axis
 from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, ReferenceFrame, Vertical, Yaw
 from teleop.dji.drone.virtual_rc import CENTER, DEFLECTION
@@ -31,8 +31,6 @@ FLIGHT_MODES: Mapping[str, tuple[Horizontal, ReferenceFrame]] = {
 Magnitude = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
 Rate = Annotated[Literal[1, 2, 4, 5, 10, 20, 25, 50, 100], NoTruth]  # Hz: whole numbers of the loop's ticks
-Sign = Annotated[Literal[1, -1], NoTruth]
-AngleOrder = Literal["yaw-roll-pitch", "yaw-pitch-roll", "all-yaw-pitch-roll"]
 Channel = Annotated[int, Field(ge=CENTER - DEFLECTION, le=CENTER + DEFLECTION)]
 LowBattery = Annotated[int, Field(ge=10, le=90)]
 

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Annotated, Literal
 
+from teleop.config.documents.base_model import NoTruth
 from teleop.core.axes import Axis
 
 Angle = Literal["pan", "tilt", "roll"]  # the axes of a gimbal, as files and commands name them
+Sign = Annotated[Literal[1, -1], NoTruth]
+AngleOrder = Literal["yaw-roll-pitch", "yaw-pitch-roll", "all-yaw-pitch-roll"]  # in replies of old firmware, or in all
 STRAIGHT = (Axis.PAN, Axis.ROLL, Axis.TILT)
 
 

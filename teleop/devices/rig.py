@@ -40,7 +40,8 @@ from teleop.devices.drone.virtual_rc import VirtualRcControl
 from teleop.devices.focus import FocusReporter, FocusSink
 from teleop.devices.gimbal.pi_correction import Gains
 from teleop.devices.gimbal.position import Angles, PositionSink
-from teleop.devices.gimbal.profile_firmware import profile_firmware, profile_gimbal
+from teleop.devices.gimbal.profile_firmware import profile_firmware
+from teleop.devices.gimbal.profile_simulation import simulated_settings
 from teleop.devices.gimbal.speed import SpeedSink
 from teleop.devices.gimbal.stick import StickSink
 from teleop.dji.drone.encryption import Cipher
@@ -214,7 +215,7 @@ class _Opening:
         if name in profile.drones:
             far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
         else:
-            settings = profile_gimbal(profile, name) | {"firmware": profile_firmware(profile, name)}
+            settings = simulated_settings(profile, name) | {"firmware": profile_firmware(profile, name)}
             far = self._simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile), **settings)
         return Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
 
