@@ -215,8 +215,10 @@ class _Opening:
         if name in profile.drones:
             far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
         else:
-            settings = simulated_settings(profile, name) | {"firmware": profile_firmware(profile, name)}
-            far = self._simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile), **settings)
+            settings, firmware = simulated_settings(profile, name), profile_firmware(profile, name)
+            far = self._simulated[name] = SimulatedGimbal(
+                continuous=_turns_for_ever(profile), firmware=firmware, **settings
+            )
         return Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
 
 
