@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from operator import mul
 from typing import NamedTuple
 
@@ -18,7 +19,8 @@ from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
 
-LAGS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3)  # s by which a gimbal may be late, beyond the delay that is known
+LAGS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4)  # s by which a gimbal may be late, beyond the delay that is known
+BETWEEN_LAGS = 0.015  # s, of the root mean square between the two nearest
 HOLDS = 0.5  # s that a speed is obeyed: R SDK V2.5, section 2.3.4.2
 HISTORY = 100  # ticks of what was sent
 KEPT = 32  # readings; of older ones every second is kept
@@ -26,9 +28,12 @@ GAP = 2.5  # s without a reading, after which it begins anew
 JUMP = 5.0  # deg that a plan may go in a tick; it goes further where it begins anew
 READINGS = 5  # at least
 APART = 1.0  # deg between what the two axes were sent
+MOVED = 1.0  # deg that an axis has moved at least
+DRIFTS = 0.0, -1.2, -0.6, 0.6, 1.2  # deg/s under speed control
 SCALE = 0.5, 2.0  # times as far as sent: the rate of a full stick is only roughly known
 RMS, SHARE = 0.15, 0.05  # deg beside the fit, and of the way: noise of 0.1 deg, reports to 0.1 deg, backlash
-WORSE = 3.0  # times: so much worse must the usual order fit
+WORSE = 3.0  # times: so much worse must the usual order fit,
+BEYOND = 1.1  # times: and so much worse than a fit may be
 NEAR = 0.3  # deg: so close to the place of the other axis is no accident
 
 Pair = tuple[float, float]
@@ -127,7 +132,7 @@ class ExchangedAxesGuard:
         self._way = max(self._way if len(seen) > 1 else 0.0, abs(pitch - self._ratio * roll))
         verdict = True if not self._speeds and self._changed_places() else None
         if verdict is None and self._way >= APART:
-            verdict = verdict_of(seen, self._ratio)
+            verdict = verdict_of(seen, self._ratio, DRIFTS if self._speeds else (0.0,))
         self._over = verdict is not None
         if verdict:
             self._found.update(self._pair)
@@ -156,33 +161,58 @@ class ExchangedAxesGuard:
         )
 
 
-def verdict_of(seen: Sequence[Seen], ratio: int) -> bool | None:
-    """True for exchanged axes, False for axes that were seen to be in their places, None while that is unknown."""
-    if len(seen) < READINGS:
-        return None
+def verdict_of(seen: Sequence[Seen], ratio: int, drifts: Sequence[float]) -> bool | None:
+    """True for exchanged axes, False for axes that were seen to be in their places, None while that is unknown.
+
+    `drifts` are what an axis may do beside what it is sent, in deg/s.
+    """
     first = seen[0]
-    measured = [_from(each.measured, first.measured) for each in seen]
-    for lag in range(len(LAGS)):
-        sent = [_from(each.sent[lag], first.sent[lag]) for each in seen]
-        way = max(abs(pitch - ratio * roll) for pitch, roll in sent)
-        if way < APART:
-            continue
-        crossed = [(ratio * roll, ratio * pitch) for pitch, roll in sent]
-        usual, exchanged = _fit(sent, measured), _fit(crossed, measured)
-        if exchanged <= RMS + SHARE * way and usual >= WORSE * max(exchanged, RMS):
-            return True
-        if usual <= RMS + SHARE * way and exchanged >= WORSE * max(usual, RMS):
-            return False
-    return None
+    measured = [[each.measured[axis] - first.measured[axis] for each in seen] for axis in (0, 1)]
+    moved = [max(map(abs, course)) for course in measured]
+    if len(seen) < READINGS or max(moved) < MOVED:
+        return None
+    usual, crossed = [], []
+    for axis, other in ((0, 1), (1, 0)):
+        drifted = (_less(measured[axis], drift, seen) for drift in drifts)
+        usual.append(min(_best(seen, axis, 1, course) for course in drifted))
+        crossed.append(_best(seen, other, ratio, measured[axis]))
+    allowed = [RMS + SHARE * way + BETWEEN_LAGS * _fastest(seen, axis) for axis, way in enumerate(moved)]
+    still = [_rms(course) for course in measured]  # a hand holds the axis
+    if all(left <= most for left, most in zip(crossed, allowed, strict=True)):
+        needed = [max(WORSE * left, WORSE * RMS, BEYOND * most) for left, most in zip(crossed, allowed, strict=True)]
+        return any(min(usual[axis], still[axis]) >= needed[axis] for axis in (0, 1)) or None
+    in_place = [moved[axis] >= MOVED and usual[axis] <= allowed[axis] for axis in (0, 1)]
+    far = [crossed[axis] >= WORSE * max(usual[axis], RMS) for axis in (0, 1)]
+    return False if any(map(all, zip(in_place, far, strict=True))) else None
+
+
+def _best(seen: Sequence[Seen], axis: int, ratio: int, measured: Sequence[float]) -> float:
+    """What is left when `measured` is explained by what the axis was sent, with the lag that explains most."""
+    first = seen[0].sent
+    return min(
+        _fit([ratio * (each.sent[lag][axis] - first[lag][axis]) for each in seen], measured) for lag in range(len(LAGS))
+    )
+
+
+def _less(measured: Sequence[float], drift: float, seen: Sequence[Seen]) -> Sequence[float]:
+    return [angle - drift * (each.time - seen[0].time) for angle, each in zip(measured, seen, strict=True)]
 
 
 def _from(pair: Pair, first: Pair) -> Pair:
     return pair[0] - first[0], pair[1] - first[1]
 
 
-def _fit(sent: Sequence[Pair], measured: Sequence[Pair]) -> float:
+def _fit(sent: Sequence[float], measured: Sequence[float]) -> float:
     """What is left, root mean square in deg, when `measured` is explained by `sent` times a scale."""
-    x, y = [value for pair in sent for value in pair], [value for pair in measured for value in pair]
-    xx, xy, yy = (sum(map(mul, a, b)) for a, b in ((x, x), (x, y), (y, y)))
+    xx, xy, yy = (sum(map(mul, a, b)) for a, b in ((sent, sent), (sent, measured), (measured, measured)))
     scale = min(max(xy / xx if xx else 0.0, SCALE[0]), SCALE[1])
-    return math.sqrt(max(0.0, yy + scale * (scale * xx - 2 * xy)) / len(sent))
+    return math.sqrt(max(0.0, yy + scale * (scale * xx - 2 * xy)) / len(measured))
+
+
+def _fastest(seen: Sequence[Seen], axis: int) -> float:
+    """The greatest speed between two readings, in deg/s."""
+    return max(abs(b.measured[axis] - a.measured[axis]) / (b.time - a.time) for a, b in pairwise(seen))
+
+
+def _rms(values: Sequence[float]) -> float:
+    return math.sqrt(sum(map(mul, values, values)) / len(values))
