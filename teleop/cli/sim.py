@@ -15,7 +15,7 @@ from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, DroneSim, Gi
 from teleop.config.documents.document import DocumentError
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError
-from teleop.devices.gimbal.profile_firmware import profile_gimbal
+from teleop.devices.gimbal.profile_simulation import simulated_firmware, simulated_settings
 from teleop.links import ClosableLink, open_link, parse
 from teleop.links.can import CanLink
 from teleop.sim.drone.device import SimulatedDrone
@@ -56,7 +56,8 @@ def sim(
             if name in profile.drones:
                 devices[name] = drone.made(clock.now())
             else:
-                devices[name] = gimbal.made(dynamics.settings(profile_gimbal(profile, name)))
+                settings = dynamics.settings(simulated_settings(profile, name))
+                devices[name] = gimbal.made(settings, simulated_firmware(profile, name))
             links[name] = open_link(url, host=False, now=clock.now)
             _ready(name, url, options.json)
         if drone.drone:

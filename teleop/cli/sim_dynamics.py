@@ -57,7 +57,7 @@ class DynamicsSim:
         """The settings of a SimulatedGimbal: those of the profile, with what was given. Raises UsageError."""
         made = dict(profile)
         dynamics = [*made.get("dynamics", [Dynamics()] * len(AXES))]
-        given = {key: _values(key, getattr(self, key)) for key in RANGES}
+        given = {key: self._given(key) for key in RANGES}
         made["dynamics"] = [
             replace(own, **{key: given[key][axis] for key in RANGES if axis in given[key]})
             for axis, own in zip(AXES, dynamics, strict=True)
@@ -67,19 +67,23 @@ class DynamicsSim:
                 made[key] = _checked(key, value, of)
         return made
 
+    def _given(self, key: str) -> dict[str, float]:
+        values = numbers_by_axis(_option(key), getattr(self, key))
+        return {axis: _checked(key, value, RANGES[key]) for axis, value in values.items()}
 
-def _values(key: str, text: str) -> dict[str, float]:
-    """By axis. Raises UsageError."""
+
+def numbers_by_axis(option: str, text: str) -> dict[str, float]:
+    """`0.1` for every axis, `yaw=0.1,pitch=0.05` for some. Raises UsageError."""
     values: dict[str, float] = {}
     for part in filter(None, text.replace(" ", "").split(",")):
         axis, equals, written = part.rpartition("=")
         try:
             value = float(written)
         except ValueError:
-            raise UsageError(f"{_option(key)} {text}: write a number, or yaw=NUMBER,pitch=NUMBER") from None
+            raise UsageError(f"{option} {text}: write a number, or yaw=NUMBER,pitch=NUMBER") from None
         if equals and axis not in AXES:
-            raise UsageError(f"{_option(key)} {text}: write yaw, roll or pitch, as in yaw={written}")
-        values |= dict.fromkeys([axis] if equals else AXES, _checked(key, value, RANGES[key]))
+            raise UsageError(f"{option} {text}: write yaw, roll or pitch, as in yaw={written}")
+        values |= dict.fromkeys([axis] if equals else AXES, value)
     return values
 
 

@@ -8,9 +8,9 @@ from typing import Annotated, Any, NamedTuple, get_args
 
 from pydantic import BeforeValidator, Field
 
-from teleop.config.documents.base_model import Section
 from teleop.config.documents.document import joined
 from teleop.config.documents.messages import decimal_comma, shown
+from teleop.config.simulated_firmware import SimulatedFirmwareSection
 from teleop.config.wiring import Angle
 
 
@@ -71,8 +71,8 @@ def _in_range(key: str) -> BeforeValidator:
 ByAxis = float | dict[Angle, float]
 
 
-class SimulatedSection(Section):
-    """How the simulated gimbal moves and reports. Each value is for all axes, or `{pan: 0.1, tilt: 0.05}`."""
+class SimulatedSection(SimulatedFirmwareSection):
+    """How the simulated gimbal moves, reports and answers. Numbers may differ by axis: `{pan: 0.1, tilt: 0.05}`."""
 
     lag: Annotated[ByAxis, _in_range("lag")] = 0.05
     """Time constant with which a speed is reached, 0..2 s."""

@@ -12,7 +12,7 @@ from pydantic import Field
 
 from teleop.config.documents.base_model import NoTruth, Section
 from teleop.config.simulated_section import SimulatedSection
-from teleop.config.wiring import Angle, Wiring
+from teleop.config.wiring import Angle, AngleOrder, Sign, Wiring
 from teleop.core.axes import STICKS, Axis
 from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, ReferenceFrame, Vertical, Yaw
 from teleop.dji.drone.virtual_rc import CENTER, DEFLECTION
@@ -31,7 +31,6 @@ FLIGHT_MODES: Mapping[str, tuple[Horizontal, ReferenceFrame]] = {
 Magnitude = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
 Rate = Annotated[Literal[1, 2, 4, 5, 10, 20, 25, 50, 100], NoTruth]  # Hz: whole numbers of the loop's ticks
-Sign = Annotated[Literal[1, -1], NoTruth]
 Channel = Annotated[int, Field(ge=CENTER - DEFLECTION, le=CENTER + DEFLECTION)]
 LowBattery = Annotated[int, Field(ge=10, le=90)]
 
@@ -52,6 +51,13 @@ class GainsSection(Section):
     """Correction in deg/s per deg of error; 0 turns it off."""
     integral: Annotated[float, Field(ge=0, le=20)] = 2.0
     """Correction in deg/s2 per deg of error; 0 turns it off."""
+
+
+class MountSection(Section):
+    """How the gimbal is mounted."""
+
+    yaw: Annotated[float, Field(ge=-360, le=360)] = 0.0
+    """The yaw in deg that the gimbal reports where pan is 0: 180 for one that was mounted or started turned round."""
 
 
 class GimbalSection(Section):
@@ -79,8 +85,10 @@ class GimbalSection(Section):
     """As `signs`, for speeds only; needed where the gimbal counts speeds otherwise than positions."""
     report_signs: dict[Angle, Sign] = Field(default_factory=dict)
     """As `signs`, for reported angles only; needed where they are counted otherwise than positions."""
-    legacy_angles: Literal["yaw-roll-pitch", "yaw-pitch-roll"] = "yaw-roll-pitch"
-    """Order of the angles in replies of old firmware."""
+    legacy_angles: AngleOrder = "yaw-roll-pitch"
+    """Order of the angles in replies of old firmware; all-yaw-pitch-roll: in every reply, whatever the firmware."""
+    mount: MountSection = MountSection()
+    """How the gimbal is mounted; an underslung one may report a yaw of 180 straight ahead."""
     mapping: dict[Literal["yaw", "roll", "pitch"], Angle] = Field(
         default_factory=lambda: {"yaw": "pan", "roll": "roll", "pitch": "tilt"}
     )
@@ -103,7 +111,7 @@ class GimbalSection(Section):
             {Axis(axis): sign for axis, sign in each.items()}
             for each in (self.signs, self.speed_signs, self.report_signs)
         )
-        return Wiring(self.axes, signs, speed_signs, report_signs)
+        return Wiring(self.axes, signs, speed_signs, report_signs, self.mount.yaw)
 
     def sign_line(self, axis: Axis) -> str:
         """What this section needs when `axis` goes the other way than it is sent in this mode."""
@@ -112,6 +120,18 @@ class GimbalSection(Section):
         now = self.wiring.speed_sign(axis) if in_speeds else self.wiring.report_sign(axis)
         signs = {**written, axis.value: -now}
         return f"{key}: {{{', '.join(f'{name}: {sign}' for name, sign in signs.items())}}}"
+
+    @property
+    def pitch_and_roll(self) -> tuple[Axis, Axis] | None:
+        """The axes of the gimbal's pitch and roll, None where it drives only one of them."""
+        _, roll, pitch = self.axes
+        return None if pitch is None or roll is None else (pitch, roll)
+
+    def order_line(self, bare: bool) -> str:
+        """What this section needs when pitch and roll are exchanged in replies, `bare` ones of old firmware or not."""
+        exchanged = self.legacy_angles == "all-yaw-pitch-roll" or (bare and self.legacy_angles == "yaw-pitch-roll")
+        order = "yaw-roll-pitch" if exchanged else "yaw-pitch-roll" if bare else "all-yaw-pitch-roll"
+        return f"legacy_angles: {order}"
 
     def full(self, axis: Axis, velocity: float) -> float:
         """What full deflection gives an axis whose own velocity is `velocity`, both in deg/s."""

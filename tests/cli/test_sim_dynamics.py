@@ -14,7 +14,7 @@ from teleop.config.documents.document import DocumentError
 from teleop.config.profile import load_profile
 from teleop.config.simulated_section import RANGES, SimulatedSection
 from teleop.core.errors import UsageError
-from teleop.devices.gimbal.profile_firmware import profile_gimbal
+from teleop.devices.gimbal.profile_simulation import simulated_settings
 from teleop.sim.gimbal.dynamics import Dynamics
 
 PROFILE = """
@@ -45,7 +45,7 @@ def test_options_are_for_all_axes_or_for_some() -> None:
 def test_without_options_nothing_differs_from_the_profile(tmp_path: Path) -> None:
     assert DynamicsSim().settings({})["dynamics"] == [Dynamics()] * 3
     profile = load_profile(written(tmp_path, "lag: {pan: 0.2}, drift: 0.5, mount: 180, lost_readings: 0.1"))
-    settings = DynamicsSim(drift="roll=1").settings(profile_gimbal(profile, "gimbal"))
+    settings = DynamicsSim(drift="roll=1").settings(simulated_settings(profile, "gimbal"))
     assert settings["dynamics"] == [Dynamics(lag=0.2, drift=0.5), Dynamics(drift=1.0), Dynamics(drift=0.5)]
     assert (settings["mount"], settings["lost_readings"]) == (180.0, 0.1)
     assert DynamicsSim(mount=90.0).settings(settings)["mount"] == 90.0

@@ -1,46 +1,29 @@
-"""The gimbal of a `sim:` link: firmware with the signs of the profile, and the dynamics that the profile gives it."""
+"""The firmware that an in-process `sim:` gimbal simulates, so that a rehearsal agrees with the profile's signs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from dataclasses import replace
 
 from teleop.config.profile import Profile
-from teleop.config.simulated_section import SimulatedSection
 from teleop.config.sinks_section import GimbalSection
 from teleop.core.axes import Axis
-from teleop.sim.gimbal.dynamics import Dynamics
-from teleop.sim.gimbal.firmware import DOCUMENTED, Firmware
-
-
-def profile_gimbal(profile: Profile, link: str) -> dict[str, Any]:
-    """Dynamics, mount and lost readings of the gimbal on `link`, as settings of a SimulatedGimbal; none as default."""
-    sections = [section for section in profile.sinks if isinstance(section, GimbalSection) and section.link == link]
-    default, dynamics = SimulatedSection(), [Dynamics()] * 3
-    settings: dict[str, Any] = {}
-    for section in sections:
-        simulated = section.simulated
-        for index, axis in enumerate(section.axes):
-            if axis is not None:
-                dynamics[index] = Dynamics(**simulated.of(axis.value))
-        settings["mount"] = simulated.mount or 0.0
-        settings["lost_readings"] = simulated.lost_readings
-    return {**settings, "dynamics": dynamics} if any(each.simulated != default for each in sections) else {}
+from teleop.devices.gimbal.profile_simulation import sections_on, simulated_firmware
+from teleop.sim.gimbal.firmware import Firmware
 
 
 def profile_firmware(profile: Profile, link: str) -> Firmware:
-    """The firmware with the `speed_signs` and `report_signs` of the gimbal sections on `link`.
+    """The firmware that the profile simulates, with the `speed_signs` and `report_signs` of the sections on `link`.
 
     The simulated gimbal counts positions as `core.axes` does. Its other signs are therefore those of the profile
     relative to the profile's `signs`: 1 where speeds or reports count as positions do.
     """
-    sections = [section for section in profile.sinks if isinstance(section, GimbalSection) and section.link == link]
+    sections, made = sections_on(profile, link), simulated_firmware(profile, link)
     if not any(section.speed_signs or section.report_signs for section in sections):
-        return DOCUMENTED
-    return Firmware(
-        speed_signs=_relative(sections, lambda section, axis: section.wiring.speed_sign(axis)),
-        report_signs=_relative(sections, lambda section, axis: section.wiring.report_sign(axis)),
-    )
+        return made
+    speeds = _relative(sections, lambda section, axis: section.wiring.speed_sign(axis))
+    reports = _relative(sections, lambda section, axis: section.wiring.report_sign(axis))
+    return replace(made, speed_signs=made.speed_signs or speeds, report_signs=made.report_signs or reports)
 
 
 def _relative(sections: list[GimbalSection], sign_of: Callable[[GimbalSection, Axis], int]) -> tuple[int, int, int]:

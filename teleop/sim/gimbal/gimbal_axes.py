@@ -133,14 +133,19 @@ class GimbalAxes:
 
     def _position(self, message: gimbal.Position, now: float) -> Answer:
         ignored = message.yaw_ignored, message.roll_ignored, message.pitch_ignored
+        if self.controlled and self._firmware.position_under_speed == "ignore":
+            return ReturnCode.OK
         wanted = message.yaw, message.roll, message.pitch
+        targets: list[tuple[Motor, float]] = []
         for motor, sign, angle, middle, ignore in zip(
             self._motors, self._signs, wanted, self._mount, ignored, strict=True
         ):
-            if ignore:
-                continue
-            absolute = self._nearest(motor, sign * angle, middle, now)
-            target = absolute if message.absolute else motor.at(now)[0] + sign * angle
+            if not ignore:
+                absolute = self._nearest(motor, sign * angle, middle, now)
+                targets.append((motor, absolute if message.absolute else motor.at(now)[0] + sign * angle))
+        if self._firmware.beyond_stop == "refuse" and any(motor.clamp(target) != target for motor, target in targets):
+            return ReturnCode.FAILED
+        for motor, target in targets:
             motor.travel(now, target, message.time_for_action)
         return ReturnCode.OK
 
