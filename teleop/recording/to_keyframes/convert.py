@@ -19,11 +19,11 @@ import numpy as np
 from teleop.config.documents.document import UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
+from teleop.planner.keyframes.fit import SampledSegment, Style, fit
 from teleop.planner.keyframes.qp import HEADROOM
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
 from teleop.recording.replay import cues
-from teleop.recording.to_keyframes.fit import RecordedSegment, Style, fit
 from teleop.recording.to_keyframes.merge_keys import AxisKey, MergedKey, merge_keys
 from teleop.recording.to_keyframes.reference import GRID, Reference, references, too_fast
 from teleop.recording.to_keyframes.sequence_text import SequenceText, sequence_text
@@ -36,6 +36,7 @@ PLANNED = ((0.0, 0), (0.5, 0)), ((1.0, 0),), ((1.0, SLACK),)
 smooth as can be. Of the first that do the sparsest is taken."""
 TIGHTER = (1.0, 0.9, 0.7)  # of the tolerance, for the fit, should the whole file be further off than its parts were
 HELD = 0.15  # of the time in motion at an even speed, from which on it was a stick
+NEAREST = 3  # places between two keys
 PER_SHARE = 100.0  # a tolerance in degrees is one in per cent for focus and sticks, whose full way is 1
 
 
@@ -125,9 +126,8 @@ def _fitted(take: Take, refs: Mapping[Axis, Reference], tolerance: float, tensio
     problems: list[str] = []
     for axis, reference in refs.items():
         others = sorted({key.place for of_axis in keys.values() for key in of_axis})
-        style = Style(
-            axis, take.about.limits[axis], allowed(axis, tolerance), places_after_point(axis, tolerance), tension
-        )
+        limits, digits = take.about.limits[axis], places_after_point(axis, tolerance)
+        style = Style(axis, limits, allowed(axis, tolerance), digits, tension, GRID, NEAREST)
         keys[axis], unfit = _axis_keys(reference.slackened(slack), style, others)
         problems += [_out_of_reach(take, segment, off) for segment, off in unfit]
     return _Attempt(tension, [] if problems else merge_keys(keys, refs), problems)
@@ -135,11 +135,11 @@ def _fitted(take: Take, refs: Mapping[Axis, Reference], tolerance: float, tensio
 
 def _axis_keys(
     reference: Reference, style: Style, others: Sequence[int]
-) -> tuple[list[AxisKey], list[tuple[RecordedSegment, Array | None]]]:
+) -> tuple[list[AxisKey], list[tuple[SampledSegment, Array | None]]]:
     """The keys of one axis, and the segments that have none that are good enough, with how far they are off."""
     keys, unfit = [], []
     for before, after in pairwise(reference.rests):
-        segment = RecordedSegment(before.end, reference.positions[before.end : after.begin + 1], style)
+        segment = SampledSegment(before.end, reference.positions[before.end : after.begin + 1], style)
         found = fit(segment, reference.corners(before.end, after.begin), others)
         if found.off is None or not segment.fits(found.off):
             unfit.append((segment, found.off))
@@ -147,7 +147,7 @@ def _axis_keys(
         keys.append(AxisKey(before.begin, segment.position(before.end), before.end - before.begin))
         keys += [AxisKey(place, found.keys[place]) for place in inner]
     last = reference.rests[-1]
-    end = RecordedSegment(last.begin, reference.positions[last.begin :], style).position(last.begin)
+    end = SampledSegment(last.begin, reference.positions[last.begin :], style).position(last.begin)
     return [*keys, AxisKey(last.begin, end, last.end - last.begin)], unfit
 
 
@@ -163,7 +163,7 @@ def _too_fast(take: Take, axis: Axis, reference: Reference, tolerance: float) ->
         )
 
 
-def _out_of_reach(take: Take, segment: RecordedSegment, off: Array | None) -> str:
+def _out_of_reach(take: Take, segment: SampledSegment, off: Array | None) -> str:
     seconds = f"{segment.begin / GRID:.2f} .. {(segment.begin + len(segment.positions) - 1) / GRID:.2f} s"
     nearer = "" if off is None else f" closer than {float(np.abs(off).max()):.3g}"
     return (

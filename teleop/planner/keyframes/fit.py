@@ -1,9 +1,11 @@
-"""Few keys for one axis between two rests, so that the planner's own way through them stays by a recording.
+"""Few keys for one axis between two rests, so that the planner's own way through them stays by samples of it.
+
+The samples are those of a take, or the frames of a table.
 
 Keys are put where people would put them, where the axis turns back, and then where the plan is furthest off, until it
 is nowhere off by more than is allowed. Every trial is a plan as `play` will make it: with the limits, nothing else
-could tell what lies between two keys. Where a key on the recording itself would ask for too much (a recording may use
-all of a limit, a plan keeps headroom) it may lie a little beside it, towards what the planner would rather do.
+could tell what lies between two keys. Where a key on the samples themselves would ask for too much (a recording may use
+all of a limit, a plan keeps headroom) it may lie a little beside them, towards what the planner would rather do.
 """
 
 from __future__ import annotations
@@ -18,11 +20,9 @@ import numpy as np
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.planner import Key, attempt
 from teleop.planner.polynomial import Array
-from teleop.recording.to_keyframes.reference import GRID
 
-NEAREST = 3  # places between two keys
 MARGIN = 0.98  # of what is allowed: what a segment is off by itself and as a part of the whole may differ a little
-ASIDE = (0.0, 0.5, 0.85)  # of what is allowed: how far beside the recording a key may lie
+ASIDE = (0.0, 0.5, 0.85)  # of what is allowed: how far beside the samples a key may lie
 PRUNED = 40  # keys of a segment of which each is tried without: every trial plans all of the segment
 SHARED = 0.2  # of the way to the next key: a key that another axis has that near is as good a place
 
@@ -31,26 +31,31 @@ Keys = Mapping[int, float]  # place of the grid -> units
 
 @dataclass(frozen=True)
 class Style:
-    """How one axis is fitted: off by `allowed` units at most, keys with so many digits behind the point."""
+    """How one axis is fitted: off by `allowed` units at most, keys with so many digits behind the point.
+
+    There are `rate` places in a second, and at least `nearest` between two keys.
+    """
 
     axis: Axis
     limits: Limits
     allowed: float
     digits: int
     tension: float
+    rate: float
+    nearest: int
 
 
 @dataclass(frozen=True, eq=False)
-class RecordedSegment:
-    """One axis from rest to rest: `positions` (n,) from place `begin` on."""
+class SampledSegment:
+    """One axis from rest to rest: `positions` (n,) from place `begin` on.
+
+    `allowances` (n,) are what each may be off (units, infinite where that does not matter), None: all alike.
+    """
 
     begin: int
     positions: Array
     style: Style
-
-    @property
-    def allowed(self) -> float:
-        return self.style.allowed
+    allowances: Array | None = None
 
     def position(self, place: int, aside: float = 0.0) -> float:
         """The position of a key there (units), rounded to the digits of the file and kept inside the soft limits."""
@@ -60,16 +65,20 @@ class RecordedSegment:
     def off(self, keys: Keys) -> Array | None:
         """How far the plan through these keys is off, at every place (units); None where there is no plan."""
         planned = attempt(
-            {self.style.axis: [Key((place - self.begin) / GRID, position) for place, position in sorted(keys.items())]},
+            {self.style.axis: [Key((place - self.begin) / self.style.rate, position) for place, position in sorted(keys.items())]},
             {self.style.axis: self.style.limits},
             self.style.tension,
         )
         if planned is None:
             return None
-        return planned.tracks[self.style.axis].sample(np.arange(len(self.positions)) / GRID)[0] - self.positions
+        return planned.tracks[self.style.axis].sample(np.arange(len(self.positions)) / self.style.rate)[0] - self.positions
+
+    def shares(self, off: Array) -> Array:
+        """How much of what is allowed each place is off: 1 is all of it."""
+        return np.abs(off) / (self.style.allowed if self.allowances is None else self.allowances)
 
     def fits(self, off: Array) -> bool:
-        return bool(np.abs(off).max() <= MARGIN * self.allowed)
+        return bool(self.shares(off).max() <= MARGIN)
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +89,7 @@ class Fit:
     off: Array | None
 
 
-def fit(segment: RecordedSegment, corners: Sequence[int], others: Sequence[int]) -> Fit:
+def fit(segment: SampledSegment, corners: Sequence[int], others: Sequence[int]) -> Fit:
     """As few keys as are found; too few, where no more of them bring the plan any nearer.
 
     `corners` are places worth a key where there is no turn.
@@ -88,13 +97,21 @@ def fit(segment: RecordedSegment, corners: Sequence[int], others: Sequence[int])
     `others` are the places, rising, at which other axes have keys: one of them is as good as a place nearby.
     """
     last = segment.begin + len(segment.positions) - 1
-    turns = [segment.begin + turn for turn in turning_points(segment.positions, segment.allowed)]
+    turns = [segment.begin + turn for turn in turning_points(segment.positions, segment.style.allowed)]
     ends: Keys = {place: segment.position(place) for place in (segment.begin, *turns, last)}
-    apart = [corner for corner in corners if all(abs(corner - end) >= NEAREST for end in ends)]
+    apart = [corner for corner in corners if all(abs(corner - end) >= segment.style.nearest for end in ends)]
     keys = {**ends, **{place: segment.position(place) for place in apart}}
     off = segment.off(keys)
     if off is None:
         keys, off = ends, segment.off(ends)
+    found = refined(segment, keys, off, others)
+    if found.off is None or not segment.fits(found.off):
+        return found
+    return _pruned(segment, found.keys, found.off)
+
+
+def refined(segment: SampledSegment, keys: Keys, off: Array | None, others: Sequence[int] = ()) -> Fit:
+    """With more keys, until the plan through them, which is `off` at first, is near enough or comes no nearer."""
     while off is not None and not segment.fits(off):
         more = {place: segment.position(place) for place in _worst(segment, keys, off, others)}
         trial = {**keys, **more}
@@ -104,7 +121,7 @@ def fit(segment: RecordedSegment, corners: Sequence[int], others: Sequence[int])
         if len(trial) == len(keys):
             return Fit(keys, off)
         keys, off = trial, better
-    return Fit(keys, off) if off is None else _pruned(segment, keys, off)
+    return Fit(keys, off)
 
 
 def turning_points(positions: Array, least: float) -> Iterator[int]:
@@ -123,20 +140,21 @@ def turning_points(positions: Array, least: float) -> Iterator[int]:
             way, high = 1, index
 
 
-def _worst(segment: RecordedSegment, keys: Keys, off: Array, others: Sequence[int]) -> Iterator[int]:
+def _worst(segment: SampledSegment, keys: Keys, off: Array, others: Sequence[int]) -> Iterator[int]:
     """Between each two keys where the plan is off by too much, the place where it is furthest off."""
+    shares, nearest = segment.shares(off), segment.style.nearest
     for first, second in pairwise(sorted(keys)):
-        between = np.abs(off[first - segment.begin : second - segment.begin + 1])
-        if between.max() <= MARGIN * segment.allowed or second - first < 2 * NEAREST:
+        between = shares[first - segment.begin : second - segment.begin + 1]
+        if between.max() <= MARGIN or second - first < 2 * nearest:
             continue
-        worst = min(max(first + int(between.argmax()), first + NEAREST), second - NEAREST)
+        worst = min(max(first + int(between.argmax()), first + nearest), second - nearest)
         reach = round(SHARED * (second - first))
-        low, high = max(first + NEAREST, worst - reach), min(second - NEAREST, worst + reach)
+        low, high = max(first + nearest, worst - reach), min(second - nearest, worst + reach)
         shared = others[bisect_left(others, low) : bisect(others, high)]
         yield min(shared, key=lambda place, worst=worst: abs(place - worst), default=worst)
 
 
-def _one_by_one(segment: RecordedSegment, keys: Keys, off: Array, places: list[int]) -> tuple[Keys, Array]:
+def _one_by_one(segment: SampledSegment, keys: Keys, off: Array, places: list[int]) -> tuple[Keys, Array]:
     """As many of the new keys as have a plan and bring it nearer, each where and as it can be."""
     for place in places:
         known = sorted(keys)
@@ -144,13 +162,15 @@ def _one_by_one(segment: RecordedSegment, keys: Keys, off: Array, places: list[i
         first, second = known[index - 1], known[index]
         here = slice(first - segment.begin, second - segment.begin + 1)
         for other in (place, (place + first) // 2, (place + second) // 2):
-            if other - first < NEAREST or second - other < NEAREST:
+            if min(other - first, second - other) < segment.style.nearest:
                 continue
-            pull = float(np.clip(off[other - segment.begin], -segment.allowed, segment.allowed))
+            pull = float(np.clip(off[other - segment.begin], -segment.style.allowed, segment.style.allowed))
             trials = ({**keys, other: segment.position(other, aside * pull)} for aside in ASIDE)
             found = ((trial, segment.off(trial)) for trial in trials)
+            peak = segment.shares(off)[here].max()
             nearer = next(
-                ((trial, new) for trial, new in found if new is not None and _peak(new[here]) < _peak(off[here])), None
+                ((trial, new) for trial, new in found if new is not None and segment.shares(new)[here].max() < peak),
+                None,
             )
             if nearer is not None:
                 keys, off = nearer
@@ -158,11 +178,7 @@ def _one_by_one(segment: RecordedSegment, keys: Keys, off: Array, places: list[i
     return keys, off
 
 
-def _peak(off: Array) -> float:
-    return float(np.abs(off).max())
-
-
-def _pruned(segment: RecordedSegment, keys: Keys, off: Array) -> Fit:
+def _pruned(segment: SampledSegment, keys: Keys, off: Array) -> Fit:
     """Without the keys that it can do without."""
     for place in sorted(keys)[1:-1] if len(keys) <= PRUNED else []:
         fewer = {other: position for other, position in keys.items() if other != place}
