@@ -65,13 +65,19 @@ class SampledSegment:
     def off(self, keys: Keys) -> Array | None:
         """How far the plan through these keys is off, at every place (units); None where there is no plan."""
         planned = attempt(
-            {self.style.axis: [Key((place - self.begin) / self.style.rate, position) for place, position in sorted(keys.items())]},
+            {
+                self.style.axis: [
+                    Key((place - self.begin) / self.style.rate, position) for place, position in sorted(keys.items())
+                ]
+            },
             {self.style.axis: self.style.limits},
             self.style.tension,
         )
         if planned is None:
             return None
-        return planned.tracks[self.style.axis].sample(np.arange(len(self.positions)) / self.style.rate)[0] - self.positions
+        return (
+            planned.tracks[self.style.axis].sample(np.arange(len(self.positions)) / self.style.rate)[0] - self.positions
+        )
 
     def shares(self, off: Array) -> Array:
         """How much of what is allowed each place is off: 1 is all of it."""
@@ -104,16 +110,8 @@ def fit(segment: SampledSegment, corners: Sequence[int], others: Sequence[int]) 
     off = segment.off(keys)
     if off is None:
         keys, off = ends, segment.off(ends)
-    found = refined(segment, keys, off, others)
-    if found.off is None or not segment.fits(found.off):
-        return found
-    return _pruned(segment, found.keys, found.off)
-
-
-def refined(segment: SampledSegment, keys: Keys, off: Array | None, others: Sequence[int] = ()) -> Fit:
-    """With more keys, until the plan through them, which is `off` at first, is near enough or comes no nearer."""
     while off is not None and not segment.fits(off):
-        more = {place: segment.position(place) for place in _worst(segment, keys, off, others)}
+        more = {place: segment.position(place) for place in worst_places(segment, keys, off, others)}
         trial = {**keys, **more}
         better = segment.off(trial) if more else None
         if better is None:
@@ -121,7 +119,7 @@ def refined(segment: SampledSegment, keys: Keys, off: Array | None, others: Sequ
         if len(trial) == len(keys):
             return Fit(keys, off)
         keys, off = trial, better
-    return Fit(keys, off)
+    return Fit(keys, off) if off is None else _pruned(segment, keys, off)
 
 
 def turning_points(positions: Array, least: float) -> Iterator[int]:
@@ -140,7 +138,7 @@ def turning_points(positions: Array, least: float) -> Iterator[int]:
             way, high = 1, index
 
 
-def _worst(segment: SampledSegment, keys: Keys, off: Array, others: Sequence[int]) -> Iterator[int]:
+def worst_places(segment: SampledSegment, keys: Keys, off: Array, others: Sequence[int] = ()) -> Iterator[int]:
     """Between each two keys where the plan is off by too much, the place where it is furthest off."""
     shares, nearest = segment.shares(off), segment.style.nearest
     for first, second in pairwise(sorted(keys)):

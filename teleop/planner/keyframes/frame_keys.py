@@ -8,7 +8,7 @@ they planned as `play` will do it (`fit`), with more keys where a limit makes th
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
@@ -16,13 +16,16 @@ from typing import NamedTuple
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
-from teleop.planner.keyframes.fit import SampledSegment, Style, refined, turning_points
+from teleop.planner.keyframes.fit import SampledSegment, Style, turning_points, worst_places
 from teleop.planner.keyframes.minimum_jerk import minimum_jerk
+from teleop.planner.keyframes.qp import HEADROOM
 from teleop.planner.keyframes.smoothing import smoothest
 from teleop.planner.polynomial import Array
 
 FILLED = 0.9  # of the tolerance, for the curve of least jerk: the plan differs a little from it
 TURN = 0.5  # of the tolerance: an axis that turns back by less does not need a key there
+PLANNABLE = 1.1  # times slower than it is: with so little excess the planner may still find another curve
+ROUNDS = 5  # of plans with ever more keys, where a limit makes the plan leave the curve of least jerk
 DIGITS = 9  # behind the point of a key's position: no file has it
 
 Keys = Mapping[int, float]  # place, in frames from the table's first one on -> units
@@ -54,9 +57,7 @@ class Frames:
     tolerance: float
     limits: Limits
 
-    def smooth(
-        self, step: float, slack: Slack, runs: Runs, rests: tuple[bool, bool] = (True, True)
-    ) -> Array | None:
+    def smooth(self, step: float, slack: Slack, runs: Runs, rests: tuple[bool, bool] = (True, True)) -> Array | None:
         """The smoothest positions, those of the runs before and after included, with frames of `step` seconds.
 
         `rests` is whether the axis rests before and after. None where the limits leave no way.
@@ -67,7 +68,8 @@ class Frames:
         low[up : up + len(self.positions)] = np.maximum(self.positions - band, self.limits.minimum)
         high[up : up + len(self.positions)] = np.minimum(self.positions + band, self.limits.maximum)
         low[np.isnan(low)], high[np.isnan(high)] = self.limits.minimum, self.limits.maximum
-        return smoothest(low, high, step, self.limits.scaled(slack.limits), rests)
+        limits = None if np.isinf(slack.limits) else self.limits.scaled(slack.limits)
+        return smoothest(low, high, step, limits, rests)
 
     def free(self, step: float) -> Array:
         """The smoothest positions (n,) as they would be without limits."""
@@ -78,35 +80,56 @@ class Frames:
         assert found is not None  # the positions themselves would do
         return found
 
+    def places(self, smooth: Array, runs: Runs, *, few: bool = True) -> list[int]:
+        """Indices of `smooth` where keys are needed for the curve of least jerk; as `few` as do takes longer."""
+        curve = _Curve(smooth, self._targets(smooth, runs), FILLED * self.tolerance)
+        last = len(smooth) - 1
+        inside = slice(runs.up, last + 1 - runs.out)
+        turns = [runs.up + turn for turn in turning_points(smooth[inside], TURN * self.tolerance)]
+        fixed = sorted({0, *turns, last})
+        places = sorted({*fixed, runs.up, last - runs.out})
+        while more := curve.worst(places):
+            places = sorted({*places, *more})
+        for place in [place for place in places if few and place not in fixed]:
+            fewer = [each for each in places if each != place]
+            if not curve.worst(fewer):
+                places = fewer
+        return places
+
+    def excess(self, smooth: Array, places: Sequence[int], step: float) -> float:
+        """How many times slower the curve of least jerk through these places has to be for the limits."""
+        if len(places) < 2:
+            return 0.0
+        peaks, limits = minimum_jerk(np.array(places) * step, smooth[places]).peaks(), self.limits.scaled(HEADROOM)
+        return max(
+            peaks.velocity / limits.velocity,
+            (peaks.acceleration / limits.acceleration) ** (1 / 2),
+            (peaks.jerk / limits.jerk) ** (1 / 3),
+        )
+
     def keys(self, smooth: Array, step: float, runs: Runs) -> Keys | None:
         """The keys on `smooth`; None where the planner cannot follow them."""
-        targets = np.full(len(smooth), np.nan)
-        targets[runs.up : len(smooth) - runs.out] = self.positions
+        targets = self._targets(smooth, runs)
         allowances = np.where(np.isnan(targets), np.inf, self.tolerance - np.abs(smooth - np.nan_to_num(targets)))
         style = Style(self.axis, self.limits, self.tolerance, DIGITS, 0.0, 1 / step, 1)
         segment = SampledSegment(-runs.up, smooth, style, allowances)
         if np.ptp(smooth) <= TURN * self.tolerance:
             return {-runs.up: segment.position(-runs.up)}
-        keys = {place: segment.position(place) for place in self._places(segment, targets, runs)}
-        found = refined(segment, keys, segment.off(keys))
-        near = found.off is not None and segment.fits(found.off)
-        return dict(sorted(found.keys.items())) if near else None
+        places = self.places(smooth, runs)
+        if self.excess(smooth, places, step) > PLANNABLE:
+            return None
+        keys = {place - runs.up: segment.position(place - runs.up) for place in places}
+        for _ in range(ROUNDS):
+            off = segment.off(keys)
+            if off is None or segment.fits(off):
+                return None if off is None else dict(sorted(keys.items()))
+            keys |= {place: segment.position(place) for place in worst_places(segment, keys, off)}
+        return None
 
-    def _places(self, segment: SampledSegment, targets: Array, runs: Runs) -> Iterator[int]:
-        """Where keys are needed for the curve of least jerk."""
-        curve = _Curve(segment.positions, targets, FILLED * self.tolerance)
-        last = len(targets) - 1
-        inside = slice(runs.up, last + 1 - runs.out)
-        turns = [runs.up + turn for turn in turning_points(segment.positions[inside], TURN * self.tolerance)]
-        fixed = sorted({0, *turns, last})
-        places = sorted({*fixed, runs.up, last - runs.out})
-        while more := curve.worst(places):
-            places = sorted({*places, *more})
-        for place in [place for place in places if place not in fixed]:
-            fewer = [each for each in places if each != place]
-            if not curve.worst(fewer):
-                places = fewer
-        return (place + segment.begin for place in places)
+    def _targets(self, smooth: Array, runs: Runs) -> Array:
+        targets = np.full(len(smooth), np.nan)
+        targets[runs.up : len(smooth) - runs.out] = self.positions
+        return targets
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,16 +140,12 @@ class _Curve:
     targets: Array
     allowed: float
 
-    def worst(self, places: list[int]) -> list[int]:
+    def worst(self, places: Sequence[int]) -> Sequence[int]:
         """Between each two places where the curve is off by too much, the place where it is furthest off."""
         index = np.arange(len(self.smooth), dtype=float)
-        curve = minimum_jerk(np.array(places, float), self.smooth[places], index)
+        curve = minimum_jerk(index[places], self.smooth[places]).sample(index)[0]
         off = np.nan_to_num(np.abs(curve - self.targets))
         if off.max() <= self.allowed:
             return []
-        found = []
-        for first, second in pairwise(places):
-            inner = off[first + 1 : second]
-            if inner.size and inner.max() > self.allowed:
-                found.append(first + 1 + int(inner.argmax()))
-        return found
+        inner = [(first + 1, off[first + 1 : second]) for first, second in pairwise(places) if second > first + 1]
+        return [first + int(between.argmax()) for first, between in inner if between.max() > self.allowed]

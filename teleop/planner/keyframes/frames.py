@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import ceil
+from math import ceil, inf
 
 import numpy as np
 
@@ -18,12 +18,12 @@ from teleop.planner.polynomial import Array
 SLACKS = Slack(0.6, 0.9), Slack(0.6, 1.0), Slack(0.85, 1.0)
 """The noise may take most of the tolerance, the rest is for the curve between the keys; the planner needs a little more
 of the limits than the smoothest positions."""
-LEAST = Slack(0.95, 1.0)  # what has no way within that has none at all
+ANY = Slack(0.6, inf)
 GENTLY = (0.5, 0.9)  # of the limits, for a run-up or a run-out; the second where the first has no room
 BEHIND = 0.5  # of the tolerance: an axis that falls behind less than that when it starts from rest needs no run-up
 LONGEST = 64.0  # times slower: what is impossible then is no matter of speed
-EXACT = 1.003  # by what a factor may be too large
-SLOWER, TRIALS = 1.01, 60  # of a factor that the planner does not accept
+HALVINGS = 5  # of what lies between the table's own speed and one that does in any case
+LONGER = (1.0, 1.1, 1.25, 1.5)  # than what the peaks say
 
 
 @dataclass(frozen=True)
@@ -72,10 +72,9 @@ class FrameFitter:
         found = self._at(1.0)
         if found is not None:
             return found
-        least = self._least_factor()
-        if least == 1 and not may_stretch:
+        if not may_stretch and self._leaves_a_way(1.0):
             self._check_room()
-        slower = None if least is None else self._slower(least)
+        slower = next((fit for factor in self._factors() if (fit := self._at(factor)) is not None), None)
         if slower is None or not may_stretch:
             raise self._too_fast(slower.factor if slower else None)
         return slower
@@ -83,6 +82,8 @@ class FrameFitter:
     def _at(self, factor: float) -> FramesFit | None:
         """The keys at so many times the duration, None where the limits do not allow them."""
         step = factor / self.rate
+        if not self._leaves_a_way(factor):
+            return None
         for runs in dict.fromkeys(self._runs(step, gently) for gently in GENTLY):
             keys = {table.axis: _keys(table, step, runs) for table in self.tables}
             if all(of_axis is not None for of_axis in keys.values()):
@@ -100,36 +101,41 @@ class FrameFitter:
     def _free(self) -> Sequence[tuple[Frames, Array]]:
         return [(table, table.free(1 / self.rate)) for table in self.tables]
 
-    def _least_factor(self) -> float | None:
-        """The least factor at which the limits leave a way through all frames, run-up and run-out aside."""
-        low, high = 1.0, 1.0
-        while not self._leaves_a_way(high):
-            low, high = high, 2 * high
-            if high > LONGEST:
-                return None
-        while high > low * EXACT:
+    def _factors(self) -> Iterator[float]:
+        """Factors to be tried, rising.
+
+        The curves of least jerk through keys without a thought of the limits need one that is known from their peaks;
+        within the limits a little less may do.
+        """
+        runs = self._runs(1 / self.rate, GENTLY[0])
+        high = max(self._excess(table, 1.0, ANY, runs) for table in self.tables)
+        if not 1 < high < LONGEST:
+            return
+        low, most = 1.0, high
+        for _ in range(HALVINGS):
             middle = (low * high) ** 0.5
-            low, high = (low, middle) if self._leaves_a_way(middle) else (middle, high)
-        return high
+            does = all(self._excess(table, middle, SLACKS[1], runs) <= 1 for table in self.tables)
+            low, high = (low, middle) if does else (middle, high)
+        yield from dict.fromkeys([high, *(most * more for more in LONGER)])
+
+    def _excess(self, table: Frames, factor: float, slack: Slack, runs: Runs) -> float:
+        """How many times slower than with this factor the curve of least jerk has to be."""
+        smooth = table.smooth(factor / self.rate, slack, runs)
+        if smooth is None:
+            return inf
+        return table.excess(smooth, table.places(smooth, runs, few=False), factor / self.rate)
 
     def _leaves_a_way(self, factor: float) -> bool:
-        return all(table.smooth(factor / self.rate, LEAST, Runs(0, 0), (False, False)) is not None for table in self.tables)
-
-    def _slower(self, factor: float) -> FramesFit | None:
-        """The keys at a factor from this one on, the first at which the planner follows."""
-        for _ in range(TRIALS):
-            found = self._at(factor)
-            if found is not None:
-                return found
-            factor *= SLOWER
-        return None
+        """Whether the limits leave a way through all frames, run-up and run-out aside."""
+        step, none = factor / self.rate, Runs(0, 0)
+        return all(table.smooth(step, SLACKS[-1], none, (False, False)) is not None for table in self.tables)
 
     def _check_room(self) -> None:
         """Raises NoRoomError where only a run-up or a run-out is in the way."""
         step, runs = 1 / self.rate, self._runs(1 / self.rate, GENTLY[-1])
         for table in self.tables:
-            if table.smooth(step, LEAST, runs) is None:
-                raise NoRoomError(table.axis, after=table.smooth(step, LEAST, runs, (True, False)) is not None)
+            if table.smooth(step, SLACKS[-1], runs) is None:
+                raise NoRoomError(table.axis, after=table.smooth(step, SLACKS[-1], runs, (True, False)) is not None)
 
     def _too_fast(self, factor: float | None) -> TooFastError:
         """Where, and by how much, the frames ask for more than the limits allow: the greatest excess of all axes."""

@@ -8,29 +8,22 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import solveh_banded
 
-from teleop.planner.polynomial import GRAM_JERK, HERMITE, Array
+from teleop.planner.polynomial import GRAM_JERK, Array
+from teleop.planner.trajectory import Track
 
 BANDS = 4  # of the symmetric system: velocity and acceleration of a key meet those of the next
 
 
-def minimum_jerk(times: Array, positions: Array, at: Array) -> Array:
-    """Positions at `at` (m,), rising and within `times`, of the curve through `positions` (n,) at `times` (n,)."""
+def minimum_jerk(times: Array, positions: Array) -> Track:
+    """The curve through `positions` (n,) at `times` (n,), rising, in s."""
     widths = np.diff(times)
-    if len(widths) == 0:
-        return np.full(len(at), positions[0])
-    scale = np.ones((len(widths), 6))
-    scale[:, [1, 4]] = widths[:, None]
-    scale[:, [2, 5]] = widths[:, None] ** 2
+    scale = np.stack([np.ones_like(widths), widths, widths**2] * 2, axis=1)
     weights = GRAM_JERK[None] * scale[:, :, None] * scale[:, None, :] / widths[:, None, None] ** 5
-    states = np.zeros((len(times), 3))
-    states[:, 0] = positions
+    states = np.zeros((3, len(times)))
+    states[0] = positions
     if len(times) > 2:
-        states[1:-1, 1:] = _free(weights, positions)
-    values = np.hstack([states[:-1], states[1:]]) * scale
-    piece = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(widths) - 1)
-    share = (at - times[piece]) / widths[piece]
-    powers = share[:, None] ** np.arange(6)
-    return np.einsum("ij,ij->i", powers @ HERMITE, values[piece])
+        states[1:, 1:-1] = _free(weights, positions).T
+    return Track.through(times, states)
 
 
 def _free(weights: Array, positions: Array) -> Array:

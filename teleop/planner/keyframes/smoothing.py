@@ -18,9 +18,7 @@ RESTING = 2  # samples before the first and after the last one, of an axis that 
 UNBOUND = 1e6  # a limit so many times beyond the whole range is left out
 
 
-def smoothest(
-    low: Array, high: Array, step: float, limits: Limits | None, rests: tuple[bool, bool]
-) -> Array | None:
+def smoothest(low: Array, high: Array, step: float, limits: Limits | None, rests: tuple[bool, bool]) -> Array | None:
     """Positions (n,) every `step` seconds between `low` and `high` (n,), infinite where they are free.
 
     `rests` is whether the axis rests at its start and at its end; without `limits` there are none. None where the
