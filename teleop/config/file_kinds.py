@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from teleop.config.documents.document import Document, DocumentError
 
 MARKS: Mapping[str, frozenset[str]] = {
-    "sequence": frozenset({"keyframes", "panorama", "include"}),
+    "sequence": frozenset({"keyframes", "panorama", "include", "source"}),
     "profile": frozenset({"links", "axes", "sinks"}),
     "pad": frozenset({"devices", "controls"}),
 }

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from teleop.config.documents.document import ENTRIES, DocumentError, UnplayableError, path_text
+from teleop.config.documents.document import ENTRIES, Document, DocumentError, UnplayableError, path_text
 from teleop.config.quantities import seconds
 from teleop.config.resources import find
 from teleop.core.axes import Axis, Limits
@@ -24,7 +24,9 @@ from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.keys import Keys
 from teleop.sequence.model import PREROLL, SequenceModel
 from teleop.sequence.reader import SequenceReader
-from teleop.sequence.timeline import Timed, Timeline
+from teleop.sequence.tables.section import WHERE
+from teleop.sequence.tables.timed_frames import TimedFrames
+from teleop.sequence.timeline import Origin, Timed, Timeline
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class CompiledSequence:
     """A sequence compiled for a rig: everything that will happen, checked. `warnings` are lines for the user.
 
     `preroll` is how long to rest on the first keyframe before the start, in s; `back_to_one`: whether to go back to
-    it after the end. `fps` is what the file counts frames by, if it does.
+    it after the end. `fps` is what the file counts frames by, if it does. `frames` are those of tables.
     """
 
     title: str
@@ -43,6 +45,7 @@ class CompiledSequence:
     preroll: float = PREROLL
     back_to_one: bool = False
     fps: float | None = None
+    frames: Mapping[Axis, Sequence[TimedFrames]] = field(default_factory=dict)
 
     @property
     def key_times(self) -> Sequence[float]:
@@ -86,7 +89,10 @@ def load_sequence(
         raise UnplayableError(problems)
     if problems := list(_restless(cues, move)):
         raise DocumentError(problems)
-    remarks = [*move.overshoots, *move.long_ramps]
+    frames = {axis: [each.moved(0, factor) for each in of_axis] for axis, of_axis in timeline.frames.items()}
+    if problems := list(_off(frames, move, document)):
+        raise UnplayableError(problems)
+    remarks = [each for each in (*move.overshoots, *move.long_ramps) if not _is_of_table(timeline.places[each.last])]
     warnings = [*timeline.remarks, *(timeline.places[remark.last].line(str(remark)) for remark in remarks)]
     if factor > 1:
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
@@ -94,7 +100,23 @@ def load_sequence(
             warnings.append(document.problem(("fit",), f"does so to {', '.join(sticks)} too: the drone flies further"))
     title, preroll = model.called(document.name), seconds(model.preroll, model.fps)
     done = [timed.cue for timed in cues]
-    return CompiledSequence(title, move, done, warnings, keys, preroll, model.back_to_one, model.fps)
+    return CompiledSequence(title, move, done, warnings, keys, preroll, model.back_to_one, model.fps, frames)
+
+
+def _off(frames: Mapping[Axis, Sequence[TimedFrames]], move: Move, document: Document) -> Iterator[str]:
+    """A line for each table that the planned move does not follow within its tolerance."""
+    for axis, of_axis in frames.items():
+        for each in of_axis:
+            worst = each.deviation(move.tracks[axis])
+            if worst.size > each.tolerance:
+                amount = f"{worst.size:.3g} {axis.unit}".rstrip()
+                text = f": {axis} is {amount} off at frame {worst.frame} of {each.table}, and may be {each.tolerance:g}"
+                yield document.problem((WHERE,), f"{text}; use a higher tolerance, or a lower fps")
+
+
+def _is_of_table(place: Origin) -> bool:
+    """Whether a key is made of a table: that it is near enough to the frames is checked by `_off`."""
+    return place.location[:1] == (WHERE,) or str(place.location[:1][0]).startswith("frame ")
 
 
 def _refusals(timeline: Timeline, error: Infeasible) -> list[str]:

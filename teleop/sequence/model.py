@@ -15,6 +15,7 @@ from teleop.planner.keyframes.repeat import Repeat
 from teleop.sequence.aim_section import Aim, Mount, MountSection, OffsetSection, Place
 from teleop.sequence.cues import CueSection
 from teleop.sequence.panorama import PanoramaSection
+from teleop.sequence.tables.section import SourceSection
 from teleop.sequence.timelapse_section import TimelapseSection
 
 PREROLL = 0.5  # s at rest on the first keyframe before the start, unless the file says otherwise
@@ -82,7 +83,7 @@ class RepeatSection(Section):
 class SequenceModel(Section):
     """A camera move."""
 
-    model_config = one_of("keyframes", "panorama", "include")
+    model_config = one_of("keyframes", "panorama", "include", "source")
 
     title: Annotated[str, Field(max_length=LONGEST_TITLE)] = ""
     """Title on screens."""
@@ -110,6 +111,8 @@ class SequenceModel(Section):
     """Where the axes are, and when; each entry starts with `- `."""
     panorama: PanoramaSection | None = None
     """Rows and columns of stills."""
+    source: SourceSection | None = None
+    """A table by the frame, as keys; all other times here then count from its first frame."""
     include: list[IncludeSection] = Field(default_factory=list)
     """Other sequences within this one."""
     cues: list[CueSection] = Field(default_factory=list)

@@ -12,15 +12,24 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from teleop.config.documents.document import Document, DocumentError, mapping, numbered, sequence
+from teleop.config.documents.document import (
+    Document,
+    DocumentError,
+    UnplayableError,
+    mapping,
+    numbered,
+    sequence,
+)
 from teleop.config.documents.yaml_loader import read_document
 from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.quantities import percentage, seconds
 from teleop.config.resources import find, is_bare
 from teleop.core.axes import STICKS, Axis, Limits
 from teleop.sequence.aim import UnaimedError
+from teleop.core.events import Action
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.rules import file_rules, rig_rules
+from teleop.sequence.tables.fitted_table import TableReader
 from teleop.sequence.timelapse_section import is_timelapse
 from teleop.sequence.timeline import Block, Origin, Timeline, expand, joined
 
@@ -73,9 +82,13 @@ class SequenceReader:
         for index, inner in enumerate(included):
             if inner is not None:
                 self._insert(timeline, index, inner, blocks)
+        run_up = self._add_table(timeline, path.parent, blocks)
+        if len(self.problems) > before:
+            return None
         timeline.keys, overlaps = joined(blocks)
         timeline.cues.sort(key=lambda timed: timed.cue.at)
         self.problems += overlaps or list(expand(timeline, self.limits))
+        timeline.move_later(run_up)
         return None if len(self.problems) > before else timeline
 
     def _document(self, path: Path, name: str, note: str) -> Document:
@@ -115,6 +128,25 @@ class SequenceReader:
             return inner
         return None
 
+    def _add_table(self, timeline: Timeline, folder: Path, blocks: dict[Axis, list[Block]]) -> float:
+        """Put the table that a file names in `source` among the blocks; the seconds of its run-up, 0 without one."""
+        model, document = timeline.model, timeline.document
+        if model.source is None:
+            return 0.0
+        may_stretch = model.fit == "stretch"
+        reader = TableReader(document, model.source, model.fps, folder, self.limits, self.rig, may_stretch)
+        try:
+            table = reader.read()
+        except DocumentError as error:
+            self.problems += error.problems
+            self.more += error.more
+            self.beyond_rig += len(error.problems) if isinstance(error, UnplayableError) else 0
+            return 0.0
+        own = any(timed.cue.action in (Action.RECORD, Action.STOP) for timed in timeline.cues)
+        camera = self.devices is None or "camera" in self.devices
+        timeline.add_table(table, blocks, record=model.source.record and camera and not own)
+        return table.run_up
+
     def _insert(self, timeline: Timeline, index: int, inner: Timeline, blocks: dict[Axis, list[Block]]) -> None:
         """Put what `include[index]` names among the blocks."""
         entry, where = timeline.model.include[index], numbered("include", index)
@@ -123,6 +155,8 @@ class SequenceReader:
         timeline.cues += inserted.cues
         timeline.aims += inserted.aims
         timeline.remarks += inner.remarks
+        for axis, of_axis in inserted.frames.items():
+            timeline.frames.setdefault(axis, []).extend(of_axis)
         for axis, of_axis in inserted.keys.items():
             place = Origin(timeline.document, ("include", index))
             blocks.setdefault(axis, []).append(Block(of_axis, where, place))

@@ -15,6 +15,7 @@ from teleop.sequence.aim_section import aim_rules
 from teleop.sequence.cues import cue_rules
 from teleop.sequence.easing import ease_rules
 from teleop.sequence.panorama import panorama_limits, panorama_rules
+from teleop.sequence.tables.section import source_limits, source_rules
 from teleop.sequence.timelapse_section import is_timelapse, timelapse_rules
 
 AXES = tuple(axis.value for axis in Axis)
@@ -30,7 +31,7 @@ def file_rules(data: Any) -> Iterator[Wrong]:
     yield from _keyframe_rules(data, when)
     yield from _stick_rules(data)
     yield from aim_rules(data)
-    if isinstance(data, dict) and not data.keys() & {"keyframes", "include", "panorama"}:
+    if isinstance(data, dict) and not data.keys() & {"keyframes", "include", "panorama", "source"}:
         yield ("keyframes",), "is missing"
     if is_timelapse(data):
         yield from ease_rules(data, 1.0)  # a ramp of 24f takes 24 frames
@@ -40,6 +41,7 @@ def file_rules(data: Any) -> Iterator[Wrong]:
     if wrong := _time(mapping(data), "preroll", when)[1]:
         yield ("preroll",), wrong
     yield from panorama_rules(data, fps)
+    yield from source_rules(data, fps)
     for index, cue in enumerate(sequence(data, "cues")):
         yield from cue_rules(cue, ("cues", index))
         if wrong := _time(mapping(cue), "at", when)[1]:
@@ -143,6 +145,7 @@ def rig_rules(
                 yield ("cues", index, kind), f": {rig} has no {device}; its sinks are {', '.join(devices)}"
     by_name = {axis.value: axis_limits for axis, axis_limits in limits.items()}
     yield from panorama_limits(data, by_name, rig)
+    yield from source_limits(data, by_name, rig)
     if devices is not None and "camera" not in devices and mapping(data, "panorama"):
         yield ("panorama",), f": {rig} has no camera; its sinks are {', '.join(devices)}"
     for index, frame in enumerate(sequence(data, "keyframes")):

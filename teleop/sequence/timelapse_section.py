@@ -22,6 +22,7 @@ UNUSED = {
     "cues": "the shutter is its only cue",
     "include": "an included move's times are seconds, not frames",
     "panorama": "it has frames of its own",
+    "source": "its frames are seconds of a clip, not of a shoot",
     "repeat": "its frames are counted once",
     "preroll": "use delay",
     "back_to_one": "a shoot ends at its last frame",

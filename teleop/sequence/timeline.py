@@ -24,6 +24,9 @@ from teleop.sequence.cues import Cue, moved_rules
 from teleop.sequence.keys import SAME, Keys, KeysError, keys_of, recentered
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.panorama import WHERE, shots
+from teleop.sequence.tables.fitted_table import RUN_OUT, RUN_UP, FittedTable
+from teleop.sequence.tables.section import WHERE as SOURCE
+from teleop.sequence.tables.timed_frames import TimedFrames
 
 MOST_KEYS = 10_000  # of an axis, every pass of a repeat counted: the planner takes some 10 s for them
 
@@ -91,6 +94,7 @@ class Timeline:
     """A file's keys and cues; `own` are the keys of its keyframes alone, `keys` all that are to be planned.
 
     `places` are the keys' by their `where`, `remarks` lines for the user.
+    `frames` are those of tables, by axis.
     """
 
     document: Document
@@ -101,6 +105,7 @@ class Timeline:
     places: dict[str, Origin] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
     aims: list[Aimed] = field(default_factory=list)
+    frames: dict[Axis, list[TimedFrames]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, document: Document, model: SequenceModel) -> Timeline:
@@ -144,7 +149,28 @@ class Timeline:
         cues = [timed._replace(cue=timed.cue._replace(at=at + timed.cue.at / rate)) for timed in self.cues]
         places = {f"{name}, {where}": place for where, place in self.places.items()}
         aims = [each._replace(at=at + each.at / rate, rate=each.rate * rate) for each in self.aims]
-        return replace(self, keys=keys, cues=cues, places=places, aims=aims)
+        frames = {axis: [each.moved(at, 1 / rate) for each in of_axis] for axis, of_axis in self.frames.items()}
+        return replace(self, keys=keys, cues=cues, places=places, aims=aims, frames=frames)
+
+    def add_table(self, table: FittedTable, blocks: dict[Axis, list[Block]], *, record: bool) -> None:
+        """The keys of a table as blocks, its frames, and cues to `record` them."""
+        place = Origin(self.document, (SOURCE,))
+        lines = Document(table.table, places={(name,): (line, 1) for name, line in table.lines.items()})
+        self.places |= {name: Origin(lines, (name,)) for name in table.lines} | {RUN_UP: place, RUN_OUT: place}
+        self.remarks += table.remarks
+        for axis, of_axis in table.keys.items():
+            blocks.setdefault(axis, []).append(Block(of_axis, SOURCE, place))
+            self.frames.setdefault(axis, []).append(table.frames[axis])
+        if record:
+            for at, action in ((0.0, Action.RECORD), (table.end, Action.STOP)):
+                self.cues.append(Timed(Cue(at, action), False, place))
+
+    def move_later(self, by: float) -> None:
+        """Begin `by` s later: the run-up of a table comes before time 0 of its file."""
+        self.keys = {axis: [replace(key, at=key.at + by) for key in of_axis] for axis, of_axis in self.keys.items()}
+        self.cues = [timed._replace(cue=timed.cue._replace(at=timed.cue.at + by)) for timed in self.cues]
+        self.aims = [each._replace(at=each.at + by) for each in self.aims]
+        self.frames = {axis: [each.moved(by) for each in of_axis] for axis, of_axis in self.frames.items()}
 
 
 def _inserted(key: Key, at: float, rate: float, name: str, tension: float | None, stop: bool) -> Key:

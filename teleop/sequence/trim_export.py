@@ -21,7 +21,7 @@ from teleop.core.errors import UsageError
 
 PLACES = 4  # decimals of a key, in degrees or of 0..1: finer than any rig
 _TOKEN = re.compile(r"[^\s,\]}#]+")
-_MADE = ("include", "panorama")  # sections from which keys are made that stand nowhere
+_MADE = ("include", "panorama", "source")  # sections from which keys are made that stand nowhere
 
 
 class Number(NamedTuple):

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 from pydantic import WithJsonSchema
 
 from teleop.config.quantities import FRAMES_WRITTEN, LONGEST, PERCENTAGE_WRITTEN, TIME_WRITTEN
+from teleop.core.axes import Axis
 from teleop.planner.keyframes.ramp import LONGEST_SHARE, NAMES, SMOOTH
 
 MOST_OVERLAP = 0.9
@@ -45,6 +46,23 @@ _BELOW = _described({"type": "number", "exclusiveMinimum": 0}, "Speed in deg/s b
 _AT_MOST = _described(_TIME, "Longest wait for that.")
 
 Time = Annotated[Any, WithJsonSchema({**_TIME, "examples": [4, "4s", "1m30s", "96f", "00:00:04:00"]})]
+AutoTime = Annotated[Any, WithJsonSchema({"anyOf": [{"const": "auto"}, *_TIME["anyOf"]], "examples": ["auto", "2s"]})]
+_TOLERANCE = {"type": "number", "exclusiveMinimum": 0}
+Tolerance = Annotated[
+    Any,
+    WithJsonSchema(
+        {
+            "anyOf": [
+                _TOLERANCE,
+                {
+                    "type": "object",
+                    "propertyNames": {"enum": [axis.value for axis in Axis]},
+                    "additionalProperties": _TOLERANCE,
+                },
+            ]
+        }
+    ),
+]
 Percentage = Annotated[Any, WithJsonSchema({"type": "string", "pattern": PERCENTAGE_WRITTEN, "examples": ["30%"]})]
 Overlap = Annotated[Any, WithJsonSchema({**_share_to(MOST_OVERLAP), "examples": ["30%"]})]
 Ease = Annotated[
