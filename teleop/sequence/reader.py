@@ -29,7 +29,6 @@ from teleop.sequence.aim import UnaimedError
 from teleop.core.events import Action
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.rules import file_rules, rig_rules
-from teleop.sequence.tables.fitted_table import TableReader
 from teleop.sequence.timelapse_section import is_timelapse
 from teleop.sequence.timeline import Block, Origin, Timeline, expand, joined
 
@@ -133,6 +132,8 @@ class SequenceReader:
         model, document = timeline.model, timeline.document
         if model.source is None:
             return 0.0
+        from teleop.sequence.tables.fitted_table import TableReader
+
         may_stretch = model.fit == "stretch"
         reader = TableReader(document, model.source, model.fps, folder, self.limits, self.rig, may_stretch)
         try:

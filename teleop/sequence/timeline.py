@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from teleop.config.documents.document import Document, Location, numbered, path_text
 from teleop.config.quantities import seconds
@@ -24,9 +24,12 @@ from teleop.sequence.cues import Cue, moved_rules
 from teleop.sequence.keys import SAME, Keys, KeysError, keys_of, recentered
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.panorama import WHERE, shots
-from teleop.sequence.tables.fitted_table import RUN_OUT, RUN_UP, FittedTable
+from teleop.sequence.tables.section import RUN_OUT, RUN_UP
 from teleop.sequence.tables.section import WHERE as SOURCE
 from teleop.sequence.tables.timed_frames import TimedFrames
+
+if TYPE_CHECKING:
+    from teleop.sequence.tables.fitted_table import FittedTable
 
 MOST_KEYS = 10_000  # of an axis, every pass of a repeat counted: the planner takes some 10 s for them
 

@@ -20,12 +20,11 @@ from teleop.planner.keyframes.frame_keys import Frames
 from teleop.planner.keyframes.frames import FrameFitter, FramesFit, NoRoomError, TooFastError
 from teleop.planner.keyframes.keys import Key
 from teleop.planner.polynomial import Array
-from teleop.sequence.tables.section import WHERE, ColumnSection, SourceSection
+from teleop.sequence.tables.section import RUN_OUT, RUN_UP, WHERE, ColumnSection, SourceSection
 from teleop.sequence.tables.table_file import MOST_FRAMES, Table, read_table
 from teleop.sequence.tables.timed_frames import TimedFrames
 
 SHIFT = 1e-9  # units: rounding of scaled positions beside a soft limit
-RUN_UP, RUN_OUT = "run-up", "run-out"
 
 
 @dataclass(frozen=True)
@@ -139,10 +138,9 @@ class TableReader:
             raise UnplayableError([self._problem(_too_fast(error, self.rig, rate, numbers[0]))]) from None
         except NoRoomError as error:
             limits = self.limits[error.axis]
-            what = (
-                f"come to rest after frame {numbers[-1]}" if error.after else f"get to speed before frame {numbers[0]}"
-            )
-            run = "run_out" if error.after else "run_up"
+            what, run = f"get to speed before frame {numbers[0]}", "run_up"
+            if error.after:
+                what, run = f"come to rest after frame {numbers[-1]}", "run_out"
             room = "" if limits.continuous else f" within {limits.minimum:g}..{limits.maximum:g}"
             text = f": {error.axis} cannot {what}{room} ({self.rig}); use a longer {run}, or another offset"
             raise UnplayableError([self._problem(text)]) from None
@@ -179,7 +177,7 @@ def _name(place: int, first: int, count: int) -> str:
 
 
 def _placed(axis: Axis, values: Array, column: ColumnSection, limits: Limits) -> Array:
-    """A column's values in units, angles without a seam and within the soft limits if a whole turn brings them there."""
+    """A column's values in units; angles without a seam, and within the soft limits where whole turns do that."""
     positions = values * column.scale + column.offset
     if not axis.is_angle:
         return positions

@@ -17,6 +17,7 @@ from teleop.core.axes import Axis, Limits
 
 WHERE = "source"
 AUTO = "auto"
+RUN_UP, RUN_OUT = "run-up", "run-out"  # what errors call keys before the first frame and after the last
 TOLERANCE = 0.1  # deg, or per cent of the full way of focus and sticks
 PER_SHARE = 100.0  # a tolerance in degrees is one in per cent for focus and sticks, whose full way is 1
 
