@@ -13,6 +13,7 @@ from cyclopts import Parameter
 from teleop.app.check import MoveCheck
 from teleop.app.check import check as check_plan
 from teleop.app.planning import Plan
+from teleop.cli.check_verdict import verdict
 from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
 from teleop.cli.screens.folded import tell
 from teleop.cli.shipped_files import named
@@ -42,6 +43,8 @@ def check(
         tell("A drone's move is played at its own speed only.")
     else:
         tell(f"Maximum playback speed: {math.floor(100 * found.fastest)} %.")
+    for line in verdict(plan, found):
+        tell(line)
     return 0
 
 
@@ -54,6 +57,8 @@ def _facts(plan: Plan, found: MoveCheck) -> dict[str, object]:
         "axes": {axis.value: asdict(use) for axis, use in found.axes.items()},
         "cues": [{"at": cue.at, "name": cue.name} for cue in sequence.cues],
         "speed_at_most": found.fastest,
+        "remarks": list(found.remarks),
+        **({"frames": {axis.value: asdict(each) for axis, each in found.frames.items()}} if found.frames else {}),
         "warnings": list(sequence.warnings),
         **({} if plan.timelapse is None else {"timelapse": facts(plan.timelapse)}),
     }

@@ -115,6 +115,16 @@ class Track:
         rows[:, moving] = inside
         return rows
 
+    def fastest_at(self) -> float:
+        """When it is fastest (s), to a hundredth of a piece; 0 where it never moves."""
+        if len(self.coefficients) == 0:
+            return 0.0
+        widths = np.diff(self.breaks)
+        least, greatest = extremes(self.coefficients, widths)
+        piece = int(np.maximum(-least[1], greatest[1]).argmax())
+        times = self.breaks[piece] + widths[piece] * np.linspace(0, 1, 101)[:-1]
+        return float(times[np.abs(self.sample(times)[1]).argmax()])
+
     def peaks(self) -> Peaks:
         """Exact extremes, from the zeros of the derivatives."""
         if len(self.coefficients) == 0:
