@@ -7,22 +7,28 @@ anything is written.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated, BinaryIO
+from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 from cyclopts import Parameter
 
+from teleop.app.planning import Plan
 from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json, print_warnings
+from teleop.cli.own_files import check_own
 from teleop.cli.shipped_files import named
 from teleop.config.files import replacing
 from teleop.config.frame_rates import exact_rate
-from teleop.config.profile import Profile
 from teleop.core.errors import UsageError
 from teleop.sequence.compile import CompiledSequence
 
-Write = Callable[[CompiledSequence, Profile, BinaryIO], None]
+if TYPE_CHECKING:
+    from teleop.plots.page import Watch
+
+Fov = tuple[float, float]  # deg across and up
+Write = Callable[["Plan", BinaryIO, "Watch | None"], None]
 
 
 def preview(
@@ -35,10 +41,31 @@ def preview(
     ] = None,
     csv: Annotated[Path | None, Parameter(metavar="FILE", help="Write a table of every axis over time.")] = None,
     rate: Annotated[float, Parameter(metavar="HZ", help="Rows of the table per second.")] = 100.0,
+    fov: Annotated[
+        str | None, Parameter(metavar="WxH", help="Field of view of the lens in deg, for the page's path: 54x38.")
+    ] = None,
+    watch: Annotated[
+        bool, Parameter(negative="", help="Write again whenever a file of the sequence is saved; the page reloads.")
+    ] = False,
     options: Options = DEFAULTS,
 ) -> int:
     """Draw a sequence as a rig would play it: an interactive page, a drawing or a table."""
-    file, writes = named("preview", file, options.json), _writes(output, csv, rate)
+    lens = None if fov is None else _fov(fov)
+    file, writes = named("preview", file, options.json), _writes(output, csv, rate, lens)
+    for path in writes:
+        check_own(path)
+    if watch:
+        from teleop.cli.watched_preview import watch_preview
+
+        if output is None or output.suffix.lower() != ".html":
+            raise UsageError("--watch: needs a page to reload: give -o FILE.html")
+        return watch_preview(file, options, output, lambda version: _write(file, options, writes, version))
+    _write(file, options, writes)
+    return 0
+
+
+def _write(file: str, options: Options, writes: Mapping[Path, Write], watch: Watch | None = None) -> None:
+    """Plan, and write what is asked for. Raises DocumentError and OutputError."""
     plan = options.plan(file)
     profile, performance = plan.profile, plan.sequence
     if plan.timelapse is not None:
@@ -46,17 +73,25 @@ def preview(
     written = []
     for path, write in writes.items():
         with replacing(path) as stream:
-            write(performance, profile, stream)
+            write(plan, stream, watch)
             written.append({"path": str(path), "bytes": stream.tell()})
         if not options.json:
             announce(f"{path}: {performance.title}, {performance.duration:.2f} s on {profile.name}", *writes)
     if options.json:
         found = {"ok": True, "title": performance.title, "duration": performance.duration, "written": written}
         announce_json({**found, "warnings": list(performance.warnings)}, *writes)
-    return 0
 
 
-def _writes(output: Path | None, csv: Path | None, rate: float) -> Mapping[Path, Write]:
+def _fov(text: str) -> Fov:
+    """`54x38` in deg. Raises UsageError."""
+    found = re.fullmatch(r"([0-9]+(?:\.[0-9]+)?)\s*[xX×]\s*([0-9]+(?:\.[0-9]+)?)", text.strip())
+    across, up = (float(found[1]), float(found[2])) if found else (0.0, 0.0)
+    if not (0 < across < 180 and 0 < up < 180):
+        raise UsageError(f"--fov {text}: must be degrees across and up, below 180: 54x38")
+    return across, up
+
+
+def _writes(output: Path | None, csv: Path | None, rate: float, fov: Fov | None) -> Mapping[Path, Write]:
     """What to write where; raises UsageError when that cannot be done on any sequence."""
     writes: dict[Path, Write] = {}
     if output is not None:
@@ -65,7 +100,7 @@ def _writes(output: Path | None, csv: Path | None, rate: float) -> Mapping[Path,
             raise UsageError(f"-o {output}: its ending must be one of {', '.join(_KINDS)}")
         if _KINDS[ending] is _drawing and find_spec("matplotlib") is None:
             raise UsageError(f"-o {output}: a drawing needs matplotlib: pip install 'rs-teleop[plot]'")
-        writes[output] = _KINDS[ending](ending)
+        writes[output] = _KINDS[ending](ending, fov)
     if csv is not None:
         if not (math.isfinite(rate) and rate > 0):
             raise UsageError(f"--rate {rate:g}: must be more than 0 rows per second")
@@ -77,30 +112,34 @@ def _writes(output: Path | None, csv: Path | None, rate: float) -> Mapping[Path,
     return writes
 
 
-def _page(_ending: str) -> Write:
-    def write(performance: CompiledSequence, profile: Profile, stream: BinaryIO) -> None:
+def _page(_ending: str, fov: Fov | None) -> Write:
+    def write(plan: Plan, stream: BinaryIO, watch: Watch | None) -> None:
         from teleop.plots.page import page
 
-        stream.write(page(performance, profile).encode())
+        stream.write(page(plan.sequence, plan.profile, plan.timelapse, fov, watch).encode())
 
     return write
 
 
-def _drawing(ending: str) -> Write:
-    def write(performance: CompiledSequence, profile: Profile, stream: BinaryIO) -> None:
+def _drawing(ending: str, _fov: Fov | None) -> Write:
+    def write(plan: Plan, stream: BinaryIO, _watch: Watch | None) -> None:
         from teleop.plots.drawing import draw
 
-        draw(performance, profile, stream, ending.removeprefix("."))
+        draw(plan.sequence, plan.profile, stream, ending.removeprefix("."))
 
     return write
 
 
-_KINDS: Mapping[str, Callable[[str], Write]] = {".html": _page, ".svg": _drawing, ".png": _drawing}
+_KINDS: Mapping[str, Callable[[str, Fov | None], Write]] = {
+    ".html": _page,
+    ".svg": _drawing,
+    ".png": _drawing,
+}
 
 
 def _table(rate: float) -> Write:
-    def write(performance: CompiledSequence, _profile: Profile, stream: BinaryIO) -> None:
-        for text in _progress(performance, rate):
+    def write(plan: Plan, stream: BinaryIO, _watch: Watch | None) -> None:
+        for text in _progress(plan.sequence, rate):
             stream.write(text.encode())
 
     return write

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
+from teleop.planner.polynomial import Array
 from teleop.plots.downsample import QUANTITIES, Curve, curve
 from teleop.plots.style import COLORS, PER, UNIT_SIGNS, mark
 from teleop.sequence.compile import CompiledSequence, Cue
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 GROUND, CARD, GRID, TEXT, MUTED, CUE = "#0d0f12", "#171a1f", "#2a2e35", "#e9ecef", "#8b929c", "#ff5f56"
 MARGIN = 0.02  # of the duration, beside the first and the last key
-NEAR = 1.0  # of a curve's height: a limit that close to it is drawn
+NEAR = 0.5  # of what an axis's own curve spans: a limit that close to it is drawn
 
 STYLE: dict[Any, Any] = {  # matplotlib has a type of its own for the keys
     "axes.edgecolor": GRID,
@@ -40,7 +41,7 @@ def draw(performance: CompiledSequence, profile: Profile, stream: BinaryIO, kind
     from matplotlib import rc_context
 
     with rc_context(STYLE):
-        undated = {"Date": None} if kind == "svg" else None
+        undated = {"Date": None, "Creator": "teleop preview"} if kind == "svg" else {"Software": "teleop preview"}
         figure(performance, profile).savefig(stream, format=kind, dpi=120, metadata=undated)
 
 
@@ -77,8 +78,9 @@ def _panel(panel: Axes, row: int, performance: CompiledSequence, profile: Profil
     for unit, scale in scales.items():
         measure = (unit or "1") + PER[quantity] if unit or PER[quantity] else ""
         scale.set_ylabel(f"{quantity} {measure}".strip())
-        of_unit = {axis: profile.limits[axis] for axis in curves if UNIT_SIGNS[axis.unit] == unit}
-        _limits(scale, of_unit, quantity)
+        for axis, (_, rows) in curves.items():
+            if UNIT_SIGNS[axis.unit] == unit:
+                _limits(scale, axis, profile.limits[axis], quantity, rows[row])
         if row > 0 and len(scales) > 1:  # 0 at the same height in both
             reach = max(map(abs, scale.get_ylim()))
             scale.set_ylim(-reach, reach)
@@ -109,15 +111,14 @@ def _keys(scale: Axes, axis: Axis, performance: CompiledSequence, *, above: bool
         scale.annotate(name, spot, aside, textcoords="offset points", ha="center", color=COLORS[axis], fontsize=8)
 
 
-def _limits(scale: Axes, limits: dict[Axis, Limits], quantity: str) -> None:
-    """Dashed lines where limits are near what is drawn; further ones would flatten it."""
-    low, high = scale.get_ylim()
-    near = NEAR * (high - low)
-    for axis, of_axis in limits.items():
-        reach = getattr(of_axis, quantity, None)
-        for limit in (of_axis.minimum, of_axis.maximum) if reach is None else (-reach, reach):
-            if low - near <= limit <= high + near:
-                scale.axhline(limit, color=COLORS[axis], linewidth=1, linestyle="--")
+def _limits(scale: Axes, axis: Axis, limits: Limits, quantity: str, values: Array) -> None:
+    """Dashed lines where the axis's own curve comes near its limits; further ones would flatten it."""
+    reach = getattr(limits, quantity, None)
+    low, high = float(values.min()), float(values.max())
+    near = NEAR * (high - low if reach is None else max(high, 0) - min(low, 0))
+    for limit in (limits.minimum, limits.maximum) if reach is None else (-reach, reach):
+        if near > 0 and low - near <= limit <= high + near:
+            scale.axhline(limit, color=COLORS[axis], linewidth=1, linestyle="--")
 
 
 def _legend(curves: dict[Axis, Curve]) -> list[Any]:

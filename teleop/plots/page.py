@@ -9,26 +9,59 @@ from __future__ import annotations
 
 import html
 import json
-import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from teleop.config.documents.document import ENTRIES
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.plots.downsample import QUANTITIES, curve
+from teleop.plots.numbers import finite, short
+from teleop.plots.shoot_page import shoot_data
 from teleop.plots.style import COLORS, PER, UNIT_SIGNS, mark
 from teleop.sequence.compile import CompiledSequence
+from teleop.sequence.panorama import WHERE
 
+if TYPE_CHECKING:
+    from teleop.timelapse.compile import Timelapse
+
+SHOT = f"{ENTRIES[WHERE]} "
 _WEB = Path(__file__).parent / "web"
 _UPLOT = Path(__file__).parent / "vendor" / "uplot"
-_SCRIPTS = ("values", "marks", "plots")  # one module: in this order
+_SCRIPTS = ("values", "labels", "marks", "path", "plots", "watch")  # one module: in this order
 
 
-def page(performance: CompiledSequence, profile: Profile) -> str:
-    """The HTML text of an interactive page about `performance` on the rig of `profile`."""
-    return assembled(performance.title, _data(performance, profile))
+FOV = (54.0, 38.0)  # deg across and up: 35 mm on a full frame, where nothing says which lens it is
+
+
+class Watch(NamedTuple):
+    """A page that is written again and again: its `version`, and the `script` beside it that names the newest one."""
+
+    version: str
+    script: str
+
+
+def page(
+    performance: CompiledSequence,
+    profile: Profile,
+    timelapse: Timelapse | None = None,
+    fov: tuple[float, float] | None = None,
+    watch: Watch | None = None,
+) -> str:
+    """The HTML text of an interactive page about `performance` on the rig of `profile`.
+
+    That of a `timelapse` is about its frames. `fov` is the field of view of the lens, across and up, in deg.
+    """
+    data = _data(performance, profile) if timelapse is None else shoot_data(timelapse, profile)
+    if {"pan", "tilt"} & {axis["name"] for axis in data["axes"]}:
+        data["fov"] = fov or performance.fov or FOV
+        if performance.fov:
+            data["tiles"] = tiles(performance)
+    if watch is not None:
+        data["watch"] = watch._asdict()
+    return assembled(performance.title, data)
 
 
 def assembled(title: str, data: Mapping[str, Any]) -> str:
@@ -45,6 +78,7 @@ def assembled(title: str, data: Mapping[str, Any]) -> str:
         "uplot_style": _text(_UPLOT / "uPlot.min.css"),
         "uplot": _text(_UPLOT / "uPlot.iife.min.js"),
         "uplot_license": _text(_UPLOT / "LICENSE"),
+        "scripts_of": " 'self' file:" if "watch" in data else "",
     }
     return re.sub(r"{{(\w+)}}", lambda found: parts[found[1]], _text(_WEB / "page.html"))
 
@@ -63,7 +97,33 @@ def _data(performance: CompiledSequence, profile: Profile) -> dict[str, Any]:
         "quantities": [{"name": name, "per": PER[name]} for name in QUANTITIES],
         "axes": [_axis(axis, performance, profile.limits[axis]) for axis in performance.move.tracks],
         "warnings": list(performance.warnings),
+        "notes": list(_notes(performance)),
     }
+
+
+def tiles(performance: CompiledSequence) -> list[list[float]]:
+    """Where the pictures of a panorama look, pan and tilt in deg, in their order."""
+    shots = [key for key in performance.keys[Axis.PAN] if SHOT in key.where]
+    tilts = {key.where: key.position for key in performance.keys[Axis.TILT]}
+    return [[key.position, tilts[key.where]] for key in shots]
+
+
+def _notes(performance: CompiledSequence) -> Iterator[str]:
+    """A line for each axis that a table gives: how near the plan is to the frames."""
+    for axis, tables in performance.frames.items():
+        for table in tables:
+            worst, unit = table.deviation(performance.move.tracks[axis]), UNIT_SIGNS[axis.unit]
+            near = f"within {worst.size:.3f}{unit} of {table.tolerance:g}{unit}, worst at frame {worst.frame}"
+            yield f"{table.table}: {axis.value} {near} ({worst.time:.2f} s)"
+
+
+def _frames(axis: Axis, performance: CompiledSequence) -> list[list[float]] | None:
+    """Times and positions of all frames that tables have of an axis."""
+    tables = performance.frames.get(axis)
+    if not tables:
+        return None
+    rows = ([value for table in tables for value in getattr(table, row).tolist()] for row in ("times", "positions"))
+    return [[round(value, 5) for value in row] for row in rows]
 
 
 def _axis(axis: Axis, performance: CompiledSequence, limits: Limits) -> dict[str, Any]:
@@ -84,15 +144,7 @@ def _axis(axis: Axis, performance: CompiledSequence, limits: Limits) -> dict[str
             {"at": key.at, "hold": key.hold, "position": key.position, "name": key.where, "mark": mark(key.where)}
             for key in performance.keys[axis]
         ],
+        **({"frames": frames} if (frames := _frames(axis, performance)) else {}),
         "times": [round(time, 6) for time in times.tolist()],
         "samples": {name: [short(value) for value in row] for name, row in zip(QUANTITIES, rows.tolist(), strict=True)},
     }
-
-
-def finite(limit: float) -> float | None:
-    return limit if math.isfinite(limit) else None
-
-
-def short(value: float) -> float:
-    """Six digits: finer than a screen, a third of the bytes."""
-    return float(f"{value:.6g}")

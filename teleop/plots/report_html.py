@@ -15,7 +15,8 @@ import numpy as np
 from teleop.core.axes import Axis
 from teleop.planner.polynomial import Array
 from teleop.plots.downsample import MOST, outline
-from teleop.plots.page import assembled, finite, short
+from teleop.plots.numbers import finite, short
+from teleop.plots.page import assembled
 from teleop.plots.style import COLORS, PER, UNIT_SIGNS
 from teleop.recording.reader import Take
 from teleop.recording.report import AxisReport

@@ -25,5 +25,5 @@ PER: Mapping[str, str] = {"position": "", "error": "", "velocity": "/s", "accele
 
 
 def mark(where: str) -> str:
-    """A key's name beside its diamond: 3 for key 3, 1.2 for key 2 of include 1."""
-    return re.sub(r"(include|key|shot) ", "", where).replace(", ", ".")
+    """A key's name beside its diamond: 3 for key 3, 1.2 for key 2 of include 1, 57 for frame 57 of a table."""
+    return re.sub(r"(include|key|shot|frame) ", "", where).replace(", ", ".")

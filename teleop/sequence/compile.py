@@ -35,6 +35,7 @@ class CompiledSequence:
 
     `preroll` is how long to rest on the first keyframe before the start, in s; `back_to_one`: whether to go back to
     it after the end. `fps` is what the file counts frames by, if it does. `frames` are those of tables.
+    `fov` is the field of view of a panorama, across and up, in deg.
     """
 
     title: str
@@ -46,6 +47,7 @@ class CompiledSequence:
     back_to_one: bool = False
     fps: float | None = None
     frames: Mapping[Axis, Sequence[TimedFrames]] = field(default_factory=dict)
+    fov: tuple[float, float] | None = None
 
     @property
     def key_times(self) -> Sequence[float]:
@@ -99,8 +101,9 @@ def load_sequence(
         if sticks := [axis for axis in move.tracks if axis.is_stick]:
             warnings.append(document.problem(("fit",), f"does so to {', '.join(sticks)} too: the drone flies further"))
     title, preroll = model.called(document.name), seconds(model.preroll, model.fps)
+    fov = (model.panorama.fov[0], model.panorama.fov[1]) if model.panorama else None
     done = [timed.cue for timed in cues]
-    return CompiledSequence(title, move, done, warnings, keys, preroll, model.back_to_one, model.fps, frames)
+    return CompiledSequence(title, move, done, warnings, keys, preroll, model.back_to_one, model.fps, frames, fov)
 
 
 def _off(frames: Mapping[Axis, Sequence[TimedFrames]], move: Move, document: Document) -> Iterator[str]:

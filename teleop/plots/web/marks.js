@@ -11,9 +11,17 @@ function drawOver(plot, quantity) {
   ctx.lineWidth = pixel;
   ctx.font = `${11 * pixel}px system-ui, sans-serif`;
   drawLimits(plot, quantity, pixel);
-  drawCues(plot, quantity, pixel);
-  const keys = move.axes.filter((axis) => axis.shown).flatMap((axis) => drawKeys(plot, axis, quantity, pixel));
-  if (quantity === "position") drawNames(plot, keys, pixel);
+  const shown = shownOf(quantity);
+  if (quantity === "position") shown.forEach((axis) => drawFrames(plot, axis, pixel));
+  const keys = shown.flatMap((axis) => drawKeys(plot, axis, quantity, pixel));
+  drawCues(plot, pixel);
+  if (quantity === "position") {
+    const words = new Words(quantity, ctx, bbox, pixel);
+    keys.forEach(({ x, y }) => words.keepOut(x, y, 6 * pixel));
+    nameCues(plot, words, pixel);
+    const spots = (x, y) => ["center", "left", "right"].flatMap((side) => [[x, y - 14 * pixel, side], [x, y + 15 * pixel, side]]);
+    keys.forEach(({ x, y, color, text }) => words.put(text, color, spots(x, y)));
+  }
   ctx.restore();
 }
 function line(ctx, x0, y0, x1, y1) {
@@ -25,26 +33,44 @@ function line(ctx, x0, y0, x1, y1) {
 function drawLimits(plot, quantity, pixel) {
   const { ctx, bbox } = plot;
   ctx.setLineDash([6 * pixel, 5 * pixel]);
-  for (const axis of move.axes.filter((each) => each.shown))
-    for (const limit of axis.limits[quantity]) {
-      if (limit === null) continue;
+  for (const axis of shownOf(quantity))
+    for (const limit of limitsShown(axis, quantity)) {
       const y = plot.valToPos(limit, scaleOf(axis.unit), true);
       ctx.strokeStyle = axis.color;
       line(ctx, bbox.left, y, bbox.left + bbox.width, y);
     }
   ctx.setLineDash([]);
 }
-function drawCues(plot, quantity, pixel) {
+function drawCues(plot, pixel) {
   const { ctx, bbox } = plot;
-  ctx.strokeStyle = ctx.fillStyle = CUE;
-  for (const cue of move.cues) {
-    const x = plot.valToPos(cue.at, "x", true);
+  ctx.strokeStyle = CUE;
+  for (const { at } of move.cues) {
+    const x = plot.valToPos(at, "x", true);
+    if (x >= bbox.left - 1 && x <= bbox.left + bbox.width + 1) line(ctx, x, bbox.top, x, bbox.top + bbox.height);
+  }
+}
+// Names of cues at the foot of their lines, those of one time together, in as many rows as it takes.
+const ROWS = 4;
+function nameCues(plot, words, pixel) {
+  const { bbox } = plot, names = new Map();
+  for (const { at, name } of move.cues) names.set(at, [...(names.get(at) ?? []), name]);
+  for (const [at, of] of names) {
+    const x = plot.valToPos(at, "x", true);
     if (x < bbox.left - 1 || x > bbox.left + bbox.width + 1) continue;
-    line(ctx, x, bbox.top, x, bbox.top + bbox.height);
-    if (quantity !== "position") continue;
-    const flip = x + 80 * pixel > bbox.left + bbox.width;
-    ctx.textAlign = flip ? "right" : "left";
-    ctx.fillText(cue.name, x + (flip ? -5 : 5) * pixel, bbox.top + bbox.height - 6 * pixel);
+    const rows = Array.from({ length: ROWS }, (_, row) => bbox.top + bbox.height - (8 + 13 * row) * pixel);
+    words.put(of.join(", "), CUE, rows.flatMap((y) => [[x + 5 * pixel, y, "left"], [x - 5 * pixel, y, "right"]]));
+  }
+}
+// The frames of a table, which the plan is to meet, as dots.
+function drawFrames(plot, axis, pixel) {
+  const { ctx, bbox } = plot, [times, positions] = axis.frames ?? [[], []];
+  const from = times.findIndex((time) => time >= view.from), inView = times.filter((time) => time >= view.from && time <= view.to).length;
+  const step = Math.max(1, Math.ceil(3 * inView * pixel / bbox.width)); // no more than one each three pixels
+  ctx.fillStyle = "#f1f3f5";
+  for (let i = Math.max(0, from); i < Math.max(0, from) + inView; i += step) {
+    ctx.beginPath();
+    ctx.arc(plot.valToPos(times[i], "x", true), plot.valToPos(positions[i], scaleOf(axis.unit), true), 1.2 * pixel, 0, 7);
+    ctx.fill();
   }
 }
 // Diamonds on the curve, and a bar while a key holds; returns what was drawn, for the names.
@@ -63,22 +89,4 @@ function drawKeys(plot, axis, quantity, pixel) {
     drawn.push({ x, y, color: axis.color, text: key.mark });
   }
   return drawn;
-}
-// Each key's name above it or below it, where it hides no other name and no diamond.
-function drawNames(plot, keys, pixel) {
-  const { ctx, bbox } = plot, high = 12 * pixel;
-  const taken = keys.map(({ x, y }) => [x, y, 6 * pixel]);
-  ctx.textAlign = "center";
-  ctx.textBaseline = "middle";
-  for (const { x, y, color, text } of keys) {
-    const half = ctx.measureText(text).width / 2 + pixel;
-    const center = Math.min(Math.max(x, bbox.left + half), bbox.left + bbox.width - half);
-    const free = (middle) => middle > bbox.top + high / 2 && middle < bbox.top + bbox.height - high / 2 &&
-      !taken.some(([cx, cy, wide]) => Math.abs(cx - center) < half + wide && Math.abs(cy - middle) < high);
-    const middle = [y - 13 * pixel, y + 14 * pixel].find(free);
-    if (middle === undefined) continue;
-    taken.push([center, middle, half]);
-    ctx.fillStyle = color;
-    ctx.fillText(text, center, middle);
-  }
 }

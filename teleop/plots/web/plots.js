@@ -9,6 +9,8 @@ const TIMES = [1, 2, 5].flatMap((n) => [n / 1000, n / 100, n / 10])
   .concat([1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400, 172800, 604800])
   .sort((a, b) => a - b); // s between ticks
 
+const FRAMES = [1, 2, 5, 10, 20, 24, 25, 30, 48, 50, 60, 100, 120, 200, 240, 250, 500, 1000, 2000, 5000, 10000];
+
 const WIDTHS = { left: 56, right: 50 }; // px of the vertical axes, the same in each plot so that times line up
 
 // A card: heading, values, plot.
@@ -17,12 +19,12 @@ function card({ name, per }) {
   section.dataset.quantity = name;
   heading.className = "heading";
   heading.innerHTML = "<h2></h2>";
-  const words = units.map((unit) => {
-    const names = move.axes.filter((axis) => axis.unit === unit).map((axis) => axis.name).join(", ");
+  const units = unitsOf(name), words = units.map((unit) => {
+    const names = axesOf(name).filter((axis) => axis.unit === unit).map((axis) => axis.name).join(", ");
     return unit || per ? `${unit || "1"}${per}` + (units.length > 1 ? ` (${names})` : "") : "";
   });
   heading.firstChild.textContent = [name[0].toUpperCase() + name.slice(1), ...words.filter(Boolean)].join("  ·  ");
-  const values = move.axes.map((axis) => {
+  const values = axesOf(name).map((axis) => {
     const value = document.createElement("div");
     value.className = "value";
     value.style.setProperty("--color", axis.color);
@@ -38,13 +40,13 @@ function card({ name, per }) {
 
 function axisX() {
   return {
-    stroke: MUTED, grid: { stroke: "#22262c", width: 1 }, ticks: { show: false }, font: "11px system-ui", size: 26, gap: 4,
-    incrs: TIMES, space: 80, values: (_, ticks, __, ___, step) => ticks.map((time) => clock(time, step)),
+    stroke: MUTED, grid: { stroke: "#22262c", width: 1 }, ticks: { show: false }, font: "11px system-ui", size: move.shoot ? 40 : 26, gap: 4,
+    incrs: move.shoot ? FRAMES : TIMES, space: 80, values: (_, ticks, __, ___, step) => ticks.map((time) => atTick(time, step)),
   };
 }
 function axisY(name, unit, side) {
   const suffix = name === "position" ? unit : "";
-  const some = () => move.axes.some((axis) => axis.shown && axis.unit === unit);
+  const some = () => shownOf(name).some((axis) => axis.unit === unit);
   return {
     scale: scaleOf(unit), side: side ? 1 : 3, stroke: MUTED, ticks: { show: false }, font: "11px system-ui", gap: 4, space: 22,
     grid: { show: side === 0, stroke: "#22262c", width: 1 }, size: side ? WIDTHS.right : WIDTHS.left,
@@ -61,9 +63,10 @@ const { times, picks } = merged();
 let dragged = null; // the plot in which the mouse is: the others follow it, and must not zoom a second time
 const plots = [];
 for (const quantity of move.quantities) {
-  const { name } = quantity, { section, values } = card(quantity);
-  const column = (row) => picks.map((pick, k) => pick.map((i) => (i < 0 ? null : move.axes[k].samples[row]?.[i] ?? null)));
-  const measured = name === "position" && move.axes.some((axis) => axis.samples.measured); // drawn dotted, over the plan
+  const { name } = quantity, { section, values } = card(quantity), axes = axesOf(name), units = unitsOf(name);
+  const column = (row) => axes.map((axis) =>
+    picks[move.axes.indexOf(axis)].map((i) => (i < 0 ? null : axis.samples[row]?.[i] ?? null)));
+  const measured = name === "position" && axes.some((axis) => axis.samples.measured); // drawn dotted, over the plan
   const samples = [...column(name), ...(measured ? column("measured") : [])];
   const plot = new uPlot({
     ...size(name, section),
@@ -73,7 +76,7 @@ for (const quantity of move.quantities) {
       x: { time: false, range: () => [view.from, view.to] },
       ...Object.fromEntries(scales(name).map(([scale, range]) => [scale, { auto: false, ...range }])),
     },
-    series: [{}, ...samples.map((_, k) => series(move.axes[k % move.axes.length], k >= move.axes.length))],
+    series: [{}, ...samples.map((_, k) => series(axes[k % axes.length], k >= axes.length))],
     axes: [axisX(), ...units.map((unit, side) => axisY(name, unit, side))],
     cursor: {
       sync: { key: "move", scales: ["x", null] }, y: false, points: { show: false },
@@ -85,7 +88,7 @@ for (const quantity of move.quantities) {
       setSelect: [selected],
     },
   }, [times, ...samples], section);
-  const dots = move.axes.map((axis) => {
+  const dots = axes.map((axis) => {
     const dot = document.createElement("div");
     dot.className = "dot";
     dot.style.background = axis.color;
@@ -95,7 +98,7 @@ for (const quantity of move.quantities) {
   });
   plot.over.addEventListener("mousedown", () => { dragged = plot; });
   touch(plot.over);
-  plots.push({ name, plot, section, values, dots });
+  plots.push({ name, plot, section, values, dots, axes });
 }
 
 // Sizes: four plots fill the window where it is high enough.
@@ -120,10 +123,11 @@ function zoom(from, to) {
   fit();
 }
 function fit() {
-  for (const { name, plot } of plots)
+  remember();
+  for (const { name, plot, axes } of plots)
     plot.batch(() => {
       plot.series.slice(1).forEach((each, k) => {
-        const { shown } = move.axes[k % move.axes.length];
+        const { shown } = axes[k % axes.length];
         if (each.show !== shown) plot.setSeries(k + 1, { show: shown });
       });
       plot.setScale("x", { min: view.from, max: view.to });
@@ -134,10 +138,10 @@ function fit() {
 
 // Values: at the cursor, or while there is none the peaks.
 function read(u, name) {
-  const { plot, values, dots } = plots.find((each) => each.plot === u) ?? {};
+  const { plot, values, dots, axes } = plots.find((each) => each.plot === u) ?? {};
   if (!plot) return; // uPlot's own first call, before there is a card to fill
   const at = plot.cursor.left >= 0 ? plot.posToVal(plot.cursor.left, "x") : null;
-  move.axes.forEach((axis, k) => {
+  axes.forEach((axis, k) => {
     const value = at === null ? null : valueAt(axis, name, at);
     values[k].hidden = !axis.shown;
     values[k].children[1].textContent = value === null
@@ -147,9 +151,14 @@ function read(u, name) {
     dots[k].hidden = value === null || !axis.shown;
     if (value !== null) dots[k].style.transform = `translate(${plot.cursor.left}px, ${plot.valToPos(value, scaleOf(axis.unit))}px)`;
   });
-  element("now").textContent = at === null ? `peaks of ${span()}` : [clock(at, 0.001), keyAt(plot, at)].filter(Boolean).join(" · ");
+  element("now").textContent = at === null ? `peaks of ${span()}` : [stamp(at, 0.001), keyAt(plot, at)].filter(Boolean).join(" · ");
+  if (view.at !== at) {
+    view.at = at;
+    drawPath();
+  }
 }
 function span() {
+  if (move.shoot) return `${move.duration + 1} frames`;
   return clock(move.duration, move.duration % 1 ? 0.01 : 1);
 }
 function keyAt(plot, at) {
@@ -170,12 +179,13 @@ function touch(over) {
     });
 }
 
+recall();
 for (const axis of move.axes) {
   const button = document.createElement("button");
   button.type = "button";
   button.textContent = axis.name;
   button.style.setProperty("--color", axis.color);
-  button.ariaPressed = "true";
+  button.ariaPressed = String(axis.shown);
   button.addEventListener("click", () => {
     axis.shown = !axis.shown;
     button.ariaPressed = String(axis.shown);
@@ -183,6 +193,7 @@ for (const axis of move.axes) {
   });
   element("axes").append(button);
 }
+element("limits").ariaPressed = String(view.limits);
 element("limits").addEventListener("click", (event) => {
   view.limits = !view.limits;
   event.currentTarget.ariaPressed = String(view.limits);
@@ -192,14 +203,20 @@ element("whole").addEventListener("click", () => zoom(0, Infinity));
 addEventListener("keydown", (event) => event.key === "Escape" && zoom(0, Infinity));
 addEventListener("resize", () => {
   for (const { name, plot, section } of plots) plot.setSize(size(name, section));
+  drawPath();
 });
 
+element("whole").disabled = view.from === 0 && view.to === (move.duration || 1);
 element("title").textContent = move.title;
 const keyframes = new Set(move.axes.flatMap((axis) => axis.keys.map((key) => key.name))).size;
 element("facts").textContent = move.facts ?? `${span()} on ${move.rig}, ${keyframes} keyframe${keyframes === 1 ? "" : "s"}`;
-for (const warning of move.warnings) {
+const list = (id, texts) => texts.forEach((text) => {
   const item = document.createElement("li");
-  item.textContent = warning;
-  element("warnings").append(item);
-}
+  item.textContent = text;
+  element(id).append(item);
+});
+list("warnings", move.warnings);
+list("notes", move.notes ?? []);
+if (move.fov) makePath();
 fit();
+drawPath();
