@@ -10,7 +10,7 @@ function aimAt(time) {
   return pathAxes.map((axis) => (axis ? valueAt(axis, "position", time) ?? 0 : 0));
 }
 function makePath() {
-  const section = document.createElement("section");
+  const section = document.createElement("figure");
   section.dataset.quantity = "path";
   section.innerHTML = '<div class="heading"><h2></h2></div><canvas></canvas>';
   const [wide, high] = move.fov, lens = `${digits(wide, 0)}° × ${digits(high, 0)}°`;
