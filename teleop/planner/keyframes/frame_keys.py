@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -32,10 +33,14 @@ Keys = Mapping[int, float]  # place, in frames from the table's first one on -> 
 
 
 class Runs(NamedTuple):
-    """Frames before the table to get up to speed in, and after it to come to rest in."""
+    """Frames before the table to get up to speed in, and after it to come to rest in.
+
+    In the `steady` ones next to the table an axis keeps the speed of its first or last frame.
+    """
 
     up: int
     out: int
+    steady: int = 0
 
 
 class Slack(NamedTuple):
@@ -63,26 +68,25 @@ class Frames:
         `rests` is whether the axis rests before and after. None where the limits leave no way.
         """
         band = slack.tolerance * self.tolerance
-        up, out = runs
-        low, high = np.full((2, up + len(self.positions) + out), np.nan)
-        low[up : up + len(self.positions)] = np.maximum(self.positions - band, self.limits.minimum)
-        high[up : up + len(self.positions)] = np.minimum(self.positions + band, self.limits.maximum)
-        low[np.isnan(low)], high[np.isnan(high)] = self.limits.minimum, self.limits.maximum
+        targets = self._targets(runs)
+        low = np.fmax(targets - band, self.limits.minimum)  # of nan and a number, the number
+        high = np.fmin(targets + band, self.limits.maximum)
         limits = None if np.isinf(slack.limits) else self.limits.scaled(slack.limits)
         return smoothest(low, high, step, limits, rests)
 
-    def free(self, step: float) -> Array:
+    @cached_property
+    def free(self) -> Array:
         """The smoothest positions (n,) as they would be without limits."""
         band = self.tolerance / 2
         known = ~np.isnan(self.positions)
         low, high = (np.where(known, self.positions + side, side * np.inf) for side in (-band, band))
-        found = smoothest(low, high, step, None, (False, False))
+        found = smoothest(low, high, 1.0, None, (False, False))
         assert found is not None  # the positions themselves would do
         return found
 
     def places(self, smooth: Array, runs: Runs, *, few: bool = True) -> list[int]:
         """Indices of `smooth` where keys are needed for the curve of least jerk; as `few` as do takes longer."""
-        curve = _Curve(smooth, self._targets(smooth, runs), FILLED * self.tolerance)
+        curve = _Curve(smooth, self._targets(runs), FILLED * self.tolerance)
         last = len(smooth) - 1
         inside = slice(runs.up, last + 1 - runs.out)
         turns = [runs.up + turn for turn in turning_points(smooth[inside], TURN * self.tolerance)]
@@ -109,7 +113,7 @@ class Frames:
 
     def keys(self, smooth: Array, step: float, runs: Runs) -> Keys | None:
         """The keys on `smooth`; None where the planner cannot follow them."""
-        targets = self._targets(smooth, runs)
+        targets = self._targets(runs)
         allowances = np.where(np.isnan(targets), np.inf, self.tolerance - np.abs(smooth - np.nan_to_num(targets)))
         style = Style(self.axis, self.limits, self.tolerance, DIGITS, 0.0, 1 / step, 1)
         segment = SampledSegment(-runs.up, smooth, style, allowances)
@@ -126,10 +130,24 @@ class Frames:
             keys |= {place: segment.position(place) for place in worst_places(segment, keys, off)}
         return None
 
-    def _targets(self, smooth: Array, runs: Runs) -> Array:
-        targets = np.full(len(smooth), np.nan)
-        targets[runs.up : len(smooth) - runs.out] = self.positions
+    def _targets(self, runs: Runs) -> Array:
+        """The positions with those of the runs before and after, NaN where they are free.
+
+        It goes on at the table's own speed for a few frames, so that it is at speed in the first and the last one.
+        """
+        up, out, steady = runs
+        targets = np.full(up + len(self.positions) + out, np.nan)
+        targets[up : up + len(self.positions)] = self.positions
+        if len(self.free) > 1:
+            first, last = self.free[1] - self.free[0], self.free[-1] - self.free[-2]
+            for place in range(1, 1 + min(steady, up // 2)):
+                targets[up - place] = self._reachable(self.free[0] - place * first)
+            for place in range(min(steady, out // 2)):
+                targets[up + len(self.positions) + place] = self._reachable(self.free[-1] + (place + 1) * last)
         return targets
+
+    def _reachable(self, position: float) -> float:
+        return position if self.limits.minimum <= position <= self.limits.maximum else np.nan
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from math import ceil, inf
 
 import numpy as np
@@ -13,15 +12,17 @@ from teleop.core.axes import Axis
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.keyframes.frame_keys import Frames, Keys, Runs, Slack
 from teleop.planner.keyframes.ramp import quickest
-from teleop.planner.polynomial import Array
 
 SLACKS = Slack(0.6, 0.9), Slack(0.6, 1.0), Slack(0.85, 1.0)
 """The noise may take most of the tolerance, the rest is for the curve between the keys; the planner needs a little more
 of the limits than the smoothest positions."""
 ANY = Slack(0.6, inf)
-GENTLY = (0.5, 0.9)  # of the limits, for a run-up or a run-out; the second where the first has no room
+RUNS = (0.5, 3), (0.9, 3), (0.5, 0)
+"""Run-ups and run-outs to be tried: the share of the limits that they may use, and how many frames next to the table
+are at its speed already. Without those the first and the last frames are slower, as far as the tolerance allows."""
 BEHIND = 0.5  # of the tolerance: an axis that falls behind less than that when it starts from rest needs no run-up
 LONGEST = 64.0  # times slower: what is impossible then is no matter of speed
+ROUNDS = 3  # of a factor and the run-up that it needs
 HALVINGS = 5  # of what lies between the table's own speed and one that does in any case
 LONGER = (1.0, 1.1, 1.25, 1.5)  # than what the peaks say
 
@@ -84,22 +85,18 @@ class FrameFitter:
         step = factor / self.rate
         if not self._leaves_a_way(factor):
             return None
-        for runs in dict.fromkeys(self._runs(step, gently) for gently in GENTLY):
+        for runs in dict.fromkeys(self._runs(step, gently, steady) for gently, steady in RUNS):
             keys = {table.axis: _keys(table, step, runs) for table in self.tables}
             if all(of_axis is not None for of_axis in keys.values()):
                 return FramesFit({axis: of_axis for axis, of_axis in keys.items() if of_axis}, runs, factor)
         return None
 
-    def _runs(self, step: float, gently: float) -> Runs:
+    def _runs(self, step: float, gently: float, steady: int) -> Runs:
         seconds = (
-            max(_ramp(table, free, end, step, gently) for table, free in self._free) if given is None else given
+            max(_ramp(table, end, step, gently, steady) for table in self.tables) if given is None else given
             for end, given in enumerate((self.run_up, self.run_out))
         )
-        return Runs(*(ceil(each / step - 1e-6) for each in seconds))
-
-    @cached_property
-    def _free(self) -> Sequence[tuple[Frames, Array]]:
-        return [(table, table.free(1 / self.rate)) for table in self.tables]
+        return Runs(*(ceil(each / step - 1e-6) for each in seconds), steady)
 
     def _factors(self) -> Iterator[float]:
         """Factors to be tried, rising.
@@ -107,19 +104,21 @@ class FrameFitter:
         The curves of least jerk through keys without a thought of the limits need one that is known from their peaks;
         within the limits a little less may do.
         """
-        runs = self._runs(1 / self.rate, GENTLY[0])
-        high = max(self._excess(table, 1.0, ANY, runs) for table in self.tables)
+        high = 1.0
+        for _ in range(ROUNDS):  # a slower table needs less of a run-up
+            high *= max(1.0, *(self._excess(table, high, ANY) for table in self.tables))
         if not 1 < high < LONGEST:
             return
         low, most = 1.0, high
         for _ in range(HALVINGS):
             middle = (low * high) ** 0.5
-            does = all(self._excess(table, middle, SLACKS[1], runs) <= 1 for table in self.tables)
+            does = all(self._excess(table, middle, SLACKS[1]) <= 1 for table in self.tables)
             low, high = (low, middle) if does else (middle, high)
         yield from dict.fromkeys([high, *(most * more for more in LONGER)])
 
-    def _excess(self, table: Frames, factor: float, slack: Slack, runs: Runs) -> float:
+    def _excess(self, table: Frames, factor: float, slack: Slack) -> float:
         """How many times slower than with this factor the curve of least jerk has to be."""
+        runs = self._runs(factor / self.rate, *RUNS[-1])
         smooth = table.smooth(factor / self.rate, slack, runs)
         if smooth is None:
             return inf
@@ -132,7 +131,7 @@ class FrameFitter:
 
     def _check_room(self) -> None:
         """Raises NoRoomError where only a run-up or a run-out is in the way."""
-        step, runs = 1 / self.rate, self._runs(1 / self.rate, GENTLY[-1])
+        step, runs = 1 / self.rate, self._runs(1 / self.rate, *RUNS[-1])
         for table in self.tables:
             if table.smooth(step, SLACKS[-1], runs) is None:
                 raise NoRoomError(table.axis, after=table.smooth(step, SLACKS[-1], runs, (True, False)) is not None)
@@ -140,8 +139,8 @@ class FrameFitter:
     def _too_fast(self, factor: float | None) -> TooFastError:
         """Where, and by how much, the frames ask for more than the limits allow: the greatest excess of all axes."""
         found = []
-        for table, free in self._free:
-            limits = table.limits
+        for table in self.tables:
+            limits, free = table.limits, table.free
             for order, limit in enumerate(("velocity", "acceleration", "jerk"), 1):
                 rate = np.abs(np.diff(free, order)) * self.rate**order
                 if len(rate):
@@ -160,10 +159,11 @@ def _keys(table: Frames, step: float, runs: Runs) -> Keys | None:
     return None
 
 
-def _ramp(table: Frames, free: Array, end: int, step: float, gently: float) -> float:
+def _ramp(table: Frames, end: int, step: float, gently: float, steady: int) -> float:
     """Seconds in which an axis gets up to the speed of the first frame, or comes to rest from that of the last one."""
+    free = table.free
     if len(free) < 2:
         return 0.0
     speed = abs(float(free[1] - free[0] if end == 0 else free[-1] - free[-2])) / step
     ramp = quickest(speed, table.limits.scaled(gently))
-    return 0.0 if speed * ramp / 2 <= BEHIND * table.tolerance else ramp
+    return 0.0 if speed * ramp / 2 <= BEHIND * table.tolerance else ramp + steady * step

@@ -23,6 +23,7 @@ MAX_BYTES = 16_000_000
 MOST_FRAMES = 20_000  # 14 minutes at 24 fps
 MOST_REPORTED = 20  # errors of one column
 CHAN = ("frame", "tx", "ty", "tz", "rx", "ry", "rz", "vfov")  # the columns of Nuke's .chan, which has no names
+UNITS = ("", "deg", "degrees", "°", "mm", "cm", "m", "in", "s", "frame", "frames", "counts", "steps")
 
 _COMMENT = re.compile(r"\s*(#|//|%|!|;)")
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
@@ -128,9 +129,14 @@ def _parsed(text: str, name: str, *, chan: bool) -> Table:
         raise DocumentError([f"{name}:{rows[MOST_FRAMES].line}:1: is too much: at most {MOST_FRAMES} frames"])
     comments = [line for number, line in lines if number < rows[0].line and _is_comment(line, separator)]
     above += [Row(0, _cells(_COMMENT.sub("", line, count=1), separator)) for line in comments[-1:]]
-    named = next((row for row in above if len(row.cells) == len(rows[0].cells)), None)
+    named = next((row for row in reversed(above) if len(row.cells) == len(rows[0].cells) and not _has_units(row)), None)
     names = [cell.text for cell in named.cells] if named else CHAN[: len(rows[0].cells)] if chan else []
     return Table(name, names, rows)
+
+
+def _has_units(row: Row) -> bool:
+    """Whether it is a line of units below the names."""
+    return all(cell.text.lower().strip("()[]") in UNITS for cell in row.cells)
 
 
 def _is_comment(line: str, separator: str) -> bool:
