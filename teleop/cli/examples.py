@@ -20,7 +20,11 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "teleop live --sticks recorded.csv --fast",
     ],
     "check": ["teleop check reveal", "teleop check ./mine.yaml --rig rs2"],
-    "preview": ["teleop preview reveal -o move.html", "teleop preview reveal --csv move.csv --rate 25"],
+    "preview": [
+        "teleop preview reveal -o move.html",
+        "teleop preview reveal --csv move.csv --rate 25",
+        "teleop preview ./mine.yaml -o mine.html --watch",
+    ],
     "list": ["teleop list", "teleop list moves", "teleop list rigs --json"],
     "copy": ["teleop copy reveal mine.yaml", "teleop copy rs2 my-rig.yaml"],
     "take": ["teleop take list", "teleop take report run.mcap -o run.html"],

@@ -25,8 +25,8 @@ from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.quantities import percentage, seconds
 from teleop.config.resources import find, is_bare
 from teleop.core.axes import STICKS, Axis, Limits
-from teleop.sequence.aim import UnaimedError
 from teleop.core.events import Action
+from teleop.sequence.aim import UnaimedError
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import is_timelapse

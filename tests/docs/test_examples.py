@@ -95,6 +95,9 @@ def test_commands(page: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("page", having("yaml", "sequence"))
 def test_sequences(page: str, tmp_path: Path) -> None:
     for _, mark, text in blocks(page):
+        if name := re.search(r"file=(\S+)", mark):
+            (tmp_path / name[1]).write_text(text, encoding="utf-8")
+    for _, mark, text in blocks(page):
         if "sequence" in mark:
             (tmp_path / "example.yaml").write_text(text, encoding="utf-8")
             ran = teleop("teleop check example.yaml", tmp_path)
