@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -65,3 +66,29 @@ def test_programs_are_told_of_a_timelapse_only_where_there_is_one(capsys: pytest
     found = json.loads(checked(TIMELAPSE, capsys, "--json"))
     assert (found["ok"], found["title"], found["timelapse"]["frames"]) == (True, "Dusk", 5)
     assert "timelapse" not in json.loads(checked(PAN, capsys, "--json"))
+
+
+def test_it_ends_with_the_peaks_in_units_and_a_verdict(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = checked(PAN, capsys).splitlines()
+    assert re.fullmatch(r"pan  peak 9\.\d+ of 120 deg/s at 2\.0 s", lines[-2])
+    assert lines[-1] == "OK: Simulated rig can play this."
+    found = json.loads(checked(PAN, capsys, "--json"))
+    assert found["axes"]["pan"]["peak_velocity"] == pytest.approx(9.5, abs=0.5)
+    assert found["axes"]["pan"]["peak_at"] == pytest.approx(2, abs=0.05)
+
+
+def test_a_slow_move_is_a_remark_that_the_verdict_counts(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = checked(PAN.replace("pan: 20", "pan: 1"), capsys).splitlines()
+    assert lines[-2].startswith("Remark: pan moves 1 deg in 97 frames at 24 fps")
+    assert lines[-1] == "OK: Simulated rig can play this, with 1 warning."
+
+
+def test_the_frames_of_a_table_are_compared_with_the_plan(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("track.csv").write_text("ry\n" + "".join(f"{0.5 * frame}\n" for frame in range(60)))
+    text = "source: {file: track.csv, fps: 24, columns: {pan: ry}}\n"
+    out = checked(text, capsys)
+    assert re.search(
+        r"^track\.csv: pan is within 0\.0\d+ of 0\.1 deg, worst at frame \d+; \d+ keys for 60 frames$", out, re.M
+    )
+    found = json.loads(checked(text, capsys, "--json"))["frames"]["pan"]
+    assert (found["tolerance"], found["frames"], found["off"] <= 0.1) == (0.1, 60, True)

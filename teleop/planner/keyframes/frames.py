@@ -134,7 +134,8 @@ class FrameFitter:
         step, runs = 1 / self.rate, self._runs(1 / self.rate, *RUNS[-1])
         for table in self.tables:
             if table.smooth(step, SLACKS[-1], runs) is None:
-                raise NoRoomError(table.axis, after=table.smooth(step, SLACKS[-1], runs, (True, False)) is not None)
+                before = table.smooth(step, SLACKS[-1], runs._replace(out=0), (True, False))
+                raise NoRoomError(table.axis, after=before is not None)
 
     def _too_fast(self, factor: float | None) -> TooFastError:
         """Where, and by how much, the frames ask for more than the limits allow: the greatest excess of all axes."""
