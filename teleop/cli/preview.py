@@ -45,7 +45,12 @@ def preview(
         str | None, Parameter(metavar="WxH", help="Field of view of the lens in deg, for the page's path: 54x38.")
     ] = None,
     watch: Annotated[
-        bool, Parameter(negative="", help="Write again whenever a file of the sequence is saved; the page reloads.")
+        bool,
+        Parameter(
+            negative="",
+            show_default=False,
+            help="Write again whenever a file of the sequence is saved; the page reloads.",
+        ),
     ] = False,
     options: Options = DEFAULTS,
 ) -> int:
