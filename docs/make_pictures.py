@@ -40,7 +40,7 @@ NO_BREAK = "&#160;"  # a space that SVG keeps
 LONGEST = 60  # s for a text to appear
 TELEOP = [sys.executable, "-c", "import sys; from teleop.cli import main; main(sys.argv[1:])"]
 SCREENS: dict[str, tuple[list[str], Keys, str]] = {
-    "check": (["check", "reveal"], (), r"Cues: "),
+    "check": (["check", "reveal"], (), r"OK: "),
     "play": (["play", "reveal"], (), r"[5-9]\.\d / 15\.0 s"),
     "live": (["live"], (("arrows jog", "L"), (r"pan .* \+10\.00 ", "K"), (r"tilt .* \+10\.00 ", "s1")), "presets +1"),
 }
