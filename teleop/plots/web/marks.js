@@ -19,7 +19,8 @@ function drawOver(plot, quantity) {
     const words = new Words(quantity, ctx, bbox, pixel);
     keys.forEach(({ x, y }) => words.keepOut(x, y, 6 * pixel));
     nameCues(plot, words, pixel);
-    const spots = (x, y) => ["center", "left", "right"].flatMap((side) => [[x, y - 14 * pixel, side], [x, y + 15 * pixel, side]]);
+    const spots = (x, y) => [[0, "center"], [3, "left"], [-3, "right"]].flatMap(([dx, side]) =>
+      [-14, 15].map((dy) => [x + dx * pixel, y + dy * pixel, side]));
     keys.forEach(({ x, y, color, text }) => words.put(text, color, spots(x, y)));
   }
   ctx.restore();
@@ -58,7 +59,7 @@ function nameCues(plot, words, pixel) {
     const x = plot.valToPos(at, "x", true);
     if (x < bbox.left - 1 || x > bbox.left + bbox.width + 1) continue;
     const rows = Array.from({ length: ROWS }, (_, row) => bbox.top + bbox.height - (8 + 13 * row) * pixel);
-    words.put(of.join(", "), CUE, rows.flatMap((y) => [[x + 5 * pixel, y, "left"], [x - 5 * pixel, y, "right"]]));
+    words.put(of.join(", "), CUE, [5, 12].flatMap((gap) => rows.flatMap((y) => [[x + gap * pixel, y, "left"], [x - gap * pixel, y, "right"]])));
   }
 }
 // The frames of a table, which the plan is to meet, as dots.
