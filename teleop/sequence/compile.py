@@ -15,9 +15,10 @@ from teleop.config.documents.document import ENTRIES, DocumentError, UnplayableE
 from teleop.config.quantities import seconds
 from teleop.config.resources import find
 from teleop.core.axes import Axis, Limits
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.findings import Infeasible
 from teleop.planner.keyframes.planner import Key, plan, stretch
-from teleop.planner.keyframes.rests import SAME, Rest, rests
+from teleop.planner.keyframes.rests import AT_REST, Rest, rests
 from teleop.planner.trajectory import Move
 from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.keys import Keys
@@ -106,8 +107,8 @@ def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
     """A line for each cue that needs rest and has none, with what would be right."""
     places = rests(move)
     for (at, action), needs_rest, place in cues:
-        held = [axis for axis, state in move.at(at).items() if axis.is_stick and abs(state.position) > SAME]
-        if needs_rest and not any(rest.start - SAME <= at <= rest.end + SAME for rest in places):
+        held = [axis for axis, state in move.at(at).items() if axis.is_stick and abs(state.position) > AT_REST]
+        if needs_rest and not any(rest.start - SAME_TIME <= at <= rest.end + SAME_TIME for rest in places):
             yield place.line(f"{path_text(place.location)} {_where_it_may_be(move, places, at)}")
         elif isinstance(action, Wait) and held:
             text = f"holds {' and '.join(held)} deflected, so the drone keeps flying: bring it to 0 before"
@@ -116,7 +117,7 @@ def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
 
 def _where_it_may_be(move: Move, places: Sequence[Rest], at: float) -> str:
     """Why a cue may not be `at` its time (s), and the nearest rests before and after it."""
-    moving = [axis for axis, state in move.at(at).items() if abs(state.velocity) > SAME] or list(move.tracks)
+    moving = [axis for axis, state in move.at(at).items() if abs(state.velocity) > AT_REST] or list(move.tracks)
     before = max((rest.end for rest in places if rest.end < at), default=None)
     after = min((rest.start for rest in places if rest.start > at), default=None)
     times = " or ".join(f"{time:g} s" for time in (before, after) if time is not None)

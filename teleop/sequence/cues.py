@@ -19,13 +19,13 @@ from teleop.config.documents.document import Location, Wrong, mapping
 from teleop.config.documents.json_types import Time
 from teleop.core.axes import Axis
 from teleop.core.events import Action, DeviceCommand, TickEvent
+from teleop.core.timing import SAME_TIME
 from teleop.dji.gimbal import camera, focus
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.command_table import find, is_taken_back
 from teleop.dji.message import FieldError, Message
 
 LASTING = ((Action.RECORD, Action.STOP), (Action.FOCUS, Action.END_FOCUS))  # what begins it, and ends it
-INSTANT = 1e-6  # s: two times that are closer are the same
 KINDS = ("camera", "follow", "recenter", "send", "wait")
 FOLLOW: Mapping[str, DeviceCommand] = {
     "lock": DeviceCommand("gimbal", "follow lock"),
@@ -116,7 +116,7 @@ def cues_from(cues: Sequence[Cue], start_at: float) -> tuple[list[TickEvent], li
     What came before is not made up for, but for what would be going on by then: the camera records, or focuses, as the
     run-up begins, and the gimbal has its follow mode.
     """
-    before = [cue.action for cue in cues if cue.at < start_at - INSTANT]
+    before = [cue.action for cue in cues if cue.at < start_at - SAME_TIME]
     follows = [
         act
         for act in before

@@ -19,6 +19,7 @@ from teleop.config.documents.document import Wrong, mapping, number, numbered, s
 from teleop.config.documents.json_types import MOST_OVERLAP, Overlap, Time
 from teleop.config.quantities import percentage, seconds
 from teleop.core.axes import Axis, Limits
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.keys import Key
 
 WHERE = "panorama"
@@ -131,7 +132,7 @@ def panorama_rules(data: Any, fps: float | None) -> Iterator[Wrong]:
         if (ends := _pair(section, name)) and abs(ends[1] - ends[0]) > most:
             yield (WHERE, name), f"must be at most {most:g} deg from edge to edge"
     still = given["settle"] + given["exposure"]
-    if "every" in given and given["every"] <= still:
+    if "every" in given and given["every"] < still + SAME_TIME:
         yield (WHERE, "every"), f"must be longer than settle and exposure ({still:g} s), or there is no time to move"
     try:
         overlap = percentage(section.get("overlap", "30%"))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from teleop.core.timing import PERIOD
+from teleop.core.timing import PERIOD, SAME_TIME
 from teleop.timelapse.compile import Timelapse
 from teleop.timelapse.frame_log import FrameBook, FrameLog
 from teleop.timelapse.frame_shutter import FrameShutter
@@ -22,7 +22,6 @@ from teleop.timelapse.settle_detector import SettleDetector
 
 LEAD = 0.1  # s before a shutter at which its frame is written down: a commit takes half a millisecond, a slow one 50
 LATE_SHARE = 0.2  # of an interval, by which a frame may be late before its slot is missed
-_INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 
 
 class FrameCycle:
@@ -91,12 +90,12 @@ class FrameCycle:
         return waiting.get(self.phase, math.inf)
 
     def _travel(self, now: float) -> None:
-        if now >= self._mover.arrival - _INSTANT:
+        if now >= self._mover.arrival - SAME_TIME:
             self.settle_detector.reset()
             self.handle(PhaseEvent.ARRIVED, now)
 
     def _settle(self, now: float) -> None:
-        over = now >= self.since + self._phases.settle - _INSTANT
+        over = now >= self.since + self._phases.settle - SAME_TIME
         if over or self.settle_detector.reached:
             self.progress.unsettled += self._phases.below is not None and not self.settle_detector.reached
             self.handle(PhaseEvent.SETTLED, now)
@@ -108,7 +107,7 @@ class FrameCycle:
             self.handle(PhaseEvent.PAUSE, now)
         elif time > self.due + self._grace:
             self._miss(now)
-        elif time >= self.due - self.lead - _INSTANT:
+        elif time >= self.due - self.lead - SAME_TIME:
             self.shutter.begin(self.frame, now)
             self.handle(PhaseEvent.DUE, now)
 
@@ -122,15 +121,15 @@ class FrameCycle:
         if late > self._grace:
             self.shutter.give_up()
             self._miss(now)
-        elif ready and late >= -_INSTANT:
+        elif ready and late >= -SAME_TIME:
             self.shutter.press(now)
-            if late > PERIOD + _INSTANT:
+            if late > PERIOD + SAME_TIME:
                 self.progress.late += 1
                 self.progress.latest = max(self.progress.latest, late)
             self.handle(PhaseEvent.FIRE, now)
 
     def _expose(self, now: float) -> None:
-        if now >= self.shutter.exposed_at - _INSTANT:
+        if now >= self.shutter.exposed_at - SAME_TIME:
             self.shutter.release()
             self.handle(PhaseEvent.EXPOSED, now)
 

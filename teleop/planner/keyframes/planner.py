@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.diagnostics import long_ramps, overshoots
 from teleop.planner.keyframes.findings import (
     Finding,
@@ -35,7 +36,6 @@ from teleop.planner.trajectory import Move, Track
 PIECES = (2, 4, 8)
 STRETCH = 0.002  # relative, of the least factor
 MOST = 2.0**20  # times longer: what is impossible then is so at any speed
-ROUNDING = 1e-9  # relative, of ramps that are to take all of a segment
 
 
 class _Outcome(NamedTuple):
@@ -165,7 +165,7 @@ def _plan_segment(
     """The pieces from one rest to the next. Adds to `outcome` its warnings, or, where this is None, why."""
     names, asked = [point.where for point in points], ramps_asked(points)
     duration = points[-1].time - points[0].time
-    if asked and sum(asked) > duration * (1 + ROUNDING):
+    if asked and sum(asked) > duration + SAME_TIME:
         outcome.too_long.append(RampsTooLong(axis, names[0], names[-1], *asked, duration))
         return None
     segment = segment_between(points, asked, limits)
