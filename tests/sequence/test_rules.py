@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from teleop.config.frame_rates import exact_rate
 from teleop.core.axes import Axis, Limits
-from teleop.planner.keyframes.keys import waypoints
-from teleop.sequence.keys import keys_of
-from teleop.sequence.model import SequenceModel
+from teleop.planner.keyframes.keys import Key, waypoints
 from teleop.sequence.rules import file_rules, rig_rules
 
 LIMITS = {Axis.PAN: Limits(-60, 60, 120, 240, 1200)}
@@ -67,32 +66,30 @@ def test_what_has_the_wrong_shape_is_left_to_the_model(data: object) -> None:
     list(rig_rules(data, LIMITS, "the rig", []))
 
 
-def _held_then_key(fps: float, at: str, hold: str, end: str) -> dict:
-    return {
-        "fps": fps,
-        "keyframes": [
-            {"at": 0, "pan": 0},
-            {"at": at, "pan": 10, "hold": hold},
-            {"at": end, "pan": 10},
-            {"at": "500f", "pan": 0},
-        ],
-    }
+WHOLE_FRAMES = [(at, hold) for at in range(1, 97) for hold in range(1, 44)]  # 4128; rounding refused an eighth
+
+
+def _held_then_key(fps: float, at: int, hold: int) -> dict:
+    held = {"at": f"{at}f", "pan": 10, "hold": f"{hold}f"}
+    return {"fps": fps, "keyframes": [held, {"at": f"{at + hold}f", "pan": 10}]}
+
+
+def test_a_hold_may_end_exactly_on_the_next_key() -> None:
+    assert [whole for whole in WHOLE_FRAMES if list(file_rules(_held_then_key(24, *whole)))] == []
 
 
 @pytest.mark.parametrize("fps", [23.976, 24, 25, 29.97, 30, 59.94])
-def test_a_hold_may_end_exactly_on_the_next_key_whatever_the_frames(fps: float) -> None:
-    """Every key of frames 1 to 96 with every hold of 1 to 43: rounding refused an eighth of these 4128 at 24 fps."""
-    refused = []
-    for at in range(1, 97):
-        for hold in range(1, 44):
-            data = _held_then_key(fps, f"{at}f", f"{hold}f", f"{at + hold}f")
-            points = waypoints(Axis.PAN, keys_of(SequenceModel.model_validate(data))[Axis.PAN])
-            if list(file_rules(data)) or [point.rest for point in points] != [True] * 4:
-                refused.append((at, hold))
+def test_a_key_where_a_hold_ends_continues_it(fps: float) -> None:
+    exact, refused = exact_rate(fps), []
+    for at, hold in WHOLE_FRAMES:
+        held = Key(at / exact, 10, hold=hold / exact)
+        points = waypoints(Axis.PAN, [Key(0, 0), held, Key((at + hold) / exact, 10), Key(500 / exact, 0)])
+        if [point.rest for point in points] != [True] * 4:
+            refused.append((at, hold))
     assert refused == []
 
 
 def test_a_key_at_another_position_must_be_after_the_hold() -> None:
-    data = _held_then_key(24, "1s", "0.1s", "1.1s")
-    data["keyframes"][2]["pan"] = 11
-    assert list(file_rules(data)) == [(("keyframes", 2, "at"), "must be after key 2 has held pan (until 1.1 s)")]
+    data = _held_then_key(20, 20, 2)
+    data["keyframes"][1]["pan"] = 11
+    assert list(file_rules(data)) == [(("keyframes", 1, "at"), "must be after key 1 has held pan (until 1.1 s)")]
