@@ -85,6 +85,12 @@ def ramps_asked(points: Sequence[Waypoint]) -> tuple[float, float] | None:
     return leave.over(duration), arrive.over(duration)
 
 
+def ramps_fit(points: Sequence[Waypoint]) -> bool:
+    """Whether there is time for both ramps from one rest to the next."""
+    asked = ramps_asked(points)
+    return asked is None or sum(asked) <= points[-1].time - points[0].time + SAME_TIME
+
+
 def segment_between(points: Sequence[Waypoint], asked: tuple[float, float] | None, limits: Limits) -> Segment:
     """From one rest to the next, with ramps that the limits allow for about the speed that its intervals need."""
     segment = Segment(

@@ -1,0 +1,99 @@
+"""Moves that a rig refuses, as people have them, each with a partner of the same size that it can play.
+
+A partner has the same keys, `slower` times later, so that the planner has the same numbers of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from teleop.core.axes import Axis, Limits
+from teleop.planner.keyframes.keys import Key
+from teleop.planner.keyframes.repeat import Repeat, repeated
+from teleop.sequence.panorama import PanoramaSection, shots
+
+PAN, TILT, ROLL = Axis.PAN, Axis.TILT, Axis.ROLL
+LIMITS = {
+    PAN: Limits(-170, 170, 60, 120, 600),
+    TILT: Limits(-30, 40, 40, 90, 480),
+    ROLL: Limits(-30, 30, 40, 90, 480),
+}
+Keys = Mapping[Axis, Sequence[Key]]
+
+
+@dataclass(frozen=True)
+class Refused:
+    """Keys that ask for too much, and the same keys with more time."""
+
+    keys: Keys
+    slower: float
+
+    @property
+    def partner(self) -> Keys:
+        return {axis: [key.later(self.slower) for key in of_axis] for axis, of_axis in self.keys.items()}
+
+
+def _named(times: Sequence[float], positions: Sequence[float]) -> list[Key]:
+    return [
+        Key(float(at), float(position), where=f"key {index + 1}")
+        for index, (at, position) in enumerate(zip(times, positions, strict=True))
+    ]
+
+
+def track(count: int = 80, fps: float = 24.0) -> Refused:
+    """A match-move: a wander by the frame with the noise of a tracker, on three axes."""
+    rng = np.random.default_rng(count)
+    at = np.arange(count) / fps
+    wander = {
+        PAN: 15 * np.sin(at) + rng.normal(0, 0.15, count),
+        TILT: 6 * np.sin(0.7 * at) + rng.normal(0, 0.15, count),
+        ROLL: 2 * np.sin(1.3 * at) + rng.normal(0, 0.1, count),
+    }
+    return Refused({axis: _named(at, positions) for axis, positions in wander.items()}, 12.0)
+
+
+def noise(count: int = 240) -> Refused:
+    """Noisy keys on one axis, four of them a second."""
+    rng = np.random.default_rng(count)
+    return Refused({PAN: _named(np.arange(count) / 4, rng.normal(0, 8, count))}, 12.0)
+
+
+def wander(count: int = 500) -> Refused:
+    """A long wander on one axis, most of it slow enough."""
+    rng = np.random.default_rng(count)
+    positions = np.clip(np.cumsum(rng.uniform(-25, 25, count)), -160, 160)
+    return Refused({PAN: _named(np.cumsum(rng.uniform(0.5, 2, count)), positions)}, 6.0)
+
+
+def panorama(every: float = 1.2) -> Refused:
+    """Some 1200 shots with too little time from one to the next."""
+    section = PanoramaSection.model_validate(
+        {"fov": [12, 8], "overlap": "40%", "pan": [-160, 160], "tilt": [-28, 38], "every": every, "settle": 0.3}
+    )
+    return Refused(shots(section, None).keys, 3.0)
+
+
+def bounce(times: int = 99) -> Refused:
+    """Three keys, there and back many times."""
+    keys = {PAN: _named([0, 1, 1.6], [0, 40, 60]), TILT: _named([0, 1, 1.6], [0, 20, 35])}
+    return Refused(repeated(keys, times, Repeat.BOUNCE), 3.0)
+
+
+def stops(count: int = 200) -> Refused:
+    """Stops at random places and times: no two legs are alike."""
+    rng = np.random.default_rng(count)
+    keys = _named(np.cumsum(rng.uniform(0.5, 1.5, count)), rng.uniform(-100, 100, count))
+    return Refused({PAN: [replace(key, stop=True) for key in keys]}, 8.0)
+
+
+CASES: Mapping[str, Callable[[], Refused]] = {
+    "track": track,
+    "noise": noise,
+    "wander": wander,
+    "panorama": panorama,
+    "bounce": bounce,
+    "stops": stops,
+}
