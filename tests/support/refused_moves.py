@@ -64,8 +64,8 @@ def noise(count: int = 240) -> Refused:
 def wander(count: int = 500) -> Refused:
     """A long wander on one axis, most of it slow enough."""
     rng = np.random.default_rng(count)
-    positions = np.clip(np.cumsum(rng.uniform(-25, 25, count)), -160, 160)
-    return Refused({PAN: _named(np.cumsum(rng.uniform(0.5, 2, count)), positions)}, 6.0)
+    positions = np.clip(np.cumsum(rng.uniform(-30, 30, count)), -160, 160)
+    return Refused({PAN: _named(np.cumsum(rng.uniform(0.5, 1.2, count)), positions)}, 6.0)
 
 
 def panorama(every: float = 1.2) -> Refused:

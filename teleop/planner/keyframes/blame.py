@@ -3,28 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
 
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
-from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.bounds import factors_needed, least_time
 from teleop.planner.keyframes.findings import AT_LIMIT, Finding, Unsolved
 from teleop.planner.keyframes.keys import Waypoint
+from teleop.planner.keyframes.legs import segment_of
 from teleop.planner.keyframes.qp import TOLERANCE
-from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import Array
 
 LIMITS = ("velocity", "acceleration", "jerk")
 ORDERS = np.arange(1, 4)
-
-
-def segment_of(points: Sequence[Waypoint]) -> Segment:
-    """Times and positions only."""
-    return Segment(
-        np.array([point.time for point in points], float), np.array([point.position for point in points], float)
-    )
 
 
 def timed(axis: Axis, points: Sequence[Waypoint], limits: Limits, interval: int, shortest: float) -> Finding:
@@ -55,13 +46,3 @@ def untimed(axis: Axis, points: Sequence[Waypoint], limits: Limits) -> Iterator[
         yield interval, Finding(axis, *ends, LIMITS[limit], factor, had, least=least if least > had else None)
     if not blamed:
         yield len(points) - 2, Unsolved(axis, points[0].where, points[-1].where)
-
-
-def last_alike(some: Sequence[Waypoint], others: Sequence[Waypoint]) -> bool:
-    """Whether the intervals of two legs last the same."""
-    return all(abs(a - b) < SAME_TIME for a, b in zip(durations(some), durations(others), strict=True))
-
-
-def durations(points: Sequence[Waypoint]) -> list[float]:
-    """Of the intervals of a leg, in s."""
-    return [last.time - first.time for first, last in pairwise(points)]

@@ -5,41 +5,45 @@ Work is counted, not timed, so that the same file has the same findings on every
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from teleop.core.axes import Axis
-from teleop.planner.keyframes.keys import Key, Waypoint
+from teleop.planner.keyframes.legs import Points, durations, shortened
 
 CALL = 16  # pieces: what the call of a solver costs beside those that it solves
 PIECES = 2, 8  # of an interval, by the planner's coarsest and finest rule
-ROUNDS = 8  # programs of the coarsest size that a search for times takes, each twice as costly as a plan's
-SMALL = 6000  # pieces: about half a second, which every refusal may take
+ROUNDS = 8  # programs of the finest size that a search for times takes, each a linear one twice as costly as a plan's
+SINGLE = 2 * ROUNDS * (PIECES[1] + CALL)  # of a search for the time of one way from rest to rest
+SMALL = 9000  # pieces: about a second, which any refusal may take
+ROOM = 3  # times what a search should take, for what has to be tried again
 
 
 @dataclass
 class Budget:
-    """Pieces that may still be solved; `spent` once something was not."""
+    """Pieces that may still be solved."""
 
     left: float
-    spent: bool = False
 
     @classmethod
-    def of(cls, keys: Mapping[Axis, Sequence[Key]], refused: Iterable[Sequence[Waypoint]]) -> Budget:
-        """For these legs of these keys: all that it takes, or, where that is much, as much as a plan takes."""
-        planned = sum(PIECES[0] * len(of_axis) + CALL for of_axis in keys.values())
-        search = sum(2 * ROUNDS * searching(len(points) - 1) for points in refused if len(points) > 2)
-        return cls(4 * SMALL) if search < SMALL else cls(planned)
+    def of(cls, planned: Iterable[Points], refused: Iterable[Points]) -> Budget:
+        """For legs that were refused among all `planned`: what it takes, or where that is much, two plans of all."""
+        plan = sum(PIECES[0] * (len(points) - 1) + CALL for points in planned)
+        through, single = 0, set[object]()
+        for points in refused:
+            if len(points) == 2:
+                single.add((round(abs(points[1].position - points[0].position), 9), round(durations(points)[0], 9)))
+            else:
+                through += searching(len(shortened(points)[0]) - 1)
+        return cls(ROOM * SMALL if through + SINGLE * len(single) < SMALL else 2 * plan)
 
     def take(self, pieces: float) -> bool:
         """Whether there is enough left; then it is taken."""
         if pieces > self.left:
-            self.spent = True
             return False
         self.left -= pieces
         return True
 
 
 def searching(intervals: int) -> int:
-    """What one program of a search for the times of so many intervals costs."""
-    return PIECES[1] * intervals + CALL
+    """What a search for the times of so many intervals takes."""
+    return 2 * ROUNDS * (PIECES[1] * intervals + CALL)

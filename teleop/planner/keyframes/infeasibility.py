@@ -15,22 +15,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
 
 from teleop.core.axes import Axis, Limits
 from teleop.core.timing import SAME_TIME
-from teleop.planner.keyframes.blame import durations, last_alike, timed, untimed
+from teleop.planner.keyframes.blame import timed, untimed
 from teleop.planner.keyframes.budget import Budget
 from teleop.planner.keyframes.findings import Finding, RampsTooLong, Unsolved
-from teleop.planner.keyframes.keys import Key, Waypoint, ramps_asked, ramps_fit, waypoints
+from teleop.planner.keyframes.keys import Key, ramps_asked, ramps_fit
 from teleop.planner.keyframes.leg_times import LegTimes, Possible
+from teleop.planner.keyframes.legs import Points, durations, last_alike, legs, shortened
 from teleop.planner.keyframes.ramp import together
 from teleop.planner.keyframes.retiming import Way, retimed, ways
 
 ROUNDS = 3  # of all axes together
 LONGER = 1e-4  # s: a way that needs so little more is as it was
 
-Points = Sequence[Waypoint]
 Found = Finding | RampsTooLong | Unsolved
 
 
@@ -46,13 +45,6 @@ def infeasibilities(
     return search.findings()
 
 
-def legs(axis: Axis, keys: Sequence[Key]) -> list[Points]:
-    """The points from each rest of an axis to the next."""
-    points = waypoints(axis, keys)
-    rests = [number for number, point in enumerate(points) if point.rest]
-    return [points[first : last + 1] for first, last in pairwise(rests)]
-
-
 class _Search:
     """`needs` are the seconds of each way that has to be longer; `untimed` are legs for which no time was found."""
 
@@ -63,12 +55,14 @@ class _Search:
         refused: Mapping[Axis, Sequence[Points]],
         possible: Possible,
     ) -> None:
-        self.keys, self.limits, self.refused, self.possible = keys, limits, refused, possible
+        self.keys, self.limits, self.refused = keys, limits, refused
+        self.possible = _remembered(possible)
         self.needs: dict[Way, float] = {}
         self.ramps: dict[Way, RampsTooLong] = {}
         self.untimed: list[tuple[Axis, Points]] = []
-        budget = Budget.of(keys, [points for of_axis in refused.values() for points in of_axis])
-        self.times = {axis: LegTimes(axis, limits[axis], possible, budget) for axis in keys}
+        planned = [points for axis, of_axis in keys.items() for points in legs(axis, of_axis)]
+        budget = Budget.of(planned, [points for of_axis in refused.values() for points in of_axis])
+        self.times = {axis: LegTimes(axis, limits[axis], self.possible, budget) for axis in keys}
 
     def run(self) -> None:
         """Time each axis alone, then with the others."""
@@ -119,7 +113,7 @@ class _Search:
             if before[0].time in starts and len(points) > 2 and not last_alike(before, points):
                 for way in ways(axis, keys, points):
                     self.needs.pop(way, None)
-                if not self.possible(axis, points):
+                if not self.possible(axis, shortened(points)[0]):
                     self._time(axis, points, keys)
 
     def _lengthened_together(self) -> bool:
@@ -127,7 +121,7 @@ class _Search:
         keys, refused = retimed(self.keys, self.needs), False
         for axis in self.keys:
             for before, points in zip(legs(axis, self.keys[axis]), legs(axis, keys[axis]), strict=True):
-                if self._is_proved(axis, before, points) or self.possible(axis, points):
+                if self._is_proved(axis, before, points) or self.possible(axis, shortened(points)[0]):
                     continue
                 self._time(axis, points, keys[axis])
                 refused = True
@@ -170,6 +164,19 @@ class _Search:
             seconds = self.needs.get(way, 0.0)
             if seconds > (ramps.shortest or 0.0 if ramps is not None and len(between) == 1 else 0.0) + LONGER:
                 yield interval, timed(axis, points, self.limits[axis], interval, seconds)
+
+
+def _remembered(possible: Possible) -> Possible:
+    """The same, asked once for each leg whatever its time."""
+    known: dict[object, bool] = {}
+
+    def ask(axis: Axis, points: Points) -> bool:
+        leg = axis, tuple(point._replace(time=round(point.time - points[0].time, 9)) for point in points)
+        if leg not in known:
+            known[leg] = possible(axis, points)
+        return known[leg]
+
+    return ask
 
 
 def _shortest(found: Found) -> float:

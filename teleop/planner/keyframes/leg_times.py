@@ -5,27 +5,23 @@ What `least_times` finds is tried, whole milliseconds up, and made a little long
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from itertools import pairwise
+from collections.abc import Callable
 
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
-from teleop.planner.keyframes.blame import durations, segment_of
 from teleop.planner.keyframes.bounds import factors_needed, rest_to_rest
-from teleop.planner.keyframes.budget import ROUNDS, Budget, searching
-from teleop.planner.keyframes.keys import Waypoint
+from teleop.planner.keyframes.budget import SINGLE, Budget, searching
 from teleop.planner.keyframes.least_times import Window, least_durations
+from teleop.planner.keyframes.legs import Points, at_durations, durations, pairs, segment_of, shortened
 from teleop.planner.polynomial import Array
 
-Points = Sequence[Waypoint]
 Possible = Callable[[Axis, Points], bool]
 
 LONGER = 1e-6  # relative: an interval that is longer by less is as it was
 ROOM = 1.003  # times the time-optimal one: most ways from rest to rest can be planned in this
 TRIED = (1.0, 1.0025, 1.005, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.4, 1.7, 2.0, 3.0)  # times what was found
 START = 1.2  # times what the bounds know of each interval
-PASSES = 4  # of a repeated leg that are timed for all
 
 
 class LegTimes:
@@ -40,24 +36,26 @@ class LegTimes:
         """The durations of a leg's intervals, none shorter than they are; None when none were found."""
         if len(points) == 2:
             return self._single(points)
-        short, kept = _shortened(points)
-        if not self.budget.take(ROUNDS * searching(len(short) - 1)):
+        whole, kept = shortened(points)
+        short, _ = shortened(points, passes=1)
+        if not self.budget.take(searching(len(short) - 1)):
             return None
         numbers: dict[object, int] = {}
-        twins = np.array([numbers.setdefault(pair, len(numbers)) for pair in _pairs(short)])
+        twins = np.array([numbers.setdefault(pair, len(numbers)) for pair in pairs(short)])
         found = least_durations(Window(segment_of(short), self.limits, twins), self._guess(short))
-        settled = None if found is None else self._settled(short, found)
-        settled = settled or self._settled(short, self._stop_at_each(short))
-        if settled is None:
-            return None
-        return settled if len(short) == len(points) else [settled[number] for number in kept]
+        if found is not None:
+            by_pair = dict(zip(pairs(short), found.tolist(), strict=True))
+            found = np.array([by_pair[pair] for pair in pairs(whole)]) if len(short) < len(whole) else found
+        settled = None if found is None else self._settled(whole, found)
+        settled = settled or self._settled(whole, self._stop_at_each(whole))
+        return None if settled is None else [settled[number] for number in kept]
 
     def _single(self, points: Points) -> list[float] | None:
         first, last = points
         step, had = abs(last.position - first.position), last.time - first.time
         value = (round(step, 9), round(had, 9), first.leave, last.arrive, first.tension)
         if value not in self._known:
-            if not self.budget.take(4 * searching(1)):
+            if not self.budget.take(SINGLE):
                 return None
             guess = max(had, ROOM * rest_to_rest(step, self.limits))
             settled = self._settled(points, np.array([guess]), tries=1)
@@ -92,41 +90,3 @@ class LegTimes:
             if self._possible(self.axis, at_durations(points, tried)):
                 return tried.tolist()
         return None
-
-
-def at_durations(points: Points, seconds: Array) -> Points:
-    """The points, with their intervals lasting so long."""
-    times = points[0].time + np.concatenate([[0.0], np.cumsum(seconds)])
-    return [point._replace(time=time) for point, time in zip(points, times.tolist(), strict=True)]
-
-
-def _pairs(points: Points) -> list[object]:
-    """What each interval lies between, whichever way it is gone; where keys have no names, its number."""
-    return [frozenset((a.where, b.where)) if a.where and b.where else i for i, (a, b) in enumerate(pairwise(points))]
-
-
-def _shortened(points: Points) -> tuple[Points, list[int]]:
-    """A leg that repeats itself, with a few passes only, and for each interval the one of these that it is like."""
-    pairs, period = _pairs(points), _period(points)
-    count = len(pairs)
-    dropped = (count - 1) // period * period - PASSES * period
-    if dropped <= 0:
-        return points, list(range(count))
-    middle = 1 + PASSES // 2 * period
-    later = points[middle + dropped :]
-    shift = later[0].time - points[middle].time
-    short = [*points[:middle], *(point._replace(time=point.time - shift) for point in later)]
-    first: dict[object, int] = {}
-    for index, pair in enumerate(_pairs(short)):
-        first.setdefault(pair, index)
-    return short, [first[pair] for pair in pairs]
-
-
-def _period(points: Points) -> int:
-    """After how many intervals the leg is the same again, whatever its first one is; its own length if it never is."""
-    ways = [(first.where, last.where) for first, last in pairwise(points)][1:]
-    if all(all(way) for way in ways):
-        for period in range(1, len(ways) // 2 + 1):
-            if ways[period] == ways[0] and ways[period:] == ways[:-period]:
-                return period
-    return len(ways) + 1

@@ -24,8 +24,9 @@ from teleop.planner.keyframes.findings import (
     Overshoot,
     PlanError,
 )
-from teleop.planner.keyframes.infeasibility import infeasibilities, legs
+from teleop.planner.keyframes.infeasibility import infeasibilities
 from teleop.planner.keyframes.keys import Key, Waypoint, ramps_asked, ramps_fit, segment_between, waypoints
+from teleop.planner.keyframes.legs import legs, shortened
 from teleop.planner.keyframes.qp import HEADROOM, Rule, solve
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import Array
@@ -145,7 +146,11 @@ def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: float) 
     breaks: list[Array] = []
     coefficients: list[Array] = [np.empty((0, 6))]
     for points in legs(axis, keys):
-        pieces = _plan_leg(axis, points, limits, tension, outcome)
+        few, _ = shortened(points, passes=1)
+        is_repeated = len(few) < len(points)
+        pieces = None
+        if not is_repeated or _plan_leg(axis, few, limits, tension, _Outcome(None, [], [], [])) is not None:
+            pieces = _plan_leg(axis, points, limits, tension, outcome)
         if pieces is None:
             outcome.refused.append(points)
         else:
