@@ -69,7 +69,7 @@ class Options:
             plan = plan_file(file, self.profile(), share)
         except DocumentError as error:
             if self.json:
-                print(json.dumps({"ok": False, "problems": error.problems}))
+                print(json.dumps({"ok": False, "problems": error.problems, "more": error.more}))
             raise
         print_warnings(plan.warnings)
         return plan

@@ -24,6 +24,7 @@ from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.keys import Keys
 from teleop.sequence.model import PREROLL, SequenceModel
 from teleop.sequence.reader import SequenceReader
+from teleop.sequence.refusal import refusal
 from teleop.sequence.timeline import Timed
 
 
@@ -80,7 +81,7 @@ def load_sequence(
     try:
         keys, move, factor = _planned(timeline.keys, model, {axis: limits[axis] for axis in timeline.keys})
     except Infeasible as error:
-        raise UnplayableError([timeline.places[found.last].line(str(found)) for found in error.findings]) from None
+        raise refusal(error, timeline.places) from None
     cues = [timed._replace(cue=timed.cue._replace(at=factor * timed.cue.at)) for timed in timeline.cues]
     if problems := list(_restless(cues, move)):
         raise DocumentError(problems)

@@ -24,6 +24,7 @@ from teleop.planner.keyframes.keys import Key
 
 WHERE = "panorama"
 MOST = 2000  # frames
+STILL = 0.5  # s, before each shutter and after it, unless the file says otherwise
 BIGGEST = 1e6  # deg: what is beyond is for others to refuse
 ROUNDING = 1e-9  # of a frame: what is that close to a whole number is one
 TIMES = ("at", "every", "settle", "exposure")
@@ -45,9 +46,9 @@ class PanoramaSection(Section):
     """First and last edge of the picture in deg, up and down."""
     every: Time
     """Time from one shutter to the next: `3s`."""
-    settle: Time = 0.5
+    settle: Time = STILL
     """Rest before the shutter: `0.5s`."""
-    exposure: Time = 0.5
+    exposure: Time = STILL
     """Rest after the shutter: `0.5s`."""
     at: Time = 0
     """Time at which the panorama begins."""
@@ -118,10 +119,15 @@ def shots(section: PanoramaSection, fps: float | None) -> Shots:
     return Shots(keys, shutters)
 
 
+def still_seconds(section: Mapping[str, Any], fps: float | None) -> float:
+    """How long the axes rest at each shot, in s."""
+    return sum(seconds(section.get(name, STILL), fps) for name in ("settle", "exposure"))
+
+
 def panorama_rules(data: Any, fps: float | None) -> Iterator[Wrong]:
     """What is wrong with a panorama beyond its single values."""
     section = mapping(data, WHERE)
-    given: dict[str, float] = {"settle": 0.5, "exposure": 0.5}
+    given: dict[str, float] = {"settle": STILL, "exposure": STILL}
     for name in TIMES:
         try:
             if name in section:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teleop.config.documents.document import Document, DocumentError, UnplayableError
+from teleop.config.documents.document import Document, DocumentError, UnplayableError, numbered
 from teleop.config.documents.yaml_loader import read_document
 from teleop.config.frame_rates import shown_rate
 from teleop.config.quantities import seconds
@@ -28,8 +28,10 @@ from teleop.planner.trajectory import Move, Track
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.keys import axes_of, keys_of, line_at
 from teleop.sequence.model import SequenceModel
+from teleop.sequence.refusal import refusal
 from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import TimelapseSection, is_timelapse
+from teleop.sequence.timeline import Origin
 from teleop.timelapse.budget import Phases, budget
 from teleop.timelapse.schedule import Schedule
 
@@ -150,7 +152,8 @@ def _compiled(
     try:
         move, factor = stretch(timed, limits, model.tension)
     except Infeasible as error:
-        raise UnplayableError([line_at(document, finding.last, str(finding)) for finding in error.findings]) from None
+        places = {numbered("keyframes", i): Origin(document, ("keyframes", i)) for i in range(len(model.keyframes))}
+        raise refusal(error, places) from None
     path = FramePath(move, step * factor, section.lead_in)
     continuous = section.mode == "continuous"
     problems, warnings = budget(phases, slots, path, limits, continuous)

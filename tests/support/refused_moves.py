@@ -5,13 +5,16 @@ A partner has the same keys, `slower` times later, so that the planner has the s
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
+from teleop.planner.keyframes.findings import Infeasible
 from teleop.planner.keyframes.keys import Key
+from teleop.planner.keyframes.ramp import Ramp
 from teleop.planner.keyframes.repeat import Repeat, repeated
 from teleop.sequence.panorama import PanoramaSection, shots
 
@@ -22,6 +25,8 @@ LIMITS = {
     ROLL: Limits(-30, 30, 40, 90, 480),
 }
 Keys = Mapping[Axis, Sequence[Key]]
+_NEEDS = re.compile(r"(\w+) needs ([\d.]+) s .*?from key (\d+) to key (\d+), not")
+Needs = dict[tuple[str, int, int], float]
 
 
 @dataclass(frozen=True)
@@ -68,10 +73,18 @@ def wander(count: int = 500) -> Refused:
     return Refused({PAN: _named(np.cumsum(rng.uniform(0.5, 1.2, count)), positions)}, 6.0)
 
 
-def panorama(every: float = 1.2) -> Refused:
+def panorama(every: float = 1.2, width: float = 320.0) -> Refused:
     """Some 1200 shots with too little time from one to the next."""
     section = PanoramaSection.model_validate(
-        {"fov": [12, 8], "overlap": "40%", "pan": [-160, 160], "tilt": [-28, 38], "every": every, "settle": 0.3}
+        {
+            "fov": [12, 8],
+            "overlap": "40%",
+            "pan": [-width / 2, width / 2],
+            "tilt": [-28, 38],
+            "every": every,
+            "exposure": 0.3,
+            "settle": 0.3,
+        }
     )
     return Refused(shots(section, None).keys, 3.0)
 
@@ -97,3 +110,44 @@ CASES: Mapping[str, Callable[[], Refused]] = {
     "bounce": bounce,
     "stops": stops,
 }
+
+
+def random_file(rng: np.random.Generator) -> dict[Axis, list[Key]]:
+    """2 to 9 keyframes; each axis has most of them, in about the time that it needs or too little."""
+    count = int(rng.integers(2, 10))
+    at = np.concatenate([[0.0], np.cumsum(np.round(rng.uniform(0.1, 3.0, count - 1), 2))])
+    keys: dict[Axis, list[Key]] = {}
+    eased = Ramp(seconds=float(rng.choice([0.5, 1.0]))) if rng.random() < 0.3 else None
+    for axis in rng.permutation(list(LIMITS))[: rng.integers(1, 4)]:
+        limits = LIMITS[Axis(axis)]
+        of_axis = []
+        for index, time in enumerate(at):
+            if rng.random() < 0.85 or index in (0, count - 1):
+                position = float(np.round(rng.uniform(limits.minimum, limits.maximum), 1))
+                stop = bool(rng.random() < 0.15)
+                of_axis.append(Key(float(time), position, stop, where=f"key {index + 1}", arrive=eased, leave=eased))
+        keys[Axis(axis)] = of_axis
+    return keys
+
+
+def needs_of(error: Infeasible) -> Needs:
+    """What the lines say: axis, first and last key (from 1), seconds."""
+    found = [_NEEDS.match(str(finding)) for finding in error.findings]
+    return {(m[1], int(m[3]), int(m[4])): float(m[2]) for m in found if m}
+
+
+def taken(keys: Keys, needs: Needs) -> dict[Axis, list[Key]]:
+    """As a user takes them: from the first key to the last, each later one moved along."""
+    times = {int(key.where[4:]): key.at for of_axis in keys.values() for key in of_axis}
+    moved: dict[int, float] = {}
+    shift = 0.0
+    for number in sorted(times):
+        for (_, first, last), seconds in needs.items():
+            if last == number:
+                shift = max(shift, moved[first] + seconds - times[number])
+        moved[number] = times[number] + shift
+    return {axis: [Key(moved[int(key.where[4:])], *_rest(key)) for key in of_axis] for axis, of_axis in keys.items()}
+
+
+def _rest(key: Key) -> tuple:
+    return key.position, key.stop, key.hold, key.where, key.arrive, key.leave

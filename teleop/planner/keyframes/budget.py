@@ -8,13 +8,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from teleop.core.axes import Limits
 from teleop.planner.keyframes.legs import Points, durations, shortened
+from teleop.planner.keyframes.windows import windows
 
 CALL = 16  # pieces: what the call of a solver costs beside those that it solves
 PIECES = 2, 8  # of an interval, by the planner's coarsest and finest rule
 ROUNDS = 8  # programs of the finest size that a search for times takes, each a linear one twice as costly as a plan's
 SINGLE = 2 * ROUNDS * (PIECES[1] + CALL)  # of a search for the time of one way from rest to rest
-SMALL = 9000  # pieces: about a second, which any refusal may take
+SMALL = 4500  # pieces: about half a second, which any refusal may take
 ROOM = 3  # times what a search should take, for what has to be tried again
 
 
@@ -25,15 +27,15 @@ class Budget:
     left: float
 
     @classmethod
-    def of(cls, planned: Iterable[Points], refused: Iterable[Points]) -> Budget:
+    def of(cls, planned: Iterable[Points], refused: Iterable[tuple[Points, Limits]]) -> Budget:
         """For legs that were refused among all `planned`: what it takes, or where that is much, two plans of all."""
         plan = sum(PIECES[0] * (len(points) - 1) + CALL for points in planned)
         through, single = 0, set[object]()
-        for points in refused:
+        for points, limits in refused:
             if len(points) == 2:
                 single.add((round(abs(points[1].position - points[0].position), 9), round(durations(points)[0], 9)))
             else:
-                through += searching(len(shortened(points)[0]) - 1)
+                through += sum(searching(b - a) for a, b in windows(shortened(points)[0], limits))
         return cls(ROOM * SMALL if through + SINGLE * len(single) < SMALL else 2 * plan)
 
     def take(self, pieces: float) -> bool:

@@ -28,6 +28,7 @@ from teleop.planner.keyframes.ramp import together
 from teleop.planner.keyframes.retiming import Way, retimed, ways
 
 ROUNDS = 3  # of all axes together
+NOTICED = 1.02  # times what an axis needs alone: with so much more time, what it needs beside that is other
 LONGER = 1e-4  # s: a way that needs so little more is as it was
 
 Found = Finding | RampsTooLong | Unsolved
@@ -61,7 +62,7 @@ class _Search:
         self.ramps: dict[Way, RampsTooLong] = {}
         self.untimed: list[tuple[Axis, Points]] = []
         planned = [points for axis, of_axis in keys.items() for points in legs(axis, of_axis)]
-        budget = Budget.of(planned, [points for of_axis in refused.values() for points in of_axis])
+        budget = Budget.of(planned, [(points, limits[axis]) for axis, of_axis in refused.items() for points in of_axis])
         self.times = {axis: LegTimes(axis, limits[axis], self.possible, budget) for axis in keys}
 
     def run(self) -> None:
@@ -104,14 +105,22 @@ class _Search:
         return False
 
     def _time_among_others(self, axis: Axis) -> None:
-        """Time an axis again where the other axes take longer anyhow, except on ways that both have."""
-        own = {self._events(way) for way in self.needs if way.axis is axis}
-        others = {w: s for w, s in self.needs.items() if w.axis is not axis and self._events(w) not in own}
+        """Time an axis again where the others take longer anyhow; what they need more of has one finding, theirs."""
+        own = {self._events(way): seconds for way, seconds in self.needs.items() if way.axis is axis}
+        others = {
+            way: seconds
+            for way, seconds in self.needs.items()
+            if way.axis is not axis and seconds > own.get(self._events(way), 0.0)
+        }
         keys = retimed(self.keys, others)[axis]
         starts = {points[0].time for points in self.refused[axis]}
         for before, points in zip(legs(axis, self.keys[axis]), legs(axis, keys), strict=True):
-            if before[0].time in starts and len(points) > 2 and not last_alike(before, points):
-                for way in ways(axis, keys, points):
+            between = ways(axis, keys, points)
+            alone = [max(self.needs.get(way, 0.0), had) for way, had in zip(between, durations(before), strict=False)]
+            if before[0].time in starts and any(
+                a > NOTICED * b for a, b in zip(durations(points), alone, strict=False)
+            ):
+                for way in between:
                     self.needs.pop(way, None)
                 if not self.possible(axis, shortened(points)[0]):
                     self._time(axis, points, keys)

@@ -14,13 +14,14 @@ from teleop.planner.keyframes.bounds import factors_needed, rest_to_rest
 from teleop.planner.keyframes.budget import SINGLE, Budget, searching
 from teleop.planner.keyframes.least_times import Window, least_durations
 from teleop.planner.keyframes.legs import Points, at_durations, durations, pairs, segment_of, shortened
+from teleop.planner.keyframes.windows import windows
 from teleop.planner.polynomial import Array
 
 Possible = Callable[[Axis, Points], bool]
 
 LONGER = 1e-6  # relative: an interval that is longer by less is as it was
-ROOM = 1.003  # times the time-optimal one: most ways from rest to rest can be planned in this
-TRIED = (1.0, 1.0025, 1.005, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.4, 1.7, 2.0, 3.0)  # times what was found
+ROOM = 1.001  # times the time-optimal one: most ways from rest to rest can be planned in little more
+TRIED = (1.003, 1.006, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.4, 1.7, 2.0, 3.0)  # times what was found
 START = 1.2  # times what the bounds know of each interval
 
 
@@ -37,18 +38,27 @@ class LegTimes:
         if len(points) == 2:
             return self._single(points)
         whole, kept = shortened(points)
-        short, _ = shortened(points, passes=1)
-        if not self.budget.take(searching(len(short) - 1)):
+        found = self._searched(whole)
+        if found is None:
             return None
-        numbers: dict[object, int] = {}
-        twins = np.array([numbers.setdefault(pair, len(numbers)) for pair in pairs(short)])
-        found = least_durations(Window(segment_of(short), self.limits, twins), self._guess(short))
-        if found is not None:
-            by_pair = dict(zip(pairs(short), found.tolist(), strict=True))
-            found = np.array([by_pair[pair] for pair in pairs(whole)]) if len(short) < len(whole) else found
-        settled = None if found is None else self._settled(whole, found)
-        settled = settled or self._settled(whole, self._stop_at_each(whole))
+        seconds = np.array([found[pair] for pair in pairs(whole)])
+        settled = self._settled(whole, seconds) or self._settled(whole, self._stop_at_each(whole))
         return None if settled is None else [settled[number] for number in kept]
+
+    def _searched(self, points: Points) -> dict[object, float] | None:
+        """The seconds between each two keys of a leg; None where they are not worth searching for."""
+        spans = windows(points, self.limits)
+        if not self.budget.take(sum(searching(last - first) for first, last in spans)):
+            return None
+        seconds, guess, between = np.array(durations(points)), self._guess(points), pairs(points)
+        for first, last in spans:
+            numbers: dict[object, int] = {}
+            twins = np.array([numbers.setdefault(pair, len(numbers)) for pair in between[first:last]])
+            part = segment_of(points[first : last + 1])
+            window = Window(part, self.limits, twins, (first > 0, last < len(between)))
+            found = least_durations(window, guess[first:last])
+            seconds[first:last] = guess[first:last] if found is None else found
+        return dict(zip(between, seconds.tolist(), strict=True))
 
     def _single(self, points: Points) -> list[float] | None:
         first, last = points

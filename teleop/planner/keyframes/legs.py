@@ -16,7 +16,7 @@ from teleop.planner.keyframes.keys import Key, Waypoint, waypoints
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import Array
 
-PASSES = 2  # of a repeated leg that tell of all, beside what is left over
+PASSES = 1  # of a repeated leg that tell of all, beside the first interval and what is left over
 
 Points = Sequence[Waypoint]
 
@@ -56,14 +56,14 @@ def pairs(points: Points) -> list[object]:
     return [frozenset((a.where, b.where)) if a.where and b.where else i for i, (a, b) in enumerate(pairwise(points))]
 
 
-def shortened(points: Points, passes: int = PASSES) -> tuple[Points, list[int]]:
+def shortened(points: Points) -> tuple[Points, list[int]]:
     """A leg that repeats itself, with a few passes only, and for each interval the one of these that it is like."""
     between, period = pairs(points), _period(points)
     count = len(between)
-    dropped = (count - 1) // period * period - passes * period
+    dropped = (count - 1) // period * period - PASSES * period
     if dropped <= 0:
         return points, list(range(count))
-    middle = 1 + passes // 2 * period
+    middle = 1 + PASSES // 2 * period
     later = points[middle + dropped :]
     shift = later[0].time - points[middle].time
     short = [*points[:middle], *(point._replace(time=point.time - shift) for point in later)]

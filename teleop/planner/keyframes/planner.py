@@ -146,7 +146,7 @@ def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: float) 
     breaks: list[Array] = []
     coefficients: list[Array] = [np.empty((0, 6))]
     for points in legs(axis, keys):
-        few, _ = shortened(points, passes=1)
+        few, _ = shortened(points)
         is_repeated = len(few) < len(points)
         pieces = None
         if not is_repeated or _plan_leg(axis, few, limits, tension, _Outcome(None, [], [], [])) is not None:
