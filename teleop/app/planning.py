@@ -13,7 +13,7 @@ from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis
 from teleop.core.errors import UsageError
-from teleop.recording.writer import ENDING
+from teleop.recording import ENDING
 from teleop.sequence.compile import CompiledSequence, load_sequence
 
 if TYPE_CHECKING:

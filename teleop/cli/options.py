@@ -17,7 +17,7 @@ from teleop.cli.screens.folded import complain, tell
 from teleop.config.documents.document import DocumentError
 from teleop.config.files import is_stdout
 from teleop.config.profile import Profile, load_profile
-from teleop.recording.writer import ENDING
+from teleop.recording import ENDING
 
 MOVES, RIGS = offered("sequences", ".yaml", ".yml", ENDING), offered("profiles", ".yaml", ".yml")
 

@@ -28,6 +28,7 @@ from teleop.planner.keyframes.ramp import together
 from teleop.planner.keyframes.retiming import Way, retimed, ways
 
 ROUNDS = 3  # of all axes together
+SWEEPS = 2  # of each axis among the others
 NOTICED = 1.02  # times what an axis needs alone: with so much more time, what it needs beside that is other
 LONGER = 1e-4  # s: a way that needs so little more is as it was
 
@@ -71,7 +72,7 @@ class _Search:
             for points in of_axis:
                 self._time(axis, points, self.keys[axis])
         if len({way.axis for way in self.needs}) > 1 and not self.untimed:
-            for axis in self.refused:
+            for axis in [*self.refused] * SWEEPS:
                 self._time_among_others(axis)
         for _ in range(ROUNDS):
             if self.untimed or not self._lengthened_together():

@@ -20,8 +20,8 @@ from teleop.planner.polynomial import Array
 Possible = Callable[[Axis, Points], bool]
 
 LONGER = 1e-6  # relative: an interval that is longer by less is as it was
-ROOM = 1.001  # times the time-optimal one: most ways from rest to rest can be planned in little more
-TRIED = (1.003, 1.006, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.4, 1.7, 2.0, 3.0)  # times what was found
+ROOM = 1.0005  # times the time-optimal one: most ways from rest to rest can be planned in little more
+TRIED = (1.0, 1.003, 1.006, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.4, 1.7, 2.0, 3.0)  # times what was found
 START = 1.2  # times what the bounds know of each interval
 
 
