@@ -20,7 +20,7 @@ from teleop.planner.polynomial import Array
 Possible = Callable[[Axis, Points], bool]
 
 LONGER = 1e-6  # relative: an interval that is longer by less is as it was
-ROOM = 1.0005  # times the time-optimal one: most ways from rest to rest can be planned in little more
+ROOM = 1.003  # times the least one: what the planner finds a plan for nearly always
 TRIED = (1.0, 1.003, 1.006, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.4, 1.7, 2.0, 3.0)  # times what was found
 START = 1.2  # times what the bounds know of each interval
 
@@ -57,7 +57,8 @@ class LegTimes:
             part = segment_of(points[first : last + 1])
             window = Window(part, self.limits, twins, (first > 0, last < len(between)))
             found = least_durations(window, guess[first:last])
-            seconds[first:last] = guess[first:last] if found is None else found
+            found = guess[first:last] if found is None else found
+            seconds[first:last] = np.where(found > part.durations * (1 + LONGER), ROOM * found, part.durations)
         return dict(zip(between, seconds.tolist(), strict=True))
 
     def _single(self, points: Points) -> list[float] | None:
