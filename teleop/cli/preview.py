@@ -16,10 +16,12 @@ from cyclopts import Parameter
 
 from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json, print_warnings
 from teleop.cli.shipped_files import named
+from teleop.cli.signals import unwound_by_signals
 from teleop.config.files import replacing
 from teleop.config.frame_rates import exact_rate
 from teleop.config.profile import Profile
 from teleop.core.errors import UsageError
+from teleop.core.timing import SAME_TIME
 from teleop.sequence.compile import CompiledSequence
 
 Write = Callable[[CompiledSequence, Profile, BinaryIO], None]
@@ -45,7 +47,7 @@ def preview(
         print_warnings(performance.warnings)
     written = []
     for path, write in writes.items():
-        with replacing(path) as stream:
+        with unwound_by_signals(), replacing(path) as stream:
             write(performance, profile, stream)
             written.append({"path": str(path), "bytes": stream.tell()})
         if not options.json:
@@ -108,6 +110,7 @@ def _table(rate: float) -> Write:
 
 def _progress(performance: CompiledSequence, rate: float) -> Iterator[str]:
     """The table's text, with a bar on a terminal: a day takes a minute."""
+    import numpy as np
     from rich.console import Console
     from rich.progress import Progress
 
@@ -120,3 +123,6 @@ def _progress(performance: CompiledSequence, rate: float) -> Iterator[str]:
         for times, samples in move.chunks(rate):
             yield from lines([(times, samples)])
             bar.update(task, completed=float(times[-1]))
+        if times[-1] < move.duration - SAME_TIME:  # the last row is the end, on the rate's grid or not
+            end = np.array([move.duration])
+            yield from lines([(end, move.sample(end))])

@@ -21,6 +21,7 @@ from teleop.timelapse.progress import Progress
 from teleop.timelapse.settle_detector import SettleDetector
 
 LEAD = 0.1  # s before a shutter at which its frame is written down: a commit takes half a millisecond, a slow one 50
+RETRY = 1.0  # s after which a journal that could not be written is tried again
 LATE_SHARE = 0.2  # of an interval, by which a frame may be late before its slot is missed
 
 
@@ -86,6 +87,7 @@ class FrameCycle:
             TimelapsePhase.EXPOSE: shutter.exposed_at,
             TimelapsePhase.POST: max(now, shutter.done_at) if shutter.answered else now,
             TimelapsePhase.FINISH: now,
+            TimelapsePhase.PAUSED: self.since + RETRY if self.progress.problem else math.inf,
         }
         return waiting.get(self.phase, math.inf)
 
@@ -112,11 +114,20 @@ class FrameCycle:
             self.handle(PhaseEvent.DUE, now)
 
     def _continue(self, now: float) -> None:
-        if not self.asked_to_pause:
+        retried = not self.progress.problem or now >= self.since + RETRY - SAME_TIME
+        if not self.asked_to_pause and retried:
+            self.progress.problem = ""
             self._mover.resume(now, self.due, self.lead)
             self.handle(PhaseEvent.RESUME, now)
 
     def _prefocus(self, now: float) -> None:
+        if self.shutter.is_unwritten:
+            self.shutter.give_up()
+            self._mover.pause(now)
+            for event in (PhaseEvent.MISSED, PhaseEvent.PAUSE):  # begun again, and no slot is counted as missed
+                self.handle(event, now)
+            self.progress.problem = "the journal could not be written: trying again"
+            return
         late, ready = self._mover.time(now) - self.due, self.shutter.ready(now)
         if late > self._grace:
             self.shutter.give_up()
@@ -151,7 +162,8 @@ class FrameCycle:
         self.handle(PhaseEvent.STEP if stepped else PhaseEvent.STAY, now)
 
     def _finish(self, now: float) -> None:
-        self._end_note = self._end_note or self.log.finish()
+        if self._end_note is None or (self._end_note.failed and now >= self.since + RETRY - SAME_TIME):
+            self._end_note, self.since = self.log.finish(), now
         self.log.check_end()
         if self._end_note.safe:
             self.handle(PhaseEvent.WRITTEN, now)

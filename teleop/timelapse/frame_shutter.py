@@ -46,6 +46,12 @@ class FrameShutter:
         """Whether the frame is on the disk."""
         return self._note is not None and self._note.safe
 
+    @property
+    def is_unwritten(self) -> bool:
+        """Whether writing the frame down has failed, for the time being. Raises TeleopError where it is for good."""
+        self._log.check(self._frame)
+        return self._note is not None and self._note.failed
+
     def ready(self, now: float) -> bool:
         """Whether the shutter may be pressed. Raises TeleopError when nothing can be written down."""
         self._log.check(self._frame)
