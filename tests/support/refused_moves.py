@@ -6,7 +6,7 @@ A partner has the same keys, `slower` times later, so that the planner has the s
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,7 +41,7 @@ class Refused:
         return {axis: [key.later(self.slower) for key in of_axis] for axis, of_axis in self.keys.items()}
 
 
-def _named(times: Sequence[float], positions: Sequence[float]) -> list[Key]:
+def _named(times: Iterable[float], positions: Iterable[float]) -> list[Key]:
     return [
         Key(float(at), float(position), where=f"key {index + 1}")
         for index, (at, position) in enumerate(zip(times, positions, strict=True))
@@ -102,7 +102,7 @@ def stops(count: int = 200) -> Refused:
     return Refused({PAN: [replace(key, stop=True) for key in keys]}, 8.0)
 
 
-CASES: Mapping[str, Callable[[], Refused]] = {
+CASES: Mapping[str, Callable[..., Refused]] = {
     "track": track,
     "noise": noise,
     "wander": wander,
