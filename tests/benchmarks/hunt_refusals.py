@@ -18,7 +18,7 @@ from teleop.planner.keyframes.findings import Infeasible
 from teleop.planner.keyframes.planner import plan
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
-from refused_moves import LIMITS, Keys, needs_of, random_file, taken
+from refused_moves import LIMITS, Keys, asked_of, needs_of, random_file, taken
 
 
 def refusal(keys: Keys) -> Infeasible | None:
@@ -27,10 +27,6 @@ def refusal(keys: Keys) -> Infeasible | None:
     except Infeasible as error:
         return error
     return None
-
-
-def _named(way: tuple[str, int, int]) -> tuple[str, str, str]:
-    return way[0], f"key {way[1]}", f"key {way[2]}"
 
 
 def main() -> None:
@@ -58,8 +54,7 @@ def main() -> None:
             sys.stdout.write(f"file {refused} is refused again: {again}\n  after {error}\n")
             continue
         for way, seconds in needs.items():
-            asked = next(f.seconds for f in error.findings if (str(f.axis), f.first, f.last) == _named(way))
-            less = max(0.95 * seconds, asked)
+            less = max(0.95 * seconds, asked_of(error)[way])
             others = max((s for w, s in needs.items() if w[1:] == way[1:] and w != way), default=0.0)
             if others < less and refusal(taken(keys, needs | {way: less})) is None:
                 long += 1

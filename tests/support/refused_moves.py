@@ -25,7 +25,7 @@ LIMITS = {
     ROLL: Limits(-30, 30, 40, 90, 480),
 }
 Keys = Mapping[Axis, Sequence[Key]]
-_NEEDS = re.compile(r"(\w+) needs ([\d.]+) s .*?from key (\d+) to key (\d+), not")
+_NEEDS = re.compile(r"(\w+) needs ([\d.]+) s .*?from key (\d+) to key (\d+), not ([\d.]+) s")
 Needs = dict[tuple[str, int, int], float]
 
 
@@ -134,6 +134,12 @@ def needs_of(error: Infeasible) -> Needs:
     """What the lines say: axis, first and last key (from 1), seconds."""
     found = [_NEEDS.match(str(finding)) for finding in error.findings]
     return {(m[1], int(m[3]), int(m[4])): float(m[2]) for m in found if m}
+
+
+def asked_of(error: Infeasible) -> Needs:
+    """What the keys allow for each of these."""
+    found = [_NEEDS.match(str(finding)) for finding in error.findings]
+    return {(m[1], int(m[3]), int(m[4])): float(m[5]) for m in found if m}
 
 
 def taken(keys: Keys, needs: Needs) -> dict[Axis, list[Key]]:

@@ -15,6 +15,7 @@ from teleop.planner.keyframes.windows import windows
 CALL = 16  # pieces: what the call of a solver costs beside those that it solves
 PIECES = 2, 8  # of an interval, by the planner's coarsest and finest rule
 ROUNDS = 8  # programs of the finest size that a search for times takes, each a linear one twice as costly as a plan's
+RULES = 5  # of the planner, the finest of them twice as costly as the mean
 SINGLE = 2 * ROUNDS * (PIECES[1] + CALL)  # of a search for the time of one way from rest to rest
 SMALL = 4500  # pieces: about half a second, which any refusal may take
 ROOM = 3  # times what a search should take, for what has to be tried again
@@ -44,6 +45,11 @@ class Budget:
             return False
         self.left -= pieces
         return True
+
+
+def trying(intervals: int) -> int:
+    """What it takes to try all the planner's rules on so many intervals."""
+    return RULES * (PIECES[1] * intervals + CALL) // 2
 
 
 def searching(intervals: int) -> int:

@@ -11,7 +11,7 @@ import numpy as np
 
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.bounds import factors_needed, rest_to_rest
-from teleop.planner.keyframes.budget import SINGLE, Budget, searching
+from teleop.planner.keyframes.budget import SINGLE, Budget, searching, trying
 from teleop.planner.keyframes.least_times import Window, least_durations
 from teleop.planner.keyframes.legs import Points, at_durations, durations, pairs, segment_of, shortened
 from teleop.planner.keyframes.windows import windows
@@ -20,8 +20,9 @@ from teleop.planner.polynomial import Array
 Possible = Callable[[Axis, Points], bool]
 
 LONGER = 1e-6  # relative: an interval that is longer by less is as it was
-ROOM = 1.003  # times the least one: what the planner finds a plan for nearly always
-TRIED = (1.0, 1.003, 1.006, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.4, 1.7, 2.0, 3.0)  # times what was found
+ROOM = 1.0025  # times the least one: what the planner finds a plan for nearly always
+TRIED = (1.0, 1.003, 1.006, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.35, 1.5, 1.7, 2.0, 3.0)  # times what was found
+NEAR = 1.025  # two of these that are so near are not tried between
 START = 1.2  # times what the bounds know of each interval
 
 
@@ -50,7 +51,7 @@ class LegTimes:
         spans = windows(points, self.limits)
         if not self.budget.take(sum(searching(last - first) for first, last in spans)):
             return None
-        seconds, guess, between = np.array(durations(points)), self._guess(points), pairs(points)
+        seconds, guess, between = np.array(durations(points), float), self._guess(points), pairs(points)
         for first, last in spans:
             numbers: dict[object, int] = {}
             twins = np.array([numbers.setdefault(pair, len(numbers)) for pair in between[first:last]])
@@ -72,7 +73,7 @@ class LegTimes:
             settled = self._settled(points, np.array([guess]), tries=1)
             if settled is None:
                 found = least_durations(Window(segment_of(points), self.limits, np.array([0])), np.array([guess]))
-                settled = self._settled(points, np.array([guess]) if found is None else found)
+                settled = self._settled(points, np.array([guess]) if found is None else ROOM * found)
             if settled is None:
                 return None
             self._known[value] = settled
@@ -92,12 +93,23 @@ class LegTimes:
 
     def _settled(self, points: Points, found: Array, tries: int = len(TRIED)) -> list[float] | None:
         """The times that were found, whole milliseconds, as much longer as it takes to have a plan."""
-        had = np.array(durations(points))
+        had = np.array(durations(points), float)
         changed = found > had * (1 + LONGER)
         if not changed.any():
             changed[:] = True
-        for longer in TRIED[:tries]:
-            tried = np.where(changed, np.ceil(np.maximum(found, had) * longer * 1000 - 1e-6) / 1000, had)
-            if self._possible(self.axis, at_durations(points, tried)):
-                return tried.tolist()
-        return None
+
+        def lasting(longer: float) -> Array:
+            return np.where(changed, np.ceil(np.maximum(found, had) * longer * 1000 - 1e-6) / 1000, had)
+
+        def fits(longer: float) -> bool:
+            affordable = self.budget.take(trying(len(points) - 1))
+            return affordable and self._possible(self.axis, at_durations(points, lasting(longer)))
+
+        high = next((longer for longer in TRIED[:tries] if fits(longer)), None)
+        if high is None:
+            return None
+        low = max((longer for longer in TRIED if longer < high), default=1.0)
+        while high > NEAR * low:
+            middle = (low * high) ** 0.5
+            low, high = (low, middle) if fits(middle) else (middle, high)
+        return lasting(high).tolist()

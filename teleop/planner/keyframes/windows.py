@@ -25,7 +25,8 @@ def windows(points: Points, limits: Limits) -> list[tuple[int, int]]:
         return [(0, count)]
     worst = factors_needed(segment_of(points), limits).max(axis=1)
     found: list[tuple[int, int]] = []
-    for interval in np.flatnonzero(worst > min(TOLERANCE, NEARLY * float(worst.max()))).tolist():
+    suspect = TOLERANCE if worst.max() > TOLERANCE else NEARLY * float(worst.max())
+    for interval in np.flatnonzero(worst > suspect).tolist():
         first, last = max(interval - BESIDE, 0), min(interval + BESIDE + 1, count)
         if found and first <= found[-1][1]:
             first = found.pop()[0]
