@@ -20,7 +20,7 @@ from teleop.planner.polynomial import Array
 Possible = Callable[[Axis, Points], bool]
 
 LONGER = 1e-6  # relative: an interval that is longer by less is as it was
-ROOM = 1.0025  # times the least one: what the planner finds a plan for nearly always
+ROOM = 1.005  # times the least one: what the planner finds a plan for nearly always
 TRIED = (1.0, 1.003, 1.006, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.35, 1.5, 1.7, 2.0, 3.0)  # times what was found
 NEAR = 1.025  # two of these that are so near are not tried between
 START = 1.2  # times what the bounds know of each interval
