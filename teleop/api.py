@@ -26,7 +26,7 @@ from teleop.app.move import Move, Samples
 from teleop.app.planning import plan_content, plan_file
 from teleop.app.program import BusyError, EventJob, JogJob, MoveJob, StoppedError
 from teleop.app.session import Session, shortest_seconds
-from teleop.app.session_play import AxisReport, Report, play
+from teleop.app.session_play import AxisReport, Passes, Report, play
 from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.config.profile import Profile, load_profile
 from teleop.core.axes import STICKS, Axis, State
@@ -168,18 +168,31 @@ class Rig:
             raise UsageError(f"jog: seconds={seconds:g} must be above 0")
         self._session.run(JogJob(velocities, seconds))
 
-    def play(self, sequence: Source | Move, *, take: str | Path | None = None, speed: float = 1.0) -> Report:
+    def play(
+        self,
+        sequence: Source | Move,
+        *,
+        take: str | Path | None = None,
+        speed: float = 1.0,
+        passes: int = 1,
+        learn: bool | str | Path = False,
+        learned: str | Path | None = None,
+    ) -> Report:
         """Ease to the first keyframe, play the move, and report how well the rig followed.
 
         `take` records the run to a new .mcap file; `speed` is the share of the written speed. What ends the move early
-        (a fault, a STOP) is in the report: `ok` is False and `reason` says why. Raises DocumentError and
-        UnplayableError for a sequence that this rig cannot play.
+        (a fault, a STOP) is in the report: `ok` is False and `reason` says why.
+
+        With `learn` each of the `passes` is corrected by the error of those before it, and the best correction kept in
+        a file: the one named, or with True beside the `take`. `learned` plays with such a file. Raises DocumentError
+        and UnplayableError for a sequence that this rig cannot play.
         """
         if (speed := _number("play: speed", speed)) <= 0:
             raise UsageError(f"play: speed={speed:g} must be above 0")
         self._session.check()
         move = sequence if isinstance(sequence, Move) else _planned(sequence, self._session.profile)
-        return play(self._session, move, None if take is None else Path(take), speed)
+        file = None if take is None else Path(take)
+        return play(self._session, move, file, speed, _passes(passes, learn, learned, file, speed))
 
     def record(self) -> None:
         """Start recording on the camera; returns once it has confirmed. Raises DeviceError when it refuses."""
@@ -230,6 +243,25 @@ class Rig:
 
     def __repr__(self) -> str:
         return f"<Rig {self.name}: {', '.join(self._session.axes)}>"
+
+
+def _passes(
+    count: int, learn: bool | str | Path, learned: str | Path | None, take: Path | None, speed: float
+) -> Passes:
+    """Raises UsageError for what does not go together."""
+    if count < 1:
+        raise UsageError(f"play: passes={count} must be at least 1")
+    if learn and count < 2:
+        raise UsageError("play: learn: needs passes to learn from, as in passes=3")
+    if (learn or learned) and speed != 1:
+        raise UsageError("play: learn and learned: leave out speed")
+    if learn is True and take is None:
+        raise UsageError("play: learn=True: give take, or the file to keep the correction in")
+    file = None if learn is False else take.with_suffix(".learned.json") if learn is True and take else Path(str(learn))
+    known = None if learned is None else Path(learned)
+    if file is not None and file.exists() and file != known:
+        raise UsageError(f"play: learn: {file} already exists; go on from it with learned=")
+    return Passes(count, file, known)
 
 
 def _number(place: str, value: float) -> float:

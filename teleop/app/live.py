@@ -17,6 +17,7 @@ from teleop.app.drone_flight import Aboard, is_flown
 from teleop.app.operator_inputs import open_devices
 from teleop.app.run import RunReport, Screen, Signals, commands, run
 from teleop.app.stop_inputs import open_stop_inputs
+from teleop.app.target_file import TargetFile
 from teleop.config.presets import default_file, read_presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
@@ -32,6 +33,7 @@ from teleop.inputs.recorded_sticks import Sticks, SticksSource
 from teleop.inputs.stick_shaping import shape
 from teleop.manual.operator import Operator
 from teleop.manual.stop_guard import Relay, StopGuard
+from teleop.manual.target_marks import TargetMarks
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 from teleop.recording.writer import Recorder, recording
 
@@ -68,6 +70,7 @@ class LiveRun:
     presets: Path | None = None
     take: Path | None = None
     virtual: bool = False
+    targets: Path | None = None
 
     def by_hand(self, make_screen: Callable[[LiveParts], Screen], signals: Signals) -> RunReport:
         """Until the operator or what is recorded ends it. Raises TeleopError for what keeps it from beginning."""
@@ -84,13 +87,19 @@ class LiveRun:
             shelf = read_presets(self.presets or default_file(profile.name), limits, profile.name)
             stack.callback(shelf.close)
             own = [*inputs, *([] if keyboard is None else [keyboard])]
-            operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, replay)
+            targets = None if self.targets is None else TargetFile(self.targets)
+            marks = None if targets is None else TargetMarks(targets.height, targets.add)
+            operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, replay, marks)
+            if targets is not None:
+                targets.notify = operator.notify
+                stack.callback(targets.close)
             for line in (*left_out, *([note] if note else [])):
                 operator.notify(line)
             recorder = self._recorder(stack, limits, lambda: aboard.status(operator.status), patient=self.virtual)
             aboard.board(rig, axes, operator.notify, by_script=False)
             screen = make_screen(LiveParts(limits, operator, rig.connections, recorder, aboard.state))
             observers, sinks = self._watched(rig, axes, operator, lenient=replay is None)
+            observers = [*observers, *([] if targets is None else [targets])]
             tracking, stopped = TrackingErrorMonitor(lambda: operator.begin), (lambda: operator.reason)
             return run(rig, axes, [operator], tracking, screen, signals, recorder, observers, sinks, stopped)
 

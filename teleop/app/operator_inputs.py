@@ -17,6 +17,8 @@ from teleop.inputs.hid.device import open_inputs
 from teleop.inputs.hid.recording import RecordedDevices, Recording
 from teleop.inputs.hid.selection import wanted
 
+_NO_JOYSTICK = "live: no joystick was recorded: name the device that was under inputs: in the profile (--rig)"
+
 
 def open_devices(
     stack: ExitStack,
@@ -42,7 +44,7 @@ def open_devices(
             raise
         return [], str(error)
     if not keys and not profile.inputs and not wanted(DeviceSection(), backend.enumerate(), None):
-        raise UsageError(without)
+        raise UsageError(_NO_JOYSTICK if recordings else without)
     shaping = profile.sticks
     opened = open_inputs(
         profile.inputs, clock.now, backend, dead_zone=shaping.dead_zone, expo=shaping.expo, polled=virtual

@@ -7,9 +7,11 @@ from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from teleop.app.drone_flight import Aboard, is_flown
 from teleop.app.operator_inputs import open_devices
+from teleop.app.played_status import PlayedStatus, as_planned, facts_of
 from teleop.app.run import RunReport, Screen, Signals, commands, run
 from teleop.app.stop_inputs import open_stop_inputs
 from teleop.app.trim_writer import TrimWriter
@@ -30,6 +32,10 @@ from teleop.sequence.playback_controls import PlaybackControls
 from teleop.sequence.progress import run_status
 from teleop.sequence.source import SequenceSource
 from teleop.sequence.trim_export import TrimmedFile
+
+if TYPE_CHECKING:
+    from teleop.learning.pass_learner import PassLearner
+    from teleop.learning.pass_traces import PassObserver
 
 NO_INPUT = "play --trim: no joystick and no terminal: plug in a joystick, or run it on a terminal"
 
@@ -65,6 +71,7 @@ class SequenceRun:
     trimmed: TrimmedFile | None = None
     take: Path | None = None
     patient: bool = False
+    learner: PassLearner | None = None
 
     @property
     def axes(self) -> list[Axis]:
@@ -83,25 +90,46 @@ class SequenceRun:
             if source.cycle.trigger is not None:
                 source.cycle.trigger.open(stack)
             rig = stack.enter_context(open_rig(self.profile, self.clock))
-            repeatability = Repeatability(source.place) if source.cycle.compared else None
+            planned = partial(as_planned, source, self.sequence.move)
+            played = None if self.take is None or is_flown(axes) else PlayedStatus(source, self.sequence.move, rig)
+            if recorder and played:
+                recorder.status = played
+            repeatability = Repeatability(source.place, planned) if source.cycle.compared else None
             observers, sinks = commands(rig, axes, self.notify)
             keys = None if self.keys is None else stack.enter_context(self.keys)
-            observers += [each for each in (keys, trim, repeatability) if each is not None]
+            observers += [each for each in (keys, trim, repeatability, self._observed(), played) if each is not None]
             status_of = partial(run_status, source) if controls is None else controls.status
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             screen = make_screen(self.limits, shown, recorder)
             aboard.board(rig, axes, screen.notify, by_script=True)
             if guard:
                 guard.notify = screen.notify
-            tracking, stopped = TrackingErrorMonitor(lambda: source.begin), (lambda: guard.reason if guard else "")
+            tracking = TrackingErrorMonitor(lambda: source.begin, planned)
+            stopped = lambda: guard.reason if guard else ""  # noqa: E731 - one of several arguments
+            if self.learner:
+                self.learner.notify = screen.notify
             sources = [guard or source]
             report = run(rig, axes, sources, tracking, screen, signals, recorder, observers, sinks, stopped)
+            if self.learner:
+                self.learner.notify = self.notify  # the screen is gone
+                self.learner.finish()
             return SequenceReport(report, trim, repeatability)
+
+    def _observed(self) -> PassObserver | None:
+        """What sees the passes for the learner."""
+        if self.learner is None:
+            return None
+        from teleop.app.learning import observe_passes  # with scipy, only where something is learned
+
+        return observe_passes(self.learner, self.source)
 
     def _recording(self, aboard: Aboard) -> AbstractContextManager[Recorder | None]:
         status, title = aboard.status if is_flown(self.axes) else None, self.sequence.title
         patient, option = self.patient, "--take "
-        return recording(self.take, self.profile.name, title, self.limits, status, patient=patient, option=option)
+        facts = facts_of(self.sequence)
+        return recording(
+            self.take, self.profile.name, title, self.limits, status, patient=patient, option=option, sequence=facts
+        )
 
     def _controls(self, stack: ExitStack) -> tuple[PlaybackControls | None, StopGuard | None, TrimWriter | None]:
         """What its inputs do to it, if there are any, and their STOP; with a trim also what writes that."""

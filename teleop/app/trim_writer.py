@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
-from threading import Thread
+from functools import partial
 from typing import TYPE_CHECKING
 
+from teleop.app.background import in_background
 from teleop.core.errors import TeleopError
 
 if TYPE_CHECKING:
@@ -59,7 +60,9 @@ class TrimWriter:
     def _write(self) -> str:
         """Begin to write the trim as it is now; neither the control thread nor the program's end waits for a disk."""
         assert self._file is not None
-        self._written = self._unreported = _in_background(self._file.write, dict(self.offsets), self._written)
+        self._written = self._unreported = in_background(
+            partial(self._file.write, dict(self.offsets)), self._written, "trim"
+        )
         return f"writing the trim to {self._file.target}"
 
     def _failure(self, written: Future[None]) -> str:
@@ -70,26 +73,3 @@ class TrimWriter:
         if error is None or self._file is None:
             return ""
         return str(error) if isinstance(error, TeleopError) else f"{self._file.target}: cannot be written: {error}"
-
-
-def _in_background(
-    write: Callable[[Mapping[Axis, State]], None], offsets: Mapping[Axis, State], after: Future[None] | None
-) -> Future[None]:
-    """Call `write`, once `after` is over, in a thread that ends with the program whatever the disk does.
-
-    An executor's thread would be waited for.
-    """
-    future: Future[None] = Future()
-
-    def work() -> None:
-        try:
-            if after is not None:
-                after.exception()
-            write(offsets)
-        except BaseException as error:  # noqa: BLE001 - whatever it is, the one who asks for the result gets it
-            future.set_exception(error)
-        else:
-            future.set_result(None)
-
-    Thread(target=work, name="trim", daemon=True).start()
-    return future

@@ -19,7 +19,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.inputs.evdev.backend import INSTALL, has_package
+from teleop.inputs.evdev.backend import INSTALL, has_package, is_read_here
 from teleop.inputs.evdev.nodes import DEV, SYS, event_nodes
 from teleop.inputs.hid.backend import usb_port
 from teleop.links.url import CAN_INTERFACES, R_SDK_BITRATE
@@ -125,7 +125,8 @@ def hid_devices(backends: Iterable[str] = _HID_BACKENDS) -> Listing:
     listing = Listing()
     seen: dict[tuple[str, str], str] = {}
     ports: dict[tuple[str, str], list[str]] = {}
-    by_events = {os.fsencode(path) for node in event_nodes() if node.is_preferred for path in node.hidraw}
+    read_here = [node for node in event_nodes() if is_read_here(node, has_package())]
+    by_events = {os.fsencode(path) for node in read_here for path in node.hidraw}
     for backend in backends:
         try:
             found = importlib.import_module(backend).enumerate()
@@ -153,7 +154,7 @@ def event_devices(sys_: Path = SYS, dev: Path = DEV) -> Listing:
     """The pads that are read by their event devices, and the driver that keeps each from hidraw."""
     listing = Listing()
     for node in event_nodes(sys_, dev):
-        if node.is_preferred:
+        if is_read_here(node, has_package()):
             name = f"{node.vendor:04x}:{node.product:04x}"
             place = f"driver {node.driver}, {node.path}{_at([node.port])}"
             listing.devices.append(Device("evdev", (name,), f"{node.name} ({place})"))

@@ -10,6 +10,8 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "teleop play reveal",
         "teleop play ./mine.yaml --rig rs2 --link gimbal=socketcan:can0",
         "teleop play reveal --start-at key3 --speed 50%",
+        "teleop play reveal --passes 3 --learn --take reveal.mcap",
+        "teleop play reveal --learned reveal.learned.json",
         "teleop play day-to-night --rehearse",
     ],
     "live": [
@@ -27,6 +29,10 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
     "take export": ["teleop take export run.mcap --csv run.csv"],
     "take keyframes": ["teleop take keyframes run.mcap -o mine.yaml --tolerance 0.2"],
     "take report": ["teleop take report run.mcap", "teleop take report run.mcap -o run.html"],
+    "take certificate": [
+        "teleop take certificate run.mcap -o run.html",
+        "teleop take certificate pass1.mcap pass2.mcap -o shot.html --fps 25",
+    ],
     "take recover": ["teleop take recover run.mcap"],
     "calibrate": ["teleop calibrate delay --rig rs2 --link gimbal=socketcan:can0"],
     "calibrate delay": ["teleop calibrate delay --axis tilt --rig rs2"],

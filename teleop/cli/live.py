@@ -47,6 +47,9 @@ def live(
     presets: Annotated[
         Path | None, Parameter(metavar="FILE", help="File of the presets; without it, one for each rig.")
     ] = None,
+    targets: Annotated[
+        Path | None, Parameter(metavar="FILE", help="Sequence file for the targets that key t marks; may be new.")
+    ] = None,
     learn: Annotated[
         bool, Parameter(help="Ask for each control, try it, and write the profile.", negative=(), show_default=False)
     ] = False,
@@ -75,7 +78,9 @@ def live(
     alone = None if recordings else recorded
     if alone is not None:
         profile = profile.in_use(alone.axes, () if keyboard is None else [Action.RECORD])
-    run = LiveRun(profile, title, the_clock(fast, profile), keyboard, recorded, recordings, presets, take, fast)
+    run = LiveRun(
+        profile, title, the_clock(fast, profile), keyboard, recorded, recordings, presets, take, fast, targets
+    )
     if alone is not None and keyboard is None:
         ask_to_fly(title, alone.axes, i_understand)
         return _unattended(run, alone, options)

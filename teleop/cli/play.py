@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -17,6 +17,7 @@ from teleop.app.play import attended, devices_in_use, following, source_of
 from teleop.app.sequence_run import SequenceRun
 from teleop.cli.drone_run import Understood, ask_to_fly
 from teleop.cli.key_terminal import key_terminal
+from teleop.cli.learned_options import NOT_LEARNED, LearnedOptions, LearningReport
 from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
 from teleop.cli.running import EXIT_CODES, Extra, print_report
 from teleop.cli.screens.folded import after_the_run, warn
@@ -42,9 +43,12 @@ from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.time_scaling import NoRunUp
 from teleop.recording.writer import Recorder
 from teleop.sequence.compile import CompiledSequence
-from teleop.sequence.cycle import Cycle
+from teleop.sequence.cycle import Corrector, Cycle
 from teleop.sequence.source import SequenceSource
 from teleop.sequence.trim_export import TrimmedFile
+
+if TYPE_CHECKING:
+    from teleop.learning.pass_learner import PassLearner
 
 Fast = Annotated[
     bool,
@@ -68,6 +72,7 @@ def play(
     staging: StagingOptions = NO_STAGING,
     shooting: ShootOptions = NOTHING_ASKED,
     trim: TrimOptions = NO_TRIM,
+    learning: LearnedOptions = NOT_LEARNED,
     fast: Fast = False,
     take: Take = None,
     i_understand: Understood = False,
@@ -83,10 +88,10 @@ def play(
     if plan.timelapse is not None and plan.is_flown:
         raise DocumentError([f"{file}: a timelapse cannot fly a drone: leave out the stick axes"])
     if plan.timelapse is not None and not shooting.rehearse:
-        return _shoot(file, plan, Ordered(speed, staging, trim), shooting, fast, take, options)
+        return _shoot(file, plan, Ordered(speed, staging, trim, learning), shooting, fast, take, options)
     if plan.timelapse is not None:
         print_warnings(plan.sequence.warnings)
-    return _play(file, plan, Ordered(speed, staging, trim), fast, take, i_understand, options)
+    return _play(file, plan, Ordered(speed, staging, trim, learning), fast, take, i_understand, options)
 
 
 @dataclass(frozen=True)
@@ -96,9 +101,10 @@ class Ordered:
     speed: str
     staging: StagingOptions
     trim: TrimOptions
+    learning: LearnedOptions
 
 
-AS_WRITTEN = Ordered("100%", NO_STAGING, NO_TRIM)
+AS_WRITTEN = Ordered("100%", NO_STAGING, NO_TRIM, NOT_LEARNED)
 
 
 def _shoot(
@@ -107,7 +113,7 @@ def _shoot(
     from teleop.cli.shooting.shoot import shoot
 
     if ordered != AS_WRITTEN:
-        raise DocumentError([f"{file} is a timelapse: --speed, --trim and the options of passes need --rehearse"])
+        raise DocumentError([f"{file} is a timelapse: --speed, --trim, --learn and those of passes need --rehearse"])
     assert plan.timelapse is not None
     profile = devices_in_use(plan, shoots=True)
     return shoot(file, plan.timelapse, profile, the_clock(fast, profile), shooting, take, options)
@@ -131,13 +137,74 @@ def _play(
     if plan.is_flown:
         _refuse_to_fly(ordered.speed, staging, trim)
     ask_to_fly(sequence.title, plan.axes, understood)
+    ordered.learning.check(plan, is_take(file), percentage("--speed", ordered.speed), staging, trim.trim)
     cycle = staging.staging(sequence, clock, has_keys)
+    lessons = _lessons(file, plan, profile, ordered.learning, Staged(cycle, take, fast, trim.left), options)
+    cycle = cycle if lessons is None else lessons.staged(cycle)
     source = _source(sequence, profile, ordered, cycle)
     keymap = FLOWN_KEYS if plan.is_flown else TRIM_KEYS if trim.trim else KEYS
     keys = None if descriptor is None else Keyboard(descriptor, PlayKeys(keymap))
     with after_the_run() as notify:
-        run = SequenceRun(profile, sequence, source, clock, keys, notify, warn, trim.left, trimmed, take, patient=fast)
-        return _performed(run, options)
+        learns = lessons and lessons.learner
+        run = SequenceRun(
+            profile,
+            sequence,
+            source,
+            clock,
+            keys,
+            notify,
+            warn,
+            trim.left,
+            trimmed,
+            take,
+            fast,
+            learns,
+        )
+        return _performed(run, options, lessons)
+
+
+@dataclass(frozen=True)
+class Staged:
+    """What surrounds the passes: `share` is what a trim leaves of the limits."""
+
+    cycle: Cycle
+    take: Path | None
+    fast: bool
+    share: float
+
+
+@dataclass(frozen=True)
+class Lessons:
+    """What corrects the passes, and what learns from them and is kept in `file`."""
+
+    corrector: Corrector
+    learner: PassLearner | None
+    file: Path
+
+    def staged(self, cycle: Cycle) -> Cycle:
+        from teleop.app.learning import corrected
+
+        return corrected(cycle, self.corrector)
+
+
+def _lessons(
+    file: str, plan: Plan, profile: Profile, learning: LearnedOptions, staged: Staged, options: Options
+) -> Lessons | None:
+    """Nothing where neither --learn nor --learned is given. Raises UsageError and DocumentError."""
+    if not learning.asked:
+        return None
+    from teleop.app.learning import Known, learner
+
+    target = learning.file(file, staged.take) if learning.learn else Path()
+    known = learning.known(plan, profile, staged.share, options.json)
+    triggered = staged.cycle.trigger is not None
+    if known is not None and triggered and (early := known.lead):
+        print_warnings([f"{learning.learned}: the move's own zero is {early:g} s after the trigger"])
+    if not learning.learn:
+        assert known is not None
+        return Lessons(Known(known.applied(plan.sequence.move)), None, target)
+    learns = learner(profile, plan.sequence, target, known, staged.fast, triggered, lambda _line: None)
+    return Lessons(learns, learns, target)
 
 
 def _source(sequence: CompiledSequence, profile: Profile, ordered: Ordered, cycle: Cycle) -> SequenceSource:
@@ -151,7 +218,7 @@ def _source(sequence: CompiledSequence, profile: Profile, ordered: Ordered, cycl
         raise DocumentError([f"--speed {ordered.speed}: {error}"]) from None
 
 
-def _performed(run: SequenceRun, options: Options) -> int:
+def _performed(run: SequenceRun, options: Options, lessons: Lessons | None) -> int:
     """Run it with a view, and print the report; the exit code."""
 
     def view(limits: Mapping[Axis, Limits], status: Callable[[float], RunStatus], recorder: Recorder | None) -> RunView:
@@ -162,6 +229,8 @@ def _performed(run: SequenceRun, options: Options) -> int:
     extras: list[Extra] = []
     if report.repeatability is not None:
         extras.append(PassesReport(report.repeatability))
+    if lessons is not None and lessons.learner is not None:
+        extras.append(LearningReport(lessons.learner, lessons.file))
     if report.trim is not None:
         extras.append(TrimReport(report.trim))
     code = print_report(report.run, options.json, extras)

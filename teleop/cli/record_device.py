@@ -16,7 +16,7 @@ from teleop.config.inputs_section import DeviceSection
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError, UsageError
 from teleop.inputs.evdev.backend import AllDevices
-from teleop.inputs.hid.backend import DeviceInfo, HidBackend, described, identified
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, MissingPackageError, described, identified
 from teleop.inputs.hid.pads import is_named
 from teleop.inputs.hid.recorder import Recorder
 from teleop.inputs.hid.selection import wanted
@@ -53,6 +53,8 @@ def record(
             recorder = Recorder(backend, infos, stream, SystemClock().now, serial)
         except OSError as error:
             output.unlink()
+            if isinstance(error, MissingPackageError):
+                raise DeviceError(f"{described(infos[0])} {error}") from None
             raise DeviceError(
                 f"{described(infos[0])}: cannot be opened ({error}): check its udev rule: teleop doctor"
             ) from None
@@ -66,10 +68,8 @@ def record(
         finally:
             recorder.close()
     held = "its serial number" if serial else "no serial number (--serial adds it)"
-    _tell(
-        f"{output}: name, ids and port of the device, {held}, its descriptor, "
-        f"and {recorder.reports} reports with their times"
-    )
+    reports = "1 report with its time" if recorder.reports == 1 else f"{recorder.reports} reports with their times"
+    _tell(f"{output}: name, ids and port of the device, {held}, its descriptor, and {reports}")
 
 
 def chosen(backend: HidBackend, device: str) -> list[DeviceInfo]:

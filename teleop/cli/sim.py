@@ -10,10 +10,12 @@ from collections.abc import Callable, Mapping
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.screens.refusal_lines import RefusalLines
 from teleop.cli.signals import signals_to
+from teleop.cli.sim_dynamics import DYNAMICS_DEFAULTS, DynamicsSim
 from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, DroneSim, GimbalSim
 from teleop.config.documents.document import DocumentError
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError
+from teleop.devices.gimbal.profile_simulation import simulated_firmware, simulated_settings
 from teleop.links import ClosableLink, open_link, parse
 from teleop.links.can import CanLink
 from teleop.sim.drone.device import SimulatedDrone
@@ -27,7 +29,13 @@ BAUD = 230400  # of the Matrice 100: docs/protocol-facts.md; a pseudo-terminal d
 SimulatedDevice = SimulatedGimbal | SimulatedDrone
 
 
-def sim(*, drone: DroneSim = DRONE_DEFAULTS, gimbal: GimbalSim = GIMBAL_DEFAULTS, options: Options = DEFAULTS) -> int:
+def sim(
+    *,
+    drone: DroneSim = DRONE_DEFAULTS,
+    gimbal: GimbalSim = GIMBAL_DEFAULTS,
+    dynamics: DynamicsSim = DYNAMICS_DEFAULTS,
+    options: Options = DEFAULTS,
+) -> int:
     """Simulate the devices of a rig on real links, so that another process drives them: --link gimbal=URL.
 
     What a device refuses is printed with the reason: each kind at once, then how often, and at the end all of it.
@@ -45,7 +53,11 @@ def sim(*, drone: DroneSim = DRONE_DEFAULTS, gimbal: GimbalSim = GIMBAL_DEFAULTS
     refusals = RefusalLines(_write, options.json)
     try:
         for name, url in urls.items():
-            devices[name] = drone.made(clock.now()) if name in profile.drones else gimbal.made()
+            if name in profile.drones:
+                devices[name] = drone.made(clock.now())
+            else:
+                settings = dynamics.settings(simulated_settings(profile, name))
+                devices[name] = gimbal.made(settings, simulated_firmware(profile, name))
             links[name] = open_link(url, host=False, now=clock.now)
             _ready(name, url, options.json)
         if drone.drone:

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Annotated, Literal
+from types import MappingProxyType
+from typing import Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
 from teleop.cli.codec.drone_options import cipher_of
+from teleop.cli.sim_dynamics import numbers_by_axis
 from teleop.core.errors import UsageError
 from teleop.dji.drone.encryption import Cipher
 from teleop.sim.drone.device import SimulatedDrone
 from teleop.sim.drone.settings import MOVEMENT_TIMEOUT, VIRTUAL_RC_TIMEOUT, DroneSettings
-from teleop.sim.gimbal.device import PUSH_RATE, SimulatedGimbal
-from teleop.sim.gimbal.firmware import Firmware
+from teleop.sim.gimbal.device import JOYSTICK_SPEED, PUSH_RATE, SimulatedGimbal
+from teleop.sim.gimbal.firmware import DOCUMENTED, BeyondStop, Firmware, Order, PositionUnderSpeed
 
 DRONE = Group("Drone", sort_key=1)
 GIMBAL = Group("Gimbal", sort_key=2)
+_FIELDS: Mapping[str, str] = {
+    "ignore_speed": "ignores_speed",
+    "ignore_zero_focus": "ignores_zero_focus",
+}
+"""Options whose field of the firmware has another name."""
 _AXES = "yaw", "roll", "pitch"
 _SIGNS = {"1": 1, "+1": 1, "-1": -1}
 
@@ -103,8 +111,8 @@ class GimbalSim:
         bool, flag(GIMBAL, "Reply without set and id, to 0x02 without the type byte too, as old firmware does.")
     ] = False
     legacy_order: Annotated[
-        Literal["yaw-roll-pitch", "yaw-pitch-roll"],
-        Parameter(group=GIMBAL, help="The order of the angles in a legacy reply."),
+        Order,
+        Parameter(group=GIMBAL, help="The order of the angles in a legacy reply; all-...: in every reply."),
     ] = "yaw-roll-pitch"
     push_rate: Annotated[float, Parameter(metavar="HZ", group=GIMBAL, help="Pushes a second, once they are on.")] = (
         PUSH_RATE
@@ -130,12 +138,37 @@ class GimbalSim:
     reaction: Annotated[
         float, Parameter(metavar="SECONDS", group=GIMBAL, help="Seconds from a command to the motion.")
     ] = 0.0
+    bare_replies: Annotated[bool, flag(GIMBAL, "Reply without set and id.")] = False
+    silent_angles: Annotated[bool, flag(GIMBAL, "Do not reply to questions for the angles.")] = False
+    reply_delay: Annotated[
+        float, Parameter(metavar="SECONDS", group=GIMBAL, help="Seconds by which replies come late, 0..1.")
+    ] = 0.0
+    silent_pushes: Annotated[bool, flag(GIMBAL, "Do not push angles, although pushes are on.")] = False
+    stick_speed: Annotated[
+        str,
+        Parameter(
+            metavar="VALUE|AXIS=VALUE",
+            group=GIMBAL,
+            help="Speed at full deflection of the joystick, above 0 and at most 360 deg/s.",
+            show_default=False,
+        ),
+    ] = ""
+    beyond_stop: Annotated[
+        BeyondStop, Parameter(group=GIMBAL, help="A position beyond a stop: go to the stop, or refuse it.")
+    ] = "stop"
+    position_under_speed: Annotated[
+        PositionUnderSpeed,
+        Parameter(group=GIMBAL, help="A position while speed control is taken over: obey or ignore it."),
+    ] = "obey"
+    autotune_needs_type: Annotated[bool, flag(GIMBAL, "Start automatic tuning with type 1 only.")] = False
     foreign_traffic: Annotated[
         bool, flag(GIMBAL, "Send on ids 0x530, 0x531 and 0x426 400 times a second, as gimbals do.")
     ] = False
 
-    def made(self) -> SimulatedGimbal:
-        """A gimbal with this firmware. Raises UsageError."""
+    def made(
+        self, settings: Mapping[str, Any] = MappingProxyType({}), profile: Firmware = DOCUMENTED
+    ) -> SimulatedGimbal:
+        """A gimbal with the settings and the firmware of its profile, but for the options given. Raises UsageError."""
         if not 0 < self.push_rate <= 100:
             raise UsageError(f"--push-rate must be above 0 and at most 100 Hz, not {self.push_rate:g}")
         if not 0 <= self.reaction < 60:
@@ -144,20 +177,29 @@ class GimbalSim:
             raise UsageError(f"--roll-error must be -30..30 deg, not {self.roll_error:g}")
         if not 0 < self.pitch_max < 180:
             raise UsageError(f"--pitch-max must be 1..179 deg, not {self.pitch_max}")
-        firmware = Firmware(
-            _signs("--speed-signs", self.speed_signs),
-            _signs("--report-signs", self.report_signs),
-            self.legacy_replies,
-            self.legacy_order,
-            self.push_reply_bit,
-            self.short_push,
-            self.ignore_speed,
-            self.focus_motor,
-            self.ignore_zero_focus,
-            self.roll_error,
-            self.pitch_max,
-        )
-        return SimulatedGimbal(push_rate=self.push_rate, reaction=self.reaction, firmware=firmware)
+        if not 0 <= self.reply_delay <= 1:
+            raise UsageError(f"--reply-delay must be 0..1 s, not {self.reply_delay:g}")
+        given = {each.name: value for each in fields(self) if (value := getattr(self, each.name)) != each.default}
+        made = {**settings, **{key: given.pop(key) for key in ("push_rate", "reaction") if key in given}}
+        for option, field in _FIELDS.items():
+            if option in given:
+                given[field] = given.pop(option)
+        for key in ("speed_signs", "report_signs"):
+            if key in given:
+                given[key] = _signs(f"--{key.replace('_', '-')}", given[key])
+        if "stick_speed" in given:
+            given["stick_speed"] = _stick_speed(given["stick_speed"])
+        given.pop("foreign_traffic", None)
+        return SimulatedGimbal(**made, firmware=replace(profile, **given))
+
+
+def _stick_speed(text: str) -> tuple[float, ...]:
+    """Of yaw, roll and pitch. Raises UsageError."""
+    values = numbers_by_axis("--stick-speed", text)
+    for value in values.values():
+        if not 0 < value <= 360:
+            raise UsageError(f"--stick-speed must be above 0 and at most 360 deg/s, not {value:g}")
+    return tuple(values.get(axis, usual) for axis, usual in zip(_AXES, JOYSTICK_SPEED, strict=True))
 
 
 def _signs(option: str, text: str) -> tuple[int, int, int]:

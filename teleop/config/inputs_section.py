@@ -53,13 +53,13 @@ class DeviceSection(Section):
 
     @property
     def any(self) -> bool:
-        return not self.keys_given
+        return not any(self.exactness)
 
     @property
-    def keys_given(self) -> int:
-        """How many keys it is told by: one with more is meant more exactly."""
-        keys = (self.vendor, self.product, self.name, self.serial, self.port, self.interface)
-        return sum(key is not None for key in keys)
+    def exactness(self) -> tuple[int, int]:
+        """How exactly it names a device, to compare: a serial number or a port is more than any ids."""
+        units, models = (self.serial, self.port), (self.vendor, self.product, self.name, self.interface)
+        return sum(key is not None for key in units), sum(key is not None for key in models)
 
     def __str__(self) -> str:
         ids = (

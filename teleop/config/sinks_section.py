@@ -11,16 +11,15 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from teleop.config.documents.base_model import NoTruth, Section
-from teleop.config.wiring import Wiring
+from teleop.config.simulated_section import SimulatedSection
+from teleop.config.wiring import Angle, AngleOrder, Sign, Wiring
 from teleop.core.axes import STICKS, Axis
 
 DRONES = ("virtual-rc", "flight")
 Magnitude = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
 Rate = Annotated[Literal[1, 2, 4, 5, 10, 20, 25, 50, 100], NoTruth]  # Hz: whole numbers of the loop's ticks
-Sign = Annotated[Literal[1, -1], NoTruth]
-Angle = Literal["pan", "tilt", "roll"]
-Channel = Annotated[int, Field(ge=364, le=1684)]  # docs/protocol-facts.md; the drone's own module has it in parts
+Channel = Annotated[int, Field(ge=364, le=1684)]  # docs/protocol-facts.md
 LowBattery = Annotated[int, Field(ge=10, le=90)]
 
 MOVES: Mapping[str, Sequence[Axis]] = {
@@ -40,6 +39,13 @@ class GainsSection(Section):
     """Correction in deg/s per deg of error; 0 turns it off."""
     integral: Annotated[float, Field(ge=0, le=20)] = 2.0
     """Correction in deg/s2 per deg of error; 0 turns it off."""
+
+
+class MountSection(Section):
+    """How the gimbal is mounted."""
+
+    yaw: Annotated[float, Field(ge=-360, le=360)] = 0.0
+    """The yaw in deg that the gimbal reports where pan is 0: 180 for one that was mounted or started turned round."""
 
 
 class GimbalSection(Section):
@@ -67,8 +73,10 @@ class GimbalSection(Section):
     """As `signs`, for speeds only; needed where the gimbal counts speeds otherwise than positions."""
     report_signs: dict[Angle, Sign] = Field(default_factory=dict)
     """As `signs`, for reported angles only; needed where they are counted otherwise than positions."""
-    legacy_angles: Literal["yaw-roll-pitch", "yaw-pitch-roll"] = "yaw-roll-pitch"
-    """Order of the angles in replies of old firmware."""
+    legacy_angles: AngleOrder = "yaw-roll-pitch"
+    """Order of the angles in replies of old firmware; all-yaw-pitch-roll: in every reply, whatever the firmware."""
+    mount: MountSection = MountSection()
+    """How the gimbal is mounted; an underslung one may report a yaw of 180 straight ahead."""
     mapping: dict[Literal["yaw", "roll", "pitch"], Angle] = Field(
         default_factory=lambda: {"yaw": "pan", "roll": "roll", "pitch": "tilt"}
     )
@@ -76,6 +84,8 @@ class GimbalSection(Section):
 
     full_stick: dict[Angle, Magnitude] = Field(default_factory=dict)
     """Speed at full deflection by the gimbal's own settings, in deg/s, for mode stick."""
+    simulated: SimulatedSection = SimulatedSection()
+    """How the simulated gimbal of a `sim:` link, and of `teleop sim`, moves and reports."""
 
     @property
     def axes(self) -> Sequence[Axis | None]:
@@ -89,7 +99,7 @@ class GimbalSection(Section):
             {Axis(axis): sign for axis, sign in each.items()}
             for each in (self.signs, self.speed_signs, self.report_signs)
         )
-        return Wiring(self.axes, signs, speed_signs, report_signs)
+        return Wiring(self.axes, signs, speed_signs, report_signs, self.mount.yaw)
 
     def sign_line(self, axis: Axis) -> str:
         """What this section needs when `axis` goes the other way than it is sent in this mode."""
@@ -98,6 +108,18 @@ class GimbalSection(Section):
         now = self.wiring.speed_sign(axis) if in_speeds else self.wiring.report_sign(axis)
         signs = {**written, axis.value: -now}
         return f"{key}: {{{', '.join(f'{name}: {sign}' for name, sign in signs.items())}}}"
+
+    @property
+    def pitch_and_roll(self) -> tuple[Axis, Axis] | None:
+        """The axes of the gimbal's pitch and roll, None where it drives only one of them."""
+        _, roll, pitch = self.axes
+        return None if pitch is None or roll is None else (pitch, roll)
+
+    def order_line(self, bare: bool) -> str:
+        """What this section needs when pitch and roll are exchanged in replies, `bare` ones of old firmware or not."""
+        exchanged = self.legacy_angles == "all-yaw-pitch-roll" or (bare and self.legacy_angles == "yaw-pitch-roll")
+        order = "yaw-roll-pitch" if exchanged else "yaw-pitch-roll" if bare else "all-yaw-pitch-roll"
+        return f"legacy_angles: {order}"
 
     def full(self, axis: Axis, velocity: float) -> float:
         """What full deflection gives an axis whose own velocity is `velocity`, both in deg/s."""

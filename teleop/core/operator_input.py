@@ -31,7 +31,7 @@ class Command(StrEnum):
     RECENTER = "recenter"
     RECORD = "record"  # on, and off again
     SHUTTER = "shutter"
-    TELL = "tell"  # a device's own command: `gimbal follow lock`
+    TELL = "tell"  # a device's own command: `gimbal follow lock`; a typed target: `target door,4.2`
     ENGAGE = "engage"  # the drone
     DISENGAGE = "disengage"
     QUIT = "quit"
@@ -59,6 +59,7 @@ class Held:
     when it can: unplugged, silent for 0.2 s. What it held before is then no longer true. `notes` are lines that the
     operator is to read once. `click` is what one step of `steps` is worth, in units; without it they are one step.
     `stop` is why a STOP of this input does not count now, "" where it does, None for an input that has none.
+    `deflected` is whether some control is not at rest, also where two of them cancel each other out.
     """
 
     deflections: Mapping[Axis, float] = field(default_factory=dict)
@@ -71,6 +72,7 @@ class Held:
     notes: Sequence[str] = ()
     click: Mapping[Axis, float] = field(default_factory=dict, compare=False)
     stop: str | None = field(default=None, compare=False)
+    deflected: bool = field(default=False, compare=False)
 
 
 class Input(Protocol):

@@ -42,6 +42,7 @@ from teleop.devices.focus import FocusReporter, FocusSink
 from teleop.devices.gimbal.pi_correction import Gains
 from teleop.devices.gimbal.position import Angles, PositionSink
 from teleop.devices.gimbal.profile_firmware import profile_firmware
+from teleop.devices.gimbal.profile_simulation import simulated_settings
 from teleop.devices.gimbal.speed import SpeedSink
 from teleop.devices.gimbal.stick import StickSink
 from teleop.dji.drone.encryption import Cipher
@@ -50,6 +51,7 @@ from teleop.dji.drone.session import OnboardSession
 from teleop.dji.gimbal.session import Session
 from teleop.links import open_link, parse
 from teleop.monitors.direction import DirectionGuard
+from teleop.monitors.exchanged_axes import ExchangedAxesGuard
 from teleop.monitors.following_error import FollowingErrorGuard
 from teleop.planner.live import Live
 from teleop.sim.drone.device import SimulatedDrone
@@ -73,6 +75,7 @@ class Device:
     follow: float | None = 0.0
     delay: float = 0.0
     direction: DirectionGuard | None = None  # what notices that an axis goes the other way
+    exchange: ExchangedAxesGuard | None = None  # and that one axis is reported in the place of another
 
 
 class Rig:
@@ -140,7 +143,7 @@ class Rig:
         timing = LoopTiming()
         if drone := self.drone(axes):
             timing = LoopTiming(keep_alive=drone.period, first_report=DRONE_FIRST_REPORT)
-        directions = [device.direction for device in used if device.direction]
+        directions = [guard for device in used for guard in (device.direction, device.exchange) if guard]
         return ControlLoop(
             self.clock,
             Live(limits, timing.period),
@@ -213,8 +216,10 @@ class _Opening:
         if name in profile.drones:
             far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
         else:
-            firmware = profile_firmware(profile, name)
-            far = self._simulated[name] = SimulatedGimbal(continuous=_turns_for_ever(profile), firmware=firmware)
+            settings, firmware = simulated_settings(profile, name), profile_firmware(profile, name)
+            far = self._simulated[name] = SimulatedGimbal(
+                continuous=_turns_for_ever(profile), firmware=firmware, **settings
+            )
         return Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
 
 
@@ -238,17 +243,35 @@ def _gimbal(section: GimbalSection, connection: Connection, limits: Mapping[Axis
     own = {axis: limits[axis] for axis in section.axes if axis is not None and axis in limits}
     guard = DirectionGuard(section.sign_line, section.delay, speeds=section.mode != "position")
     gains = Gains(section.gains.proportional, section.gains.integral)
+    reporter = Angles(connection, wiring, section.legacy_angles)
+    exchange = _exchange_guard(section, reporter, guard.found)
+
+    def sent(now: float, speeds: Mapping[Axis, float]) -> None:
+        guard.sent(now, speeds)
+        if exchange:
+            exchange.sent(now, speeds)
+
     sink: Sink
     match section.mode:
         case "position":
             sink = PositionSink(connection, section.rate, section.delay, wiring, own, guard.found)
         case "speed":
-            sink = SpeedSink(connection, section.rate, section.delay, wiring, own, gains, guard.sent)
+            sink = SpeedSink(connection, section.rate, section.delay, wiring, own, gains, sent)
         case "stick":
             full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
-            sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, guard.sent)
-    reporter = Angles(connection, wiring, section.legacy_angles)
-    return Device(list(own), sink, reporter, section.max_following_error, section.delay, guard)
+            sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, sent)
+    return Device(list(own), sink, reporter, section.max_following_error, section.delay, guard, exchange)
+
+
+def _exchange_guard(section: GimbalSection, reporter: Angles, found: set[Axis]) -> ExchangedAxesGuard | None:
+    """None for a gimbal that drives only one of pitch and roll."""
+    pair, wiring = section.pitch_and_roll, section.wiring
+    if pair is None:
+        return None
+    ratio = wiring.report_sign(pair[0]) * wiring.report_sign(pair[1])
+    return ExchangedAxesGuard(
+        *(pair, ratio, lambda: section.order_line(reporter.bare), section.delay), section.mode != "position", found
+    )
 
 
 def _focus(section: FocusSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001

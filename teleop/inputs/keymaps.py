@@ -73,6 +73,10 @@ PREFIXES: Mapping[str, tuple[str, Mapping[str, Act]]] = {
 """Keys that ask for a second one: the question, and its answers. Any other key takes it back."""
 
 SPELL, SPELLING = "d", "drone command: "
+MARK, MARKING = "t", "mark target: "
+TYPED = {SPELL: (SPELLING, "Enter sends"), MARK: (MARKING, "name,distance or name,x,y,z in m; Enter marks")}
+"""Keys that are followed by a word: the question, and its hint."""
+
 DRONE_WORDS: Mapping[str, Act] = {
     **{name: Press(Command.TELL, device_command=DeviceCommand(DRONE, name)) for name in DRONE_COMMANDS},
     "engage": Press(Command.ENGAGE),
@@ -96,13 +100,14 @@ HELP: Sequence[tuple[str, str]] = (
     ("r", "record on or off"),
     (".", "shutter"),
     ("e", "manual on or off"),
+    ("t word", "mark a target to aim at"),
     ("d word", "drone: engage, arm"),
     ("b", "release the drone"),
     ("q", "quit"),
 )
 
 NO_EMERGENCY_STOP = "STOP is not an emergency stop: the motors stay powered."
-LONGEST_WORD = 20
+LONGEST_WORD = 40
 
 _SEQUENCE = re.compile(r"\x1b(?:O|\[(?P<parameters>[0-9;]*))(?P<final>[@-~])")
 _BEGUN = re.compile(r"\x1b(?:O|\[[0-9;]*)?")
@@ -115,7 +120,8 @@ class KeyReader:
         self.question = ""
         self.helping = False
         self._answers: Mapping[str, Act] = {}
-        self._word: str | None = None  # what has been spelled of one
+        self._word: str | None = None  # what has been typed of one
+        self._typed_after = ""  # which key
         self._begun = ""  # of an escape sequence
 
     @property
@@ -157,18 +163,22 @@ class KeyReader:
             self.helping = not self.helping
         elif asked and key in answers:
             yield answers[key]
-        elif not asked and key == SPELL:
+        elif not asked and key in TYPED:
+            self._typed_after = key
             self._begin_word("")
         elif (not asked and key in KEYS) or key == STOP:
             yield KEYS[key]
 
     def _begin_word(self, word: str) -> None:
-        self._word, self.question = word, f"{SPELLING}{word}_   Enter sends, Escape cancels"
+        question, hint = TYPED[self._typed_after]
+        self._word, self.question = word, f"{question}{word}_   {hint}, Escape cancels"
 
     def _spell(self, word: str, key: str) -> Iterator[Act]:
         if key in "\r\n":
             self._ask("")
-            if word in DRONE_WORDS:
+            if word and self._typed_after == MARK:
+                yield Press(Command.TELL, device_command=DeviceCommand("target", word))
+            elif word in DRONE_WORDS:
                 yield DRONE_WORDS[word]
             elif word:
                 self.question = f"unknown command {word}; commands: {', '.join(DRONE_WORDS)}"

@@ -40,16 +40,16 @@ class Center:
 
     Only a stick that lies still near the middle teaches its center. Any other has the middle of its range, until it is
     first seen to rest near there. `centered` is whether it was near the middle when first seen: what was not is a
-    throttle, a trigger or a slider, or is held. `at_low` is whether it then was at the low end, as triggers are.
+    throttle, a trigger or a slider, or is held. `at_end` is whether it then was at an end, as triggers are.
     `learned` is whether `value` was seen, or `given`, and not assumed.
     """
 
     def __init__(self, low: float, high: float, given: float | None = None) -> None:
         self.value = given
         self.learned = given is not None
-        self.centered, self.at_low = True, False
+        self.centered, self.at_end = True, False
         self._given = given is not None
-        self._low, self._middle, self._reach = low, (low + high) / 2, abs(high - low) / 2
+        self._middle, self._reach = (low + high) / 2, abs(high - low) / 2
         self._first: float | None = None
         self._since = math.inf  # when it was first seen, and later when it came to rest
         self._least = self._most = self._sum = 0.0
@@ -61,7 +61,7 @@ class Center:
             return
         if self._first is None:
             self._first, self.centered = value, self._near(value)
-            self.at_low = abs(value - self._low) <= NEAR * self._reach
+            self.at_end = abs(value - self._middle) >= (1 - NEAR) * self._reach
             self._begin(value, now)
         if self.learned or (self.value is not None and self.centered):
             return
@@ -79,6 +79,10 @@ class Center:
         self.value = rest if self.learned else self._middle
         if not late:
             self._begin(value, now)
+
+    def has(self, value: float) -> bool:
+        """Whether the stick is where its center is known to be."""
+        return self.value is not None and abs(value - self.value) <= REST_SPREAD * self._reach
 
     def _begin(self, value: float, now: float) -> None:
         self._since, self._least, self._most, self._sum, self._count = now, value, value, 0.0, 0

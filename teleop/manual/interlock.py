@@ -44,7 +44,7 @@ class Interlock:
             self.relock()
             self.waits_for = self.held.trouble
             return self.held
-        self._centered = self._centered or not any(self.held.deflections.values())
+        self._centered = self._centered or not (self.held.deflected or any(self.held.deflections.values()))
         self._enable()
         self.waits_for = self._missing(manual_control)
         return self.held

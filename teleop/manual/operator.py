@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping, Sequence
 from teleop.config.device_commands import DRONE
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
-from teleop.core.axes import Axis, Limits, Motion
+from teleop.core.axes import Axis, Limits, Motion, Reading
 from teleop.core.events import Action, DeviceCommand, DialInput, TickEvent
 from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Input, Press
@@ -23,8 +23,10 @@ from teleop.manual.arbitration import Arbitration
 from teleop.manual.interlock import Interlock
 from teleop.manual.recall import Recall, reachable
 from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
+from teleop.manual.target_marks import TargetMarks
 
 CENTERED = (Axis.PAN, Axis.TILT, Axis.ROLL)  # what a recenter takes to 0
+TARGET = "target"  # what is typed for one is told to it
 FOLLOW = "follow "  # begins the name of the gimbal's command
 CENTERED_STICK = PositionTarget(0.0)  # of a drone: nothing moves, and there is an input
 
@@ -33,7 +35,7 @@ class Operator:
     """`inputs` in the order of their priority, `recall` in s: how long a preset takes.
 
     `beneath` drives the axes that no input moves, and its end is the run's; after a STOP it is locked as an input is,
-    until it was seen at rest.
+    until it was seen at rest. `marks` takes the targets that the operator marks.
     """
 
     def __init__(
@@ -44,11 +46,13 @@ class Operator:
         sticks: SticksSection,
         recall: float,
         beneath: Source | None = None,
+        marks: TargetMarks | None = None,
     ) -> None:
         self._limits, self._presets, self._sticks, self._seconds = limits, presets, sticks, recall
         self._locks = [Interlock(device) for device in inputs]
         self._arbitration = Arbitration(limits, self._locks, sticks, self.notify)
-        self._beneath = beneath
+        self._beneath, self._marks = beneath, marks
+        self._readings: Mapping[Axis, Reading] = {}
         self._motion: Motion = {}
         self._now = -math.inf
         self._range = sticks.start_range - 1
@@ -108,7 +112,7 @@ class Operator:
             self._recording = self._filming  # the next press asks it to stop once more
 
     def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
-        self._motion = feedback.motion
+        self._motion, self._readings = feedback.motion, feedback.readings
         seconds, self._now, self._actions = now - self._now, now, []
         presses = [(lock, press) for lock in self._locks for press in lock.read(now, self._manual_control).presses]
         notes = [note for lock in self._locks for note in lock.held.notes]
@@ -236,10 +240,23 @@ class Operator:
         assert command is not None, "TELL has a command"
         if command.device == DRONE:
             self._send_to_drone(command)
+        elif command.device == TARGET:
+            self._mark(command.name)
         elif self._moving:
             self.notify(f"{command} refused: an axis is moving")
         else:
             self._actions.append(command)
+
+    def _mark(self, typed: str) -> None:
+        pan, tilt = (self._readings.get(axis) for axis in (Axis.PAN, Axis.TILT))
+        if self._marks is None:
+            self.notify("mark target: start teleop live with --targets FILE")
+        elif pan is None or tilt is None:
+            self.notify("mark target: needs a rig that measures pan and tilt")
+        elif self._moving:
+            self.notify("mark target refused: an axis is moving")
+        else:
+            self.notify(self._marks.mark(typed, pan.position, tilt.position))
 
     def _unavailable(self, _hand: Interlock, press: Press) -> None:
         self.notify(f"{press.command}: works only while a sequence plays")

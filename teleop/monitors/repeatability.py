@@ -12,7 +12,7 @@ from bisect import bisect_left
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from teleop.core.axes import Axis
+from teleop.core.axes import Axis, Motion
 from teleop.core.events import Tick
 from teleop.core.timing import SAME_TIME
 from teleop.monitors.tracking_error import Score
@@ -55,12 +55,15 @@ class Trace:
 class Repeatability:
     """An observer. `place` has the pass and where in the move, for a time of the loop; None outside a pass.
 
+    `planned` is what counts as commanded, of a tick, where a correction was added to the motion.
     `passes` has the differences of the second and later passes, by number.
     """
 
-    def __init__(self, place: Callable[[float], Place | None]) -> None:
+    def __init__(
+        self, place: Callable[[float], Place | None], planned: Callable[[Tick], Motion] = lambda tick: tick.motion
+    ) -> None:
         self.passes: dict[int, Mapping[Axis, Difference]] = {}
-        self._place = place
+        self._place, self._planned = place, planned
         self._commanded: dict[Axis, Trace] = {}
         self._measured: dict[Axis, Trace] = {}
         self._counted: dict[Axis, float] = {}
@@ -69,7 +72,7 @@ class Repeatability:
         place = self._place(tick.time)
         if place is None:
             return
-        for axis, state in tick.motion.items():
+        for axis, state in self._planned(tick).items():
             self._see(self._commanded, axis, place, state.position)
         for axis, reading in tick.reported.items():
             then = self._place(reading.time)

@@ -34,18 +34,23 @@ class Score:
 
 
 class TrackingErrorMonitor:
-    """An observer. Readings from before `begin`, on the loop's clock, do not count."""
+    """An observer. Readings from before `begin`, on the loop's clock, do not count.
 
-    def __init__(self, begin: Callable[[], float]) -> None:
+    `planned` is what they are compared with, of a tick: what was commanded, unless a correction was added to that.
+    """
+
+    def __init__(
+        self, begin: Callable[[], float], planned: Callable[[Tick], Motion] = lambda tick: tick.motion
+    ) -> None:
         self.scores: dict[Axis, Score] = {}
-        self._begin = begin
+        self._begin, self._planned = begin, planned
         self._latest: Tick | None = None
         self._commanded: deque[tuple[float, Motion]] = deque(maxlen=100)
         self._counted: dict[Axis, float] = {}
 
     def observe(self, tick: Tick) -> None:
         self._latest = tick
-        self._commanded.append((tick.time, tick.motion))
+        self._commanded.append((tick.time, self._planned(tick)))
         for axis, reading in tick.reported.items():
             if axis in tick.motion and reading.time != self._counted.get(axis) and reading.time >= self._begin():
                 self._counted[axis] = reading.time

@@ -138,6 +138,11 @@ class Move:
         """Seconds from 0 to where the last axis comes to rest."""
         return max((float(track.breaks[-1]) for track in self.tracks.values()), default=0.0)
 
+    @cached_property
+    def opening(self) -> float:
+        """When the first axis begins to move: 0, or earlier for a move that is corrected."""
+        return min([0.0, *(float(track.breaks[0]) for track in self.tracks.values())])
+
     def at(self, time: float) -> dict[Axis, State]:
         return {axis: track.at(time) for axis, track in self.tracks.items()}
 

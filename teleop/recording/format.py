@@ -19,6 +19,7 @@ from typing import Any, BinaryIO
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.events import DeviceCommand, DialInput, Exposure, Tick, TickEvent
 from teleop.core.setpoints import PositionTarget, Setpoint, StateTarget, VelocityTarget
+from teleop.recording.played import PlaceWriter, Played, SequenceFacts
 
 ABOUT, END = "teleop take", "teleop end"  # the names of the metadata records
 FORMAT = "1"
@@ -29,6 +30,8 @@ PLACES = (12, 10, 8)  # decimals of a position, velocity, acceleration
 SETPOINT_PLACES = 6  # decimals of what was asked for
 SAME = 1e-9  # units: a reference that close to the motion was obeyed
 LIMITS = ("minimum", "maximum", "velocity", "acceleration", "jerk")
+
+NO_SEQUENCE = SequenceFacts()
 
 _NUMBER = {"type": "number"}
 _STATE = {"type": "object", "properties": dict.fromkeys(("position", "velocity", "acceleration"), _NUMBER)}
@@ -65,6 +68,16 @@ SCHEMAS: Mapping[str, Mapping[str, Any]] = {
     "/drone": _schema(
         "Drone", "The drone's own telemetry, ten times a second: deg, m, m/s, %; null where it sent none.", None
     ),
+    "/passes": {
+        "title": "Passes",
+        "description": "Which pass of a sequence is played (0: none), and where in it (s), on change: it plays on.",
+        "type": "object",
+        "properties": {"pass": _NUMBER, "time": _NUMBER},
+    },
+    "/plan": _schema(
+        "Plan", "Where the sequence itself is, while a learned correction is added to it, in degrees.", _NUMBER
+    ),
+    "/firmware": _schema("Firmware", "The version of the gimbal on each link, as it answers.", None),
     "/status": _schema("Status", "The operator's state, on change: stops, recalls, inputs and their faults.", None),
 }
 
@@ -78,12 +91,13 @@ class About:
     started: float
     limits: Mapping[Axis, Limits]
     version: str
+    sequence: SequenceFacts = NO_SEQUENCE
 
     def record(self) -> dict[str, str]:
         """As the strings of a metadata record; a limit that there is not is null."""
         axes = {axis.value: {name: _finite(getattr(of, name)) for name in LIMITS} for axis, of in self.limits.items()}
         plain = {"format": FORMAT, "rig": self.rig, "title": self.title, "version": self.version}
-        return {**plain, "started": repr(self.started), "axes": json.dumps(axes)}
+        return {**plain, "started": repr(self.started), "axes": json.dumps(axes), **self.sequence.record()}
 
 
 class TakeWriter:
@@ -101,6 +115,7 @@ class TakeWriter:
         self._last_written: dict[str, bytes] = {}
         self._drone_due, self._stage = -math.inf, ""  # when the drone is next written down, and its last stage
         self._reading_times: dict[Axis, float] = {}
+        self._places = PlaceWriter()
         self.ticks, self.seconds = 0, 0.0
         for topic, schema in SCHEMAS.items():
             known = self._writer.register_schema(f"teleop.{schema['title']}", "jsonschema", _json(schema))
@@ -118,7 +133,9 @@ class TakeWriter:
         self._measured(tick)
         for event in tick.actions:
             self._message("/actions", tick.time, _action(event))
-        if status is not None:
+        if isinstance(status, Played):
+            self._add_played(tick.time, status)
+        elif status is not None:
             self._add_status(tick.time, plain(status))
 
     def flush(self) -> None:
@@ -132,6 +149,16 @@ class TakeWriter:
         self._writer.flush()
         self._writer.add_metadata(END, ending_record(result, reasons, dropped, self.ticks, self.seconds, links or {}))
         self._writer.finish()
+
+    def _add_played(self, time: float, played: Played) -> None:
+        mark = self._places.mark(time, played.place)
+        if mark is not None:
+            self._message("/passes", time, {"pass": mark.number, "time": round(mark.place, 6)})
+        if played.plan:
+            positions = {axis.value: round(position, PLACES[2]) for axis, position in played.plan.items()}
+            self._message("/plan", time, positions)
+        if played.firmware:
+            self._change("/firmware", time, played.firmware)
 
     def _add_status(self, time: float, status: Any) -> None:
         """A status; sticks and the drone in it have topics of their own."""

@@ -9,7 +9,7 @@ import importlib
 import json
 from array import array
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ from teleop.core.errors import UsageError
 from teleop.planner.polynomial import Array
 from teleop.recording.format import CUT, About
 from teleop.recording.messages import Ending, Messages, reading_errors, was_cut
+from teleop.recording.played import SAME, Mark
 
 ActionRecord = Mapping[str, Any]
 
@@ -29,7 +30,9 @@ class Take:
     """Times are seconds from the first tick. `motion` has rows position, velocity, acceleration (3, n) at `times` (n,).
 
     `measured` has rows time, position (2, m). `actions` are what was done once, and when. `ending` is None for a file
-    that was cut, and `remark` a line about one that is not whole, else "".
+    that was cut, and `remark` a line about one that is not whole, else "". `marks` say which pass of a sequence was
+    played when, `plan` has rows time, position (2, k) of the sequence itself where a correction was added to it, and
+    `firmware` versions by link.
     """
 
     path: Path
@@ -40,6 +43,9 @@ class Take:
     actions: Sequence[tuple[float, ActionRecord]]
     ending: Ending | None
     remark: str
+    marks: Sequence[Mark] = ()
+    plan: Mapping[Axis, Array] = field(default_factory=dict)
+    firmware: Mapping[str, str] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         title, axes = f"{self.about.title} on {self.about.rig}", ", ".join(self.axes)
@@ -63,6 +69,17 @@ class Take:
     def ended(self) -> str:
         """How the run ended, in words."""
         return CUT if self.ending is None else str(self.ending)
+
+    def planned(self, axis: Axis) -> Array:
+        """Where the axis was to be at each tick (n,), in units: as commanded, without what a correction has added."""
+        positions = self.motion[axis][0]
+        if axis not in self.plan:
+            return positions
+        times, own = self.plan[axis]
+        at = np.searchsorted(self.times, times - SAME)
+        positions = positions.copy()
+        positions[at[at < len(positions)]] = own[at < len(positions)]
+        return positions
 
     def state(self, axis: Axis, index: int) -> State:
         """Where the axis was commanded to be at tick `index`."""
@@ -93,6 +110,9 @@ def read_take(path: Path) -> Take:
     times = array("d")
     motion: dict[Axis, array[float]] = {}
     measured: dict[Axis, array[float]] = {}
+    plan: dict[Axis, array[float]] = {}
+    marks: list[Mark] = []
+    firmware: dict[str, str] = {}
     actions: list[tuple[float, ActionRecord]] = []
     with reading_errors(path):
         for time, topic, data in messages:
@@ -104,8 +124,14 @@ def read_take(path: Path) -> Take:
                     state = content[axis.value]
                     row.extend((state["position"], state["velocity"], state["acceleration"]))
             elif topic == "/measured":
-                for name, position in json.loads(data).items():
-                    measured.setdefault(Axis(name), array("d")).extend((time, position))
+                _add_positions(measured, time, json.loads(data))
+            elif topic == "/plan":
+                _add_positions(plan, time, json.loads(data))
+            elif topic == "/passes":
+                content = json.loads(data)
+                marks.append(Mark(time, int(content["pass"]), float(content["time"])))
+            elif topic == "/firmware":
+                firmware |= json.loads(data)
             elif topic == "/actions":
                 content = json.loads(data)
                 actions.append((time, {"action": content["action"], **content}))
@@ -120,4 +146,12 @@ def read_take(path: Path) -> Take:
         actions,
         messages.ending,
         messages.remark,
+        marks,
+        {axis: np.frombuffer(row).reshape(-1, 2).T for axis, row in plan.items()},
+        firmware,
     )
+
+
+def _add_positions(traces: dict[Axis, array[float]], time: float, positions: Mapping[str, float]) -> None:
+    for name, position in positions.items():
+        traces.setdefault(Axis(name), array("d")).extend((time, position))

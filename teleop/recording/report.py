@@ -29,7 +29,7 @@ EDGE = 0.005  # s: a shift that near to the last that is tried is none
 
 @dataclass(frozen=True)
 class AxisReport:
-    """Errors are commanded less measured (units), NaN without readings; `peak_at` is in s from the first tick.
+    """Errors are planned less measured (units), NaN without readings; `peak_at` is in s from the first tick.
 
     `delay` is None where it is unknown, and then `untold` is the reason. `velocity`, `acceleration` and `jerk` are the
     greatest shares of the limits, `room` the least to a soft limit, None for a continuous axis.
@@ -53,10 +53,10 @@ def report(take: Take) -> Mapping[Axis, AxisReport]:
 
 
 def errors(take: Take, axis: Axis) -> tuple[Array, Array]:
-    """When (s) the axis was measured during the run, and commanded less measured there (units)."""
+    """When (s) the axis was measured during the run, and planned less measured there (units)."""
     read_at, read = take.measured.get(axis, np.empty((2, 0)))
     during = (read_at >= take.times[0]) & (read_at <= take.times[-1])
-    return read_at[during], np.interp(read_at[during], take.times, take.motion[axis][0]) - read[during]
+    return read_at[during], np.interp(read_at[during], take.times, take.planned(axis)) - read[during]
 
 
 def _axis(take: Take, axis: Axis, limits: Limits) -> AxisReport:

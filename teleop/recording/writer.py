@@ -23,7 +23,8 @@ from teleop.core.errors import UsageError
 from teleop.core.events import Tick
 from teleop.core.run_state import Result
 from teleop.recording import ENDING
-from teleop.recording.format import About, TakeWriter
+from teleop.recording.format import NO_SEQUENCE, About, TakeWriter
+from teleop.recording.played import SequenceFacts
 
 CAPACITY = 6000  # ticks in the queue: a minute of a disk that does not answer
 POLL = 0.1  # s between looks at the queue
@@ -46,7 +47,7 @@ class Recorder:
         self, stream: IO[bytes], about: About, name: str, status: Status | None = None, patient: bool = False
     ) -> None:
         self._stream, self._about, self._name = _Whole(stream), about, name
-        self._status, self._patient = status, patient
+        self.status, self._patient = status, patient
         self._queue: deque[tuple[Tick, object]] = deque()
         self._failure = ""
         self._dropped = 0  # by the control thread; the other counts are the writer thread's
@@ -60,7 +61,7 @@ class Recorder:
 
     def observe(self, tick: Tick) -> None:
         queue = self._queue
-        status = None if self._status is None else self._status()
+        status = None if self.status is None else self.status()
         if self._patient:
             self._wait_for_room()
         if self._failure or len(queue) >= CAPACITY:
@@ -178,8 +179,10 @@ def recording(
     *,
     patient: bool = False,
     option: str = "",
+    sequence: SequenceFacts = NO_SEQUENCE,
 ) -> Iterator[Recorder | None]:
-    """A recorder into a new file, None for no path; `limits` are those of the axes in use.
+    """A recorder into a new file, None for no path; `limits` are those of the axes in use, `sequence` is
+    what is played.
 
     Raises UsageError, which begins with `option`, when the file cannot be made or already exists. Its caller
     calls `finish`; a block that is left without has failed, and leaves no file when nothing had begun.
@@ -187,7 +190,7 @@ def recording(
     if path is None:
         yield None
         return
-    about = About(rig, title, date(), limits, version("rs-teleop"))
+    about = About(rig, title, date(), limits, version("rs-teleop"), sequence)
     with _created(path, option) as stream:
         recorder = Recorder(stream, about, str(path), status, patient)
         try:

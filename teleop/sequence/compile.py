@@ -20,11 +20,12 @@ from teleop.planner.keyframes.findings import Infeasible
 from teleop.planner.keyframes.planner import Key, plan, stretch
 from teleop.planner.keyframes.rests import AT_REST, Rest, rests
 from teleop.planner.trajectory import Move
+from teleop.sequence.aim import ON_THE_WAY
 from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.keys import Keys
 from teleop.sequence.model import PREROLL, SequenceModel
 from teleop.sequence.reader import SequenceReader
-from teleop.sequence.refusal import refusal
+from teleop.sequence.refusal import Found, refusal
 from teleop.sequence.timeline import Timed
 
 
@@ -81,8 +82,10 @@ def load_sequence(
     try:
         keys, move, factor = _planned(timeline.keys, model, {axis: limits[axis] for axis in timeline.keys})
     except Infeasible as error:
-        raise refusal(error, timeline.places) from None
+        raise refusal(error, timeline.places, _text) from None
     cues = [timed._replace(cue=timed.cue._replace(at=factor * timed.cue.at)) for timed in timeline.cues]
+    if problems := [text for aimed in timeline.aims if (text := aimed.problem(move, factor))]:
+        raise UnplayableError(problems)
     if problems := list(_restless(cues, move)):
         raise DocumentError(problems)
     remarks = [*move.overshoots, *move.long_ramps]
@@ -94,6 +97,13 @@ def load_sequence(
     title, preroll = model.called(document.name), seconds(model.preroll, model.fps)
     done = [timed.cue for timed in cues]
     return CompiledSequence(title, move, done, warnings, keys, preroll, model.back_to_one, model.fps)
+
+
+def _text(found: Found) -> str:
+    """What is wrong; the keys of one aim stand in no file, and are one."""
+    if ON_THE_WAY in found.first or ON_THE_WAY in found.last:
+        return f"{found.axis} cannot keep the target in sight: the base is too fast there; use more time"
+    return str(found)
 
 
 def _planned(keys: Keys, model: SequenceModel, limits: Mapping[Axis, Limits]) -> tuple[Keys, Move, float]:

@@ -7,6 +7,8 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import Protocol
 
+from teleop.planner.trajectory import Move
+
 
 class Trigger(Protocol):
     """Starts a move that is ready for it: the rig is in place and rests."""
@@ -36,6 +38,18 @@ class Trigger(Protocol):
         ...
 
 
+class Corrector(Protocol):
+    """Has each pass play the move as the passes before it have taught."""
+
+    def ended(self, number: int) -> None:
+        """Pass `number` is over."""
+        ...
+
+    def next_move(self) -> Move | None:
+        """What the next pass plays; None while that is being worked out. It begins where the move itself does."""
+        ...
+
+
 @dataclass(frozen=True)
 class Cycle:
     """`preroll` is the rest in place before the start and `start_at` where in the move to begin, both in s.
@@ -50,6 +64,7 @@ class Cycle:
     compared: bool = False
     back_to_one: bool = False
     trigger: Trigger | None = None
+    corrector: Corrector | None = None
 
     @property
     def repeats(self) -> bool:

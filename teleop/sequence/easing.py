@@ -65,6 +65,8 @@ def ease_rules(data: Any, fps: float | None) -> Iterator[Wrong]:
         yield from _wrong(("ease",), mapping(data)["ease"], fps)
     frames = [mapping(frame) for frame in sequence(data, "keyframes")]
     ends = {index for axis in Axis for named in [_naming(frames, axis)] if named for index in (named[0], named[-1])}
+    based = [index for index, frame in enumerate(frames) if frame.get("base") is not None]
+    ends |= {*based[:1], *based[-1:]}
     for index, frame in enumerate(frames):
         if "ease" in frame:
             yield from _wrong(("keyframes", index, "ease"), frame["ease"], fps)
@@ -73,7 +75,12 @@ def ease_rules(data: Any, fps: float | None) -> Iterator[Wrong]:
 
 
 def _naming(frames: Sequence[Mapping[str, Any]], axis: Axis) -> Sequence[int]:
-    return [index for index, frame in enumerate(frames) if frame.get(axis.value) is not None]
+    aimed = axis in (Axis.PAN, Axis.TILT)
+    return [
+        index
+        for index, frame in enumerate(frames)
+        if frame.get(axis.value) is not None or (aimed and frame.get("aim") is not None)
+    ]
 
 
 def _wrong(where: tuple[str | int, ...], value: Any, fps: float | None) -> Iterator[Wrong]:

@@ -10,6 +10,7 @@ from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
 from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.keys import Key
+from teleop.sequence.aim import Scene
 from teleop.sequence.cues import CENTERED
 from teleop.sequence.easing import ramps
 from teleop.sequence.model import SequenceModel
@@ -23,11 +24,16 @@ class KeysError(Exception):
 
 def axes_of(model: SequenceModel) -> Sequence[Axis]:
     """The axes that some keyframe names."""
-    return [axis for axis in Axis if any(getattr(frame, axis.value) is not None for frame in model.keyframes)]
+    aimed = [Axis.PAN, Axis.TILT] if any(frame.aim is not None for frame in model.keyframes) else []
+    return [
+        axis
+        for axis in Axis
+        if axis in aimed or any(getattr(frame, axis.value) is not None for frame in model.keyframes)
+    ]
 
 
 def keys_of(model: SequenceModel) -> Keys:
-    """Each axis's keys, at the times that stand in the file."""
+    """Each axis's keys, at the times that stand in the file. Raises UnaimedError."""
     keys: dict[Axis, list[Key]] = {axis: [] for axis in axes_of(model)}
     everywhere = ramps(model.ease, model.fps)
     for index, frame in enumerate(model.keyframes):
@@ -38,6 +44,8 @@ def keys_of(model: SequenceModel) -> Keys:
             if position is not None:
                 stop = frame.pass_ == "stop"
                 of_axis.append(Key(at, position, stop, hold, numbered("keyframes", index), *eases))
+    for axis, of_aim in Scene(model).keys().items():
+        keys[axis] = sorted([*keys[axis], *of_aim], key=lambda key: key.at)
     return keys
 
 

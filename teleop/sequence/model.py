@@ -12,6 +12,7 @@ from teleop.config.documents.json_types import Ease, Percentage, Time
 from teleop.config.frame_rates import exact_rate
 from teleop.core.axes import Axis
 from teleop.planner.keyframes.repeat import Repeat
+from teleop.sequence.aim_section import Aim, Mount, MountSection, OffsetSection, Place
 from teleop.sequence.cues import CueSection
 from teleop.sequence.panorama import PanoramaSection
 from teleop.sequence.timelapse_section import TimelapseSection
@@ -30,7 +31,7 @@ def one_of(*names: str) -> ConfigDict:
 class Keyframe(PositionsSection):
     """Where some axes are at a time; an axis that is not named has no key here."""
 
-    model_config = one_of(*(axis.value for axis in Axis))
+    model_config = one_of(*(axis.value for axis in Axis), "aim", "base")
 
     at: Time
     """Time from the start: `4`, `4s`, `1m30s`; with `fps` also `96f`, `00:00:04:00`. In a timelapse: frames."""
@@ -46,6 +47,12 @@ class Keyframe(PositionsSection):
     """Left stick of the drone up, -1 to 1; + is up. 0 in its first and last key."""
     stick_yaw: Deflection | None = None
     """Left stick of the drone sideways, -1 to 1; + is clockwise. 0 in its first and last key."""
+    aim: Aim = None
+    """Look at a target by its name, or at a point `[x, y, z]` in m; gives pan and tilt."""
+    offset: OffsetSection | None = None
+    """How far beside its target it looks."""
+    base: Place = None
+    """Where the slider or dolly below the rig is: `[x, y, z]` in m. It moves evenly from key to key."""
     pass_: Literal["through", "stop"] = Field("through", alias="pass")
     """Pass through this key, or stop at it."""
     ease: Ease = None
@@ -93,6 +100,10 @@ class SequenceModel(Section):
     """Go back to the first key at the end."""
     repeat: RepeatSection | None = None
     """Play the keyframes several times."""
+    targets: dict[str, Place] = Field(default_factory=dict)
+    """Points to aim at by name: `door: [4.0, 1.2, 1.6]`, m from the mount: x right, y forward, z up."""
+    mount: Mount = MountSection()
+    """Height of the camera in m above the point that targets are measured from."""
     timelapse: TimelapseSection | None = None
     """Shoot frame by frame; the times of keyframes are then output frames."""
     keyframes: Annotated[list[Keyframe], Field(min_length=1)] = Field(default_factory=list)

@@ -65,6 +65,12 @@ class Playback:
         """It starts at `now`; until then everything rests where `opening` is."""
         self._pace, self._read = replace(self._opened, start=now), now
 
+    def replace(self, move: Move) -> None:
+        """Play another move from the next beginning on, which rests where this one does then."""
+        self._move = move
+        self.at_most = min(at_most(move, self._limits), FASTEST)
+        self._opened = self._opening(self._resumed)
+
     def rewind(self) -> None:
         """Get ready to begin again, at the speed that was chosen last; everything has to rest meanwhile."""
         self._search = self._found = None
@@ -79,7 +85,7 @@ class Playback:
     def _opening(self, rate: float) -> TimeScaling:
         """From the move's beginning, or in mid move with a run-up, which takes milliseconds to find."""
         if not self._start_at:
-            return steady(0.0, rate, 0.0)
+            return steady(self._move.opening, rate, 0.0)
         return run_up(self._move, self._limits, self._start_at, rate)
 
     def at(self, now: float) -> tuple[float, dict[Axis, State]]:

@@ -29,7 +29,7 @@ def progress_text(sequence: SequenceSource, now: float) -> str:
         return f"{elapsed:6.1f} / {sequence.duration:.1f} s  waiting for you"
     if _runs_up(sequence, now):
         return f"run-up to {sequence.cycle.start_at:.1f} s"
-    time = f"{min(elapsed, sequence.duration):6.1f} / {sequence.duration:.1f} s"
+    time = f"{min(max(elapsed, 0.0), sequence.duration):6.1f} / {sequence.duration:.1f} s"
     if not sequence.cycle.repeats:
         return time
     of = "" if sequence.cycle.endless else f" of {sequence.cycle.passes:.0f}"
@@ -74,7 +74,7 @@ def _phase_text(sequence: SequenceSource, now: float) -> str:
 
 def _runs_up(sequence: SequenceSource, now: float) -> bool:
     start_at = sequence.cycle.start_at
-    return sequence.playback.time(now) < start_at and sequence.playback.opening < start_at
+    return start_at > 0 and sequence.playback.time(now) < start_at and sequence.playback.opening < start_at
 
 
 def _next_key(sequence: SequenceSource, elapsed: float) -> NextKey | None:

@@ -18,6 +18,7 @@ from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.quantities import percentage, seconds
 from teleop.config.resources import find, is_bare
 from teleop.core.axes import STICKS, Axis, Limits
+from teleop.sequence.aim import UnaimedError
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import is_timelapse
@@ -58,6 +59,8 @@ class SequenceReader:
         try:
             model = document.check(SequenceModel, [*file_rules(document.data), *beyond_rig])
             timeline = Timeline.of(document, model)
+        except UnaimedError as error:
+            self.problems.append(document.problem(error.place, f": {error}"))
         except DocumentError as error:
             self.problems += error.problems
             self.more += error.more
@@ -118,6 +121,7 @@ class SequenceReader:
         inserted = inner.inserted_at(seconds(entry.at, timeline.model.fps), percentage(entry.speed), where)
         timeline.places |= inserted.places
         timeline.cues += inserted.cues
+        timeline.aims += inserted.aims
         timeline.remarks += inner.remarks
         for axis, of_axis in inserted.keys.items():
             place = Origin(timeline.document, ("include", index))

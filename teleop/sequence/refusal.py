@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from teleop.config.documents.document import ENTRIES, UnplayableError, mapping
 from teleop.config.quantities import frame_rate, seconds
@@ -17,7 +17,7 @@ IN_FULL = 20  # lines of a refusal: whoever has more of them slows the whole mov
 Found = Finding | RampsTooLong | Unsolved
 
 
-def refusal(error: Infeasible, places: Mapping[str, Origin]) -> UnplayableError:
+def refusal(error: Infeasible, places: Mapping[str, Origin], text: Callable[[Found], str] = str) -> UnplayableError:
     """What is to be raised for a file whose keys, by their `where`, are at these places."""
     lines: dict[object, str] = {}
     for shots in _panoramas(error.findings):
@@ -27,8 +27,8 @@ def refusal(error: Infeasible, places: Mapping[str, Origin]) -> UnplayableError:
             place = places[found.last]
             # a file that is included twice has each of its mistakes once
             cause = found.axis, id(place.document.data), place.location, places[found.first].location, _had(found)
-            lines.setdefault(cause, place.line(str(found)))
-    in_order = list(lines.values())
+            lines.setdefault(cause, place.line(text(found)))
+    in_order = list(dict.fromkeys(lines.values()))
     return UnplayableError(in_order[:IN_FULL], len(in_order[IN_FULL:]))
 
 

@@ -12,6 +12,7 @@ from teleop.config.documents.messages import ALIASES, missing_space
 from teleop.config.quantities import frame_rate, frames, percentage, seconds
 from teleop.core.axes import STICKS, Axis, Limits
 from teleop.core.timing import SAME_TIME
+from teleop.sequence.aim_section import aim_rules
 from teleop.sequence.cues import cue_rules
 from teleop.sequence.easing import ease_rules
 from teleop.sequence.panorama import panorama_limits, panorama_rules
@@ -39,6 +40,7 @@ def file_rules(data: Any) -> Iterator[Wrong]:
     when = frames if is_timelapse(data) else partial(seconds, fps=fps)
     yield from _keyframe_rules(data, when)
     yield from _stick_rules(data)
+    yield from aim_rules(data)
     if isinstance(data, dict) and not data.keys() & {"keyframes", "include", "panorama"}:
         yield ("keyframes",), "is missing"
     if is_timelapse(data):
@@ -66,7 +68,9 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
         if missing_space(frame):
             continue
         frame = mapping(frame)
-        if all(frame.get(axis) is None for axis in AXES) and not any(ALIASES.get(key) in AXES for key in frame):
+        if all(frame.get(key) is None for key in (*AXES, "aim", "base")) and not any(
+            ALIASES.get(key) in AXES for key in frame
+        ):
             yield ("keyframes", index), f"has no axis ({', '.join(AXES[:4])})"
         at, wrong = _time(frame, "at", when)
         hold, wrong_hold = _time(frame, "hold", when)
@@ -83,7 +87,13 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
         else:
             yield from _hold_rules(index, frame, at, free, when)
         before = (index, at)
-        free.update({axis: _Held(index, at + (hold or 0), frame[axis]) for axis in AXES if frame.get(axis) is not None})
+        free.update({axis: _Held(index, at + (hold or 0), frame.get(axis)) for axis in _named(frame)})
+
+
+def _named(frame: Mapping[str, Any]) -> list[str]:
+    """What a keyframe says something of: axes, and the base."""
+    aimed = ("pan", "tilt") if frame.get("aim") is not None else ()
+    return [axis for axis in (*AXES, "base") if axis in aimed or frame.get(axis) is not None]
 
 
 def _include_rules(entry: Mapping[str, Any], here: Location, when: When) -> Iterator[Wrong]:
@@ -115,7 +125,7 @@ def _hold_rules(
     """A key may begin where a hold ends only if it is at the same position."""
     for axis, (holder, end, position) in free.items():
         first = end - SAME_TIME if frame.get(axis) == position else end + SAME_TIME
-        if frame.get(axis) is not None and at < first:
+        if axis in _named(frame) and at < first:
             yield (
                 ("keyframes", index, "at"),
                 f"must be after {numbered('keyframes', holder)} has held {axis} (until {_time_text(end, when)})",
@@ -151,6 +161,8 @@ def rig_rules(
     for index, frame in enumerate(sequence(data, "keyframes")):
         for axis in AXES:
             position = number(mapping(frame).get(axis))
+            if axis in ("pan", "tilt") and axis not in by_name and mapping(frame).get("aim") is not None:
+                yield ("keyframes", index, "aim"), f": {rig} has no {axis}; it has {', '.join(by_name)}"
             if position is None or not math.isfinite(position):
                 continue
             if axis not in by_name:

@@ -27,6 +27,7 @@ from teleop.sequence.phases import BEFORE_THE_MOVE, TIMED, TRANSITIONS, PhaseEve
 from teleop.sequence.playback import Playback
 
 EASE_SHARE = 0.5  # of each axis's velocity, acceleration and jerk: on the way to the start nothing is in a hurry
+RHYTHM = 0.2  # s: corrected passes begin so far apart that what is asked at a rate is asked at the same places again
 
 
 class SequenceSource:
@@ -49,10 +50,13 @@ class SequenceSource:
         self.cycle = cycle or Cycle(compiled.preroll, back_to_one=compiled.back_to_one)
         self.duration = compiled.duration
         self.moves_drone = any(axis.is_stick for axis in compiled.move.tracks)
-        self._move = compiled.move
-        self._limits = {axis: limits[axis] for axis in self._move.tracks}
+        corrector = self.cycle.corrector
+        known = None if corrector is None else corrector.next_move()
+        self.move = compiled.move if known is None else known  # what this pass plays
+        self._last_cue = max((cue.at for cue in compiled.cues), default=0.0)
+        self._limits = {axis: limits[axis] for axis in self.move.tracks}
         self.key_times = sorted({key.at for of_axis in compiled.keys.values() for key in of_axis})
-        self.playback = Playback(self._move, limits, speed, self.key_times, executor, self.cycle.start_at)
+        self.playback = Playback(self.move, limits, speed, self.key_times, executor, self.cycle.start_at)
         self._settings, self.all_cues = cues_from(compiled.cues, self.cycle.start_at)
         self.cues: list[Cue] = []  # still to come in this pass
         self._ease, self._ease_begin = Move({}), math.inf
@@ -64,6 +68,7 @@ class SequenceSource:
         self._suspended = False
         self.waiting = False  # for the operator, in the middle of the move
         self._began = math.inf  # when this pass did
+        self._origin = 0.0  # when the run did
         self.phase = SequencePhase.EASING
         self.begin = math.inf
         self.number = 1
@@ -78,6 +83,7 @@ class SequenceSource:
         }
 
     def start(self, now: float, motion: Motion) -> None:
+        self._origin = now
         self.phase = SequencePhase.EASING
         self._ease_to_time(self.playback.opening, now, motion)
         self._foresee_begin()
@@ -96,13 +102,15 @@ class SequenceSource:
     def next_change(self, now: float) -> float:
         if self.phase is SequencePhase.OVER:
             return math.inf
+        if self.cycle.corrector is not None:  # a gimbal that drifts must be held, and measured, at rest too
+            return now
         if self.phase is SequencePhase.PREROLL:
             quiet = self.until - KEEP_ALIVE
             return quiet if self.cycle.compared and now < quiet - SAME_TIME else self.until
         if self.phase is not SequencePhase.PLAYING or self.playback.changing(now):
             return now
-        coming = min(self._move.next_motion(self.playback.time(now)), self.cues[0].at if self.cues else math.inf)
-        return self.playback.when(min(coming, self.duration), now)
+        coming = min(self.move.next_motion(self.playback.time(now)), self.cues[0].at if self.cues else math.inf)
+        return self.playback.when(min(coming, self._end), now)
 
     def suspend(self, now: float) -> None:
         """The axes are stopped from `now` on, off the path; the move's own time stands still."""
@@ -120,7 +128,9 @@ class SequenceSource:
         if self.phase is SequencePhase.REJOINING:
             self._ease_to(self.playback.at(now)[1], now, motion)
         else:
-            self._ease_to_time(0.0 if self.phase is SequencePhase.RETURNING else self.playback.opening, now, motion)
+            self._ease_to_time(
+                self.move.opening if self.phase is SequencePhase.RETURNING else self.playback.opening, now, motion
+            )
         if self.phase is SequencePhase.EASING and self.number == 1:
             self._foresee_begin()
 
@@ -133,6 +143,11 @@ class SequenceSource:
     def go(self) -> None:
         """The operator starts a move that waits for its trigger, or continues one that waits in its middle."""
         self._go_pressed = self.waiting or self.phase is SequencePhase.ARMED
+
+    @property
+    def _end(self) -> float:
+        """When a pass is over, in the move's own time: a corrected one comes to rest later."""
+        return max(self.move.duration, self._last_cue)
 
     def _handle(self, event: PhaseEvent) -> None:
         self.phase = TRANSITIONS[self.phase, event]
@@ -152,6 +167,9 @@ class SequenceSource:
             self._prepared = self.number
 
     def _arm_or_start(self, now: float) -> None:
+        if not self._is_corrected():
+            self.until = now + KEEP_ALIVE
+            return
         trigger = self.cycle.trigger
         if trigger is None or (self.number > 1 and (self.cycle.endless or not trigger.again)):
             self._start_pass(self.until)
@@ -166,6 +184,14 @@ class SequenceSource:
         self._go_pressed = False
         self._handle(PhaseEvent.ARM)
 
+    def _is_corrected(self) -> bool:
+        """Whether what this pass plays is known."""
+        move = self.move if self.cycle.corrector is None else self.cycle.corrector.next_move()
+        if move is not None and move is not self.move:
+            self.move = move
+            self.playback.replace(move)
+        return move is not None
+
     def _start_if_triggered(self, now: float) -> None:
         trigger = self.cycle.trigger
         if self._go_pressed or (trigger and not self.missed and trigger.fired(now)):
@@ -178,7 +204,7 @@ class SequenceSource:
         self.playback.begin(now)
         self._began = now
         if self.number == 1:
-            self.begin = now
+            self.begin = now + self._lead
 
     def _rejoin(self, now: float) -> None:
         self._handle(PhaseEvent.ARRIVED)
@@ -195,13 +221,15 @@ class SequenceSource:
                 elapsed, motion = self.playback.hold(cue.at, now)
             else:
                 self._events.append(cue.action)
-        ended = elapsed > self.duration - SAME_TIME and not self.playback.paused
+        ended = elapsed > self._end - SAME_TIME and not self.playback.paused
         if self.phase is SequencePhase.PLAYING and ended:
             self._end_pass(now, motion)
         return motion
 
     def _end_pass(self, now: float, motion: Motion) -> None:
         """A pass is over: another one, back to one, or the end."""
+        if self.cycle.corrector is not None:
+            self.cycle.corrector.ended(self.number)
         if self.number < self.cycle.passes:
             self.number += 1
             self.playback.rewind()
@@ -209,13 +237,13 @@ class SequenceSource:
             self._ease_to_time(self.playback.opening, now, motion)
         elif self.cycle.back_to_one:
             self._handle(PhaseEvent.BACK_TO_ONE)
-            self._ease_to_time(0.0, now, motion)
+            self._ease_to_time(self.move.opening, now, motion)
         else:
             self._handle(PhaseEvent.END)
 
     def _ease_to_time(self, time: float, now: float, motion: Motion) -> None:
         """To where the move is at its own `time`, from rest where the axes are."""
-        self._ease_to({axis: State(row[0]) for axis, row in self._move.at(time).items()}, now, motion)
+        self._ease_to({axis: State(row[0]) for axis, row in self.move.at(time).items()}, now, motion)
 
     def _ease_to(self, target: Motion, now: float, motion: Motion) -> None:
         positions = {axis: state.position for axis, state in target.items()}
@@ -224,13 +252,21 @@ class SequenceSource:
 
     def _foresee_begin(self) -> None:
         if self.cycle.trigger is None:
-            self.begin = self._after_preroll(self.until)
+            self.begin = self._after_preroll(self.until) + self._lead
+
+    @property
+    def _lead(self) -> float:
+        """How long after the start of a pass the move's own zero is, in s."""
+        return 0.0 if self.cycle.start_at else -self.move.opening
 
     def _after_preroll(self, arrival: float) -> float:
         """When a pass may begin whose axes arrive then where it begins."""
         if self.number > 1 and self.cycle.endless:
             return arrival
-        return arrival + max(whole_ticks(self.cycle.preroll), KEEP_ALIVE if self.cycle.compared else 0.0)
+        start = arrival + max(whole_ticks(self.cycle.preroll), KEEP_ALIVE if self.cycle.compared else 0.0)
+        if self.cycle.corrector is None:
+            return start
+        return self._origin + RHYTHM * math.ceil((start - self._origin) / RHYTHM - SAME_TIME)
 
 
 def whole_ticks(seconds: float) -> float:

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from teleop.config.documents.document import Document, Location, numbered
+from teleop.config.documents.document import Document, Location, numbered, path_text
 from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Action
@@ -19,6 +19,8 @@ from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.keyframes.keys import Key
 from teleop.planner.keyframes.repeat import repeated
+from teleop.planner.trajectory import Move
+from teleop.sequence.aim import MOST_MISSED, ON_THE_WAY, Scene, Tracked
 from teleop.sequence.cues import Cue, moved_rules
 from teleop.sequence.keys import Keys, KeysError, keys_of, recentered
 from teleop.sequence.model import SequenceModel
@@ -46,6 +48,33 @@ class Timed(NamedTuple):
     place: Origin
 
 
+class Aimed(NamedTuple):
+    """A target that is kept in sight: where that is written; the file begins at `at` (s), `rate` times as fast."""
+
+    tracked: Tracked
+    place: Origin
+    at: float = 0.0
+    rate: float = 1.0
+
+    def problem(self, move: Move, factor: float) -> str:
+        """A line where the move, `factor` times longer, loses sight of the target, else ""."""
+        missed, when = self.tracked.missed(move, lambda time: factor * (self.at + time / self.rate))
+        if missed <= MOST_MISSED:
+            return ""
+        return self.place.line(
+            f"{path_text(self.place.location)} misses its target by {missed:.2f} deg at {when:.2f} s:"
+            " the base is too fast there; use more time"
+        )
+
+
+def aims_of(document: Document, model: SequenceModel) -> list[Aimed]:
+    """The targets that a file keeps in sight while its base moves. Raises UnaimedError."""
+    return [
+        Aimed(tracked, Origin(document, ("keyframes", tracked.look.keyframe, "aim")))
+        for tracked in Scene(model).tracked()
+    ]
+
+
 class Block(NamedTuple):
     """Keys of one axis that stand together; `name` is what errors call them."""
 
@@ -60,25 +89,33 @@ class Block(NamedTuple):
 
 @dataclass
 class Timeline:
-    """A file's keys and cues; `places` are the keys' by their `where`, `remarks` lines for the user."""
+    """A file's keys and cues; `own` are the keys of its keyframes alone, `keys` all that are to be planned.
+
+    `places` are the keys' by their `where`, `remarks` lines for the user.
+    """
 
     document: Document
     model: SequenceModel
+    own: Keys = field(default_factory=dict)
     keys: Keys = field(default_factory=dict)
     cues: list[Timed] = field(default_factory=list)
     places: dict[str, Origin] = field(default_factory=dict)
     remarks: list[str] = field(default_factory=list)
+    aims: list[Aimed] = field(default_factory=list)
 
     @classmethod
     def of(cls, document: Document, model: SequenceModel) -> Timeline:
-        """With the file's own cues and places, as yet without keys."""
-        timeline = cls(document, model)
+        """With the file's own cues and places, as yet without keys. Raises UnaimedError."""
+        timeline = cls(document, model, own=keys_of(model))
         for name, count in (("keyframes", len(model.keyframes)), ("cues", len(model.cues))):
             timeline.places |= {numbered(name, index): Origin(document, (name, index)) for index in range(count)}
         for index, cue in enumerate(model.cues):
             if cue.act is not None:
                 place = timeline.places[numbered("cues", index)]
                 timeline.cues.append(Timed(Cue(seconds(cue.at, model.fps), cue.act), cue.needs_rest, place))
+        timeline.aims = aims_of(document, model)
+        followed = {numbered("keyframes", each.tracked.look.keyframe) for each in timeline.aims}
+        timeline.places |= {ON_THE_WAY + key: timeline.places[key] for key in followed}
         if model.panorama:
             place = Origin(document, (WHERE,))
             for index, at in enumerate(shots(model.panorama, model.fps).shutters):
@@ -90,7 +127,7 @@ class Timeline:
         """The keyframes, each for itself, and a panorama as a whole."""
         blocks = {
             axis: [Block([key], key.where, self.places[key.where]) for key in of_axis]
-            for axis, of_axis in keys_of(self.model).items()
+            for axis, of_axis in self.own.items()
         }
         if self.model.panorama:
             for axis, of_axis in shots(self.model.panorama, self.model.fps).keys.items():
@@ -107,7 +144,8 @@ class Timeline:
         }
         cues = [timed._replace(cue=timed.cue._replace(at=at + timed.cue.at / rate)) for timed in self.cues]
         places = {f"{name}, {where}": place for where, place in self.places.items()}
-        return replace(self, keys=keys, cues=cues, places=places)
+        aims = [each._replace(at=at + each.at / rate, rate=each.rate * rate) for each in self.aims]
+        return replace(self, keys=keys, cues=cues, places=places, aims=aims)
 
 
 def _inserted(key: Key, at: float, rate: float, name: str, tension: float | None, stop: bool) -> Key:

@@ -86,6 +86,11 @@ def _numbers(document: Document, text: str, axes: Sequence[Axis]) -> list[Number
         for index, cue in enumerate(sequence(document.data, "cues"))
         if "recenter" in mapping(cue)
     ]
+    problems += [
+        document.problem(("keyframes", index, "aim"), "gives its pan and tilt: --trim-out cannot move it")
+        for index, frame in enumerate(sequence(document.data, "keyframes"))
+        if "aim" in mapping(frame) and {Axis.PAN, Axis.TILT} & {*axes}
+    ]
     found: dict[int, Number] = {}
     for index, frame in enumerate(sequence(document.data, "keyframes")):
         for axis in axes:

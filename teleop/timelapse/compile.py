@@ -25,13 +25,14 @@ from teleop.planner.keyframes.planner import Key, stretch
 from teleop.planner.polynomial import Array
 from teleop.planner.time_scaling import at_most
 from teleop.planner.trajectory import Move, Track
+from teleop.sequence.aim import UnaimedError
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.keys import axes_of, keys_of, line_at
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.refusal import refusal
 from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import TimelapseSection, is_timelapse
-from teleop.sequence.timeline import Origin
+from teleop.sequence.timeline import Origin, aims_of
 from teleop.timelapse.budget import Phases, budget
 from teleop.timelapse.schedule import Schedule
 
@@ -146,7 +147,11 @@ def _compiled(
 ) -> Timelapse:
     slots = _slots(section, model.fps)
     phases = Phases.of(section, model.fps)
-    keys = keys_of(model.model_copy(update={"fps": 1.0}))  # a frame for a second
+    in_frames = model.model_copy(update={"fps": 1.0})  # a frame for a second
+    try:
+        keys, aims = keys_of(in_frames), aims_of(document, in_frames)
+    except UnaimedError as error:
+        raise DocumentError([document.problem(error.place, f": {error}")]) from None
     step = slots.at(slots.frames - 1) / (slots.frames - 1) if slots.frames > 1 else slots.first
     timed = {axis: [key.later(step) for key in of_axis] for axis, of_axis in keys.items()}
     try:
@@ -154,6 +159,8 @@ def _compiled(
     except Infeasible as error:
         places = {numbered("keyframes", i): Origin(document, ("keyframes", i)) for i in range(len(model.keyframes))}
         raise refusal(error, places) from None
+    if problems := [text for aimed in aims if (text := aimed.problem(move, step * factor))]:
+        raise UnplayableError(problems)
     path = FramePath(move, step * factor, section.lead_in)
     continuous = section.mode == "continuous"
     problems, warnings = budget(phases, slots, path, limits, continuous)

@@ -52,6 +52,20 @@ def test_a_session_by_keys_from_jog_to_stop_to_quit(tmp_path: Path) -> None:
     assert stored == {4: {"pan": 1.0, "tilt": pytest.approx(10, abs=0.005), "roll": 0.0, "focus": 0.0}}
 
 
+def test_a_target_is_marked_by_looking_at_it(tmp_path: Path) -> None:
+    with terminal("live", "--targets", str(tmp_path / "move.yaml"), folder=tmp_path) as term:
+        term.wait_for("keys  ready")
+        term.type("\x1b[1;2C")
+        wait_until(lambda: "+10.00" in term.shown, "pan at 10")
+        term.type("tdoor,4")
+        term.wait_for("mark target: door,4_")
+        term.type("\r")
+        term.wait_for("target door: 0.695, 3.939, 0 m")
+        term.type("q")
+        assert term.end()[0] == 0, term.shown
+    assert yaml.safe_load((tmp_path / "move.yaml").read_text()) == {"targets": {"door": [0.695, 3.939, 0.0]}}
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT])
 def test_a_signal_in_mid_pan_gives_the_terminal_back(tmp_path: Path, number: signal.Signals) -> None:
     rig = tmp_path / "slow.yaml"  # on its way for many seconds, however seldom the screen is drawn

@@ -103,3 +103,9 @@ def test_a_file_that_is_there_is_kept_and_a_device_that_cannot_be_opened_leaves_
     assert run(["devices", "record", "-o", str(tmp_path / "new.jsonl")]) == 1
     assert "Logitech F310: cannot be opened (open failed): check its udev rule" in capsys.readouterr().err
     assert not (tmp_path / "new.jsonl").exists()
+
+
+def test_one_report_is_one(pad: Interrupting, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pad.read(0)
+    assert not run(["devices", "record", "-o", str(tmp_path / "pad.jsonl")])
+    assert "and 1 report with its time\n" in capsys.readouterr().err

@@ -56,6 +56,10 @@ def test_the_help_fits_a_small_terminal() -> None:
         ("s3x4", [Press(Command.STORE, 3), Press(Command.DELETE, 4)]),
         ("fl", [Press(Command.TELL, device_command=DeviceCommand("gimbal", "follow lock"))]),
         ("fs", [Press(Command.TELL, device_command=DeviceCommand("gimbal", "follow sport"))]),
+        ("tdoor,4.2\r", [Press(Command.TELL, device_command=DeviceCommand("target", "door,4.2"))]),
+        ("tdoor \r", [Press(Command.STOP)]),  # the space bar is STOP there too
+        ("tdoor\x1b[Aq", [JogStep(Axis.TILT, 1), Press(Command.QUIT)]),
+        ("t\r3", [Press(Command.RECALL, 3)]),
         ("sq", []),  # taken back, and not a quit
         ("sx3", [Press(Command.DELETE, 3)]),
         ("s\x1b[C3", [JogStep(Axis.PAN, 1), Press(Command.RECALL, 3)]),

@@ -9,10 +9,12 @@ import pytest
 from fakes import cruising
 from hands import LIMITS, Desk, FakeInput
 
-from teleop.core.axes import Axis, Limits, State
+from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.events import Action, DeviceCommand, DialInput
 from teleop.core.operator_input import Command
 from teleop.core.setpoints import PositionTarget, Stop, VelocityTarget
+from teleop.manual.target_marks import TargetMarks
+from teleop.planner.aim import Point
 
 PAN, TILT, FOCUS = Axis.PAN, Axis.TILT, Axis.FOCUS
 
@@ -670,3 +672,25 @@ def test_after_an_e_stop_a_recording_that_moves_does_not_move_on(tmp_path: Path)
     desk.press(Command.CLEAR)
     desk.run(1)
     assert desk.rests
+
+
+def test_a_mark_needs_a_file_and_a_rig_that_measures(desk: Desk) -> None:
+    desk.press(Command.TELL, device_command=DeviceCommand("target", "door,4"))
+    assert desk.messages[0] == "mark target: start teleop live with --targets FILE"
+
+
+def test_a_mark_takes_what_is_measured_and_only_at_rest(tmp_path: Path) -> None:
+    found: dict[str, Point] = {}
+    desk = Desk(tmp_path / "presets.yaml", marks=TargetMarks(0.0, found.__setitem__))
+    desk.tick()
+    desk.press(Command.TELL, device_command=DeviceCommand("target", "door,4"))
+    assert desk.messages[0] == "mark target: needs a rig that measures pan and tilt"
+    desk.readings = {PAN: Reading(90.0, desk.now), TILT: Reading(0.0, desk.now)}
+    desk.pad.hold(pan=1.0)
+    desk.run(0.5)
+    desk.press(Command.TELL, device_command=DeviceCommand("target", "door,4"))
+    assert desk.messages[0] == "mark target refused: an axis is moving"
+    desk.pad.hold(pan=0.0)
+    desk.run(1)
+    desk.press(Command.TELL, device_command=DeviceCommand("target", "door,4"))
+    assert found == {"door": (4, 0, 0)}

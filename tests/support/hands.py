@@ -7,7 +7,7 @@ from pathlib import Path
 
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
-from teleop.core.axes import Axis, Limits, Motion, State
+from teleop.core.axes import Axis, Limits, Motion, Reading, State
 from teleop.core.events import DeviceCommand, TickEvent
 from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Held, Press
@@ -15,6 +15,7 @@ from teleop.core.setpoints import Demand
 from teleop.core.timing import PERIOD
 from teleop.manual.operator import Operator
 from teleop.manual.status import OperatorStatus
+from teleop.manual.target_marks import TargetMarks
 from teleop.planner.live import Live
 
 LIMITS = {
@@ -70,12 +71,15 @@ class Desk:
         beneath: Source | None = None,
         limits: Mapping[Axis, Limits] = LIMITS,
         presets: Presets | None = None,
+        marks: TargetMarks | None = None,
         **sticks: object,
     ) -> None:
         self.inputs = inputs or (FakeInput(),)
         self.limits = limits
         self.presets = presets or Presets(file)
-        self.operator = Operator(limits, self.inputs, self.presets, SticksSection.model_validate(sticks), 3.0, beneath)
+        shaping = SticksSection.model_validate(sticks)
+        self.operator = Operator(limits, self.inputs, self.presets, shaping, 3.0, beneath, marks)
+        self.readings: Mapping[Axis, Reading] = {}
         self.planner = Live(limits, PERIOD)
         self.motion: Motion = {axis: State(max(0.0, of.minimum)) for axis, of in limits.items()}
         self.planner.reset(self.motion)
@@ -100,7 +104,7 @@ class Desk:
     def tick(self, ticks: int = 1) -> None:
         for _ in range(ticks):
             self.now += PERIOD
-            self.demand, actions = self.operator.read(self.now, Feedback(self.motion, {}))
+            self.demand, actions = self.operator.read(self.now, Feedback(self.motion, self.readings))
             self.actions += actions
             self.motion = self.planner.step(self.demand)
             self.history.append(self.motion)

@@ -62,7 +62,9 @@ def measure_signs(
     with ExitStack() as stack:
         rig = stack.enter_context(open_rig(profile.in_use(axes), clock))
         probe = SignProbe(rig.connections[section.link], axes, section.wiring, limits, full)
-        reporter = Angles(rig.connections[section.link], Wiring(section.axes), section.legacy_angles)
+        reporter = Angles(
+            rig.connections[section.link], Wiring(section.axes, mount=section.mount.yaw), section.legacy_angles
+        )
         guard, keys = guarded(stack, probe, profile, clock, terminal, virtual, warn)
         guard.notify = notify
         timing = LoopTiming()

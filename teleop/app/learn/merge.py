@@ -57,11 +57,11 @@ def merged(
 def entry_for(info: DeviceInfo, entries: Sequence[Any], used: set[int]) -> int | None:
     """The entry that stands for the device, by its most exact `device:`; none of those already `used`."""
     fitting = [
-        (-_section(entry).keys_given, index)
+        (_section(entry).exactness, -index)
         for index, entry in enumerate(entries)
         if index not in used and fits(_section(entry), info)
     ]
-    return min(fitting)[1] if fitting else None
+    return -max(fitting)[1] if fitting else None
 
 
 def _section(entry: Any) -> DeviceSection:

@@ -18,7 +18,7 @@ from teleop.cli.running import stopped
 from teleop.cli.screens.folded import complain, tell, warn
 from teleop.cli.screens.run_view import RunView
 from teleop.cli.signals import signals_to
-from teleop.config.sinks_section import Angle
+from teleop.config.wiring import Angle
 from teleop.core.axes import Axis, Limits
 from teleop.core.run_state import Result
 from teleop.core.run_status import Hint, RunStatus

@@ -13,7 +13,7 @@ from teleop.cli.play import Fast, the_clock
 from teleop.cli.running import stopped
 from teleop.cli.screens.folded import complain, warn
 from teleop.cli.signals import signals_to
-from teleop.config.sinks_section import Angle
+from teleop.config.wiring import Angle
 from teleop.core.axes import Axis
 from teleop.core.run_state import Result
 

@@ -12,7 +12,7 @@ from teleop.cli.screens.run_rows import hint_rows, labelled, stop_row
 from teleop.cli.screens.run_rows import title_row as run_title
 from teleop.core.axes import Motion
 from teleop.core.run_status import Hint, stop_state
-from teleop.inputs.keymaps import COARSE, FINE, HELP, JOG, NO_EMERGENCY_STOP, SPELLING
+from teleop.inputs.keymaps import COARSE, FINE, HELP, JOG, MARKING, NO_EMERGENCY_STOP, SPELLING
 from teleop.manual.status import InputStatus, Message, OperatorStatus
 
 STOPPED = "STOPPED. Press c to clear, then center all sticks."
@@ -114,7 +114,7 @@ def key_rows(question: str, keys: bool, width: int = 80, rows: int = 2) -> list[
     if not keys:
         return [Text(" no keyboard: press Ctrl-C to end the run", "dim")]
     if question:
-        spelling = question.startswith(SPELLING)
+        spelling = question.startswith((SPELLING, MARKING))
         return [Text(f" {question}", "bold cyan"), Text("" if spelling else " any other key cancels", "dim")]
     return hint_rows(HINTS, width, rows)
 

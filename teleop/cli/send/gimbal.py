@@ -21,6 +21,7 @@ from teleop.cli.send.help import print_help
 from teleop.cli.send.one_shot import opened, tell
 from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
+from teleop.config.sinks_section import GimbalSection
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError
 from teleop.core.interfaces import Clock, Link
@@ -113,6 +114,8 @@ def send(
     tell(message.name, record, refusal(record), readable(message.name, record), options.json)
     if isinstance(message, gimbal.Speed | gimbal.Joystick) and (left := unnamed(fields_of(words))):
         print(f"{message.name}: {' and '.join(left)} not named: sent as 0", file=sys.stderr)
+    if note := mount_note(profile, message):
+        print(note, file=sys.stderr)
     if isinstance(message, gimbal.Speed) and message.take_over:
         print(TAKEN_OVER, file=sys.stderr)
     return 0
@@ -136,6 +139,14 @@ def url_of(profile: Profile, device: str) -> str:
         if sink.type == device:
             return profile.links[sink.link]
     raise DocumentError([f"{profile.name} has no {device}: its sinks are {', '.join(s.type for s in profile.sinks)}"])
+
+
+def mount_note(profile: Profile, message: Message) -> str:
+    """What the yaw of a command or its reply means on a rig whose mount is turned; "" where that is no question."""
+    mounts = [section.mount.yaw for section in profile.sinks if isinstance(section, GimbalSection)]
+    if not any(mounts) or not isinstance(message, gimbal.Position | gimbal.Angles):
+        return ""
+    return f"{message.name}: yaw is the gimbal's own; the mount of {profile.name} has pan 0 at yaw {mounts[0]:g}"
 
 
 def default_retries(message: Message) -> int:

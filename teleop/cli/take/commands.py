@@ -14,6 +14,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "export": ("teleop.cli.take.files:take_export", "Write a take as a table."),
     "keyframes": ("teleop.cli.take.keyframes:take_keyframes", "Fit sparse, editable keyframes to a take."),
     "report": ("teleop.cli.take.report:take_report", "Report how well a run went, axis by axis."),
+    "certificate": ("teleop.cli.take.certificate:take_certificate", "Certify how exactly passes were repeated."),
     "recover": ("teleop.cli.take.files:take_recover", "Save the whole part of a take that was cut off."),
 }
 

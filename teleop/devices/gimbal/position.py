@@ -13,7 +13,7 @@ from collections.abc import Container, Mapping
 from functools import cache
 from importlib.metadata import version
 
-from teleop.config.wiring import Wiring
+from teleop.config.wiring import Wiring, half_turn
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
@@ -39,14 +39,16 @@ class Angles:
     asked to push, and read from its pushes while it does not answer; they come seldom, and with no time of their own.
 
     `legacy_order` is how replies of old firmware order the angles: two sources say yaw, roll, pitch, one says yaw,
-    pitch, roll.
+    pitch, roll; with all-yaw-pitch-roll every reply does. `bare` is whether the last reply was one of old firmware.
 
     Angles come in -180..180; a reading continues the one before it, so that an axis may turn on and on.
     """
 
     def __init__(self, connection: Connection, wiring: Wiring, legacy_order: str = "yaw-roll-pitch") -> None:
         self._connection, self._wiring = connection, wiring
+        self.bare = False
         self._legacy_swapped = legacy_order == "yaw-pitch-roll"
+        self._all_swapped = legacy_order == "all-yaw-pitch-roll"
         self._pace, self._greeting = RateDivider(POLL_RATE), RateDivider(GREETING_RATE)
         self._readings: dict[Axis, Reading] = {}
         self._push_request = RateDivider(GREETING_RATE)
@@ -73,7 +75,9 @@ class Angles:
         if isinstance(reply, gimbal.LegacyAnglesReply) or reply.kind == AngleKind.ATTITUDE:
             self._answered_at = answer.sent
             second, third = reply.roll, reply.pitch
-            roll, pitch = (third, second) if answer.bare and self._legacy_swapped else (second, third)
+            self.bare = answer.bare
+            swapped = self._all_swapped or (answer.bare and self._legacy_swapped)
+            roll, pitch = (third, second) if swapped else (second, third)
             self._read(reply.yaw, roll, pitch, answer.sent)
 
     def _pushed(self, push: Message, now: float) -> None:
@@ -187,7 +191,7 @@ class PositionSink:
 
 def position_command(angles: Mapping[Axis, float], wiring: Wiring, seconds: float) -> gimbal.Position:
     """Go to these angles (deg, the operator's signs) over `seconds`; an axis that is not among them is ignored."""
-    yaw, roll, pitch = wiring.to_gimbal({axis: _wrapped(angle) for axis, angle in angles.items()})
+    yaw, roll, pitch = wiring.to_gimbal({axis: half_turn(angle) for axis, angle in angles.items()})
     no_yaw, no_roll, no_pitch = wiring.undriven(angles)
     return gimbal.Position(
         yaw,
@@ -206,8 +210,3 @@ def _own_version() -> str:
     """This program's version as AA.BB.CC.DD."""
     numbers = [int(part) for part in version("rs-teleop").split(".")[:4] if part.isdecimal()]
     return ".".join(f"{number:02}" for number in (numbers + [0] * 4)[:4])
-
-
-def _wrapped(angle: float) -> float:
-    """A continuous axis's angle within -180..180, where the protocol has it; +-180 stay apart."""
-    return angle if -180 <= angle <= 180 else angle - 360 * round(angle / 360)

@@ -9,27 +9,39 @@ import importlib.util
 import os
 import sys
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 
 from teleop.core.errors import DeviceError
 from teleop.inputs.evdev.device import EventDevice, EventSource
 from teleop.inputs.evdev.nodes import DEV, SYS, EventNode, event_nodes
-from teleop.inputs.hid.backend import DeviceInfo, Hidapi, HidBackend, HidDevice
+from teleop.inputs.hid.backend import DeviceInfo, Hidapi, HidBackend, HidDevice, MissingPackageError
 
 INSTALL = "pip install 'rs-teleop[evdev]'"
 
 
+@cache
 def has_package() -> bool:
     """Whether the evdev package is installed, an extra: it has wheels for few machines."""
     return importlib.util.find_spec("evdev") is not None
+
+
+def missing_package() -> str:
+    """The command that makes pads readable whose reports are not described; "" where nothing is missing."""
+    return INSTALL if sys.platform == "linux" and not has_package() else ""
+
+
+def is_read_here(node: EventNode, package: bool) -> bool:
+    """Whether the event device is read instead of hidraw; without the `package` only where hidraw has nothing."""
+    return node.is_preferred and (package or not node.has_open_hidraw)
 
 
 def open_events(path: Path) -> EventSource:
     """The device by the evdev package; raises OSError when it may not be opened, is gone, or evdev is not installed."""
     try:
         from evdev import InputDevice
-    except ImportError as error:
-        raise OSError(f"{error}: {INSTALL}") from None
+    except ImportError:
+        raise MissingPackageError(f"needs the package evdev: {INSTALL}") from None
     return InputDevice(path)
 
 
@@ -38,6 +50,7 @@ class EventBackend:
 
     def __init__(self, sys: Path = SYS, dev: Path = DEV, open_: Callable[[Path], EventSource] = open_events) -> None:
         self._sys, self._dev, self._open = sys, dev, open_
+        self.has_package = open_ is not open_events or has_package()
 
     def nodes(self) -> Sequence[EventNode]:
         return list(event_nodes(self._sys, self._dev))
@@ -85,7 +98,8 @@ class AllDevices:
     def _is_by_events(self, node: EventNode) -> bool:
         if os.fsencode(node.path) in self._open:
             return True
-        return node.is_preferred and not self._open & {os.fsencode(path) for path in node.hidraw}
+        here = is_read_here(node, self._events.has_package)
+        return here and not self._open & {os.fsencode(path) for path in node.hidraw}
 
 
 class _Counted:

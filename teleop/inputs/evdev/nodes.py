@@ -17,12 +17,16 @@ from teleop.inputs.hid.backend import DeviceInfo, usb_port
 
 SYS, DEV = Path("/sys"), Path("/dev")
 VIRTUAL = "uinput"  # the driver of a device that a program made
+XPAD = "xpad"
 _WORD = 8 * struct.calcsize("l")  # bits of a word of a mask in sysfs
 _BLUETOOTH = 0x05
 _ACCELEROMETER = 1 << 0x06  # of an event device's properties: a pad's motion sensors are no sticks
 _GAMEPAD = range(0x130, 0x140)  # BTN_GAMEPAD and what follows
 _JOYSTICK = (range(0x120, 0x130), _GAMEPAD, range(0x220, 0x228), range(0x2C0, 0x2E8))
 _AXES = (1 << 0x0B) - 1  # ABS_X to ABS_BRAKE
+_XPAD_AXES = frozenset(range(6))  # ABS_X to ABS_RZ
+_XPAD_BUTTONS = frozenset({0x130, 0x131, 0x133, 0x134, 0x136, 0x137})  # BTN_SOUTH, EAST, NORTH, WEST, TL, TR
+_NOT_XPAD = frozenset({0x132, 0x135, 0x138, 0x139})  # BTN_C, Z, TL2, TR2: other drivers' pads, and those of HID
 _HID = re.compile(r"[0-9A-F]{4}:[0-9A-F]{4}:[0-9A-F]{4}\.[0-9A-F]{4}")
 _RENAMING = frozenset({"playstation", "sony", "nintendo", "hid-steam", "wiimote", "xpadneo"})
 """HID drivers that give the controls names of their own, instead of those of the descriptor."""
@@ -42,6 +46,8 @@ class EventNode(NamedTuple):
     is_gamepad: bool
     hidraw: tuple[Path, ...]
     port: str
+    is_like_xpad: bool
+    """Whether it has the controls of an Xbox pad under the codes that xpad gives them."""
 
     @property
     def is_readable(self) -> bool:
@@ -53,12 +59,23 @@ class EventNode(NamedTuple):
         return self.is_hid and self.driver not in _RENAMING
 
     @property
+    def has_open_hidraw(self) -> bool:
+        return any(os.access(node, os.R_OK | os.W_OK) for node in self.hidraw)
+
+    @property
     def is_preferred(self) -> bool:
         """Whether it is read here: hidraw has it not, is shut, or sends what the descriptor does not describe."""
         if not self.hidraw or not self.is_readable:
             return not self.hidraw
         switched = self.driver == "nintendo" or (self.driver in ("playstation", "sony") and self.bus == _BLUETOOTH)
-        return switched or not any(os.access(node, os.R_OK | os.W_OK) for node in self.hidraw)
+        return switched or not self.has_open_hidraw
+
+    @property
+    def namer(self) -> str:
+        """The driver that named its controls, "" for its HID descriptor; a program may make a pad as xpad does."""
+        if self.keeps_names:
+            return ""
+        return XPAD if self.driver == VIRTUAL and self.is_like_xpad else self.driver
 
     @property
     def info(self) -> DeviceInfo:
@@ -72,7 +89,7 @@ class EventNode(NamedTuple):
             usage=0x05 if self.is_gamepad else 0x04,
             interface=-1,
             port=self.port,
-            driver="" if self.keeps_names else self.driver,
+            driver=self.namer,
         )
 
 
@@ -104,6 +121,9 @@ def _node(entry: Path, dev: Path) -> EventNode | None:
         is_gamepad=any(code in _GAMEPAD for code in buttons),
         hidraw=tuple(dev / node.name for node in sorted(parent.glob("hidraw/hidraw*"))) if parent else (),
         port=usb_port(os.fsencode(parent)) if parent else "",
+        is_like_xpad=all(axes >> code & 1 for code in _XPAD_AXES)
+        and set(buttons) >= _XPAD_BUTTONS
+        and not _NOT_XPAD & set(buttons),
     )
 
 

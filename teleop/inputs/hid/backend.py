@@ -42,6 +42,10 @@ class DeviceInfo(NamedTuple):
     """Kernel driver that named its controls (xpad); "": its own descriptor did."""
 
 
+class MissingPackageError(OSError):
+    """A device that is read by a package that is not installed; its text has the cure."""
+
+
 class HidDevice(Protocol):
     """An open device. Every call raises OSError once it is unplugged."""
 
@@ -135,21 +139,25 @@ def usb_port(path: bytes, sysfs: Path = Path("/sys/class/hidraw")) -> str:
     return ports[-1] if ports else ""
 
 
-Unit = tuple[int, int, str]
+Unit = tuple[int, int, int, str]
 
 
 def unit(info: DeviceInfo) -> Unit:
-    """What a device has in common with itself before and after an unplugging: its ids and its serial number."""
-    return info.vendor_id, info.product_id, info.serial
+    """What tells a device from all others of its model, before and after an unplugging too.
+
+    Its serial number, without one its port, without that its path.
+    """
+    where = f"serial {info.serial}" if info.serial else f"port {info.port}" if info.port else f"path {info.path!r}"
+    return info.vendor_id, info.product_id, info.interface, where
 
 
-def same_unit(one: DeviceInfo, two: DeviceInfo) -> bool:
-    """Whether these are surely one device: by serial number, without one by port, without that by path."""
-    if unit(one) != unit(two) or one.interface != two.interface:
-        return False
-    if one.serial:
-        return True
-    return one.port == two.port if one.port and two.port else one.path == two.path
+def same_model(one: DeviceInfo, two: DeviceInfo) -> bool:
+    return (one.vendor_id, one.product_id) == (two.vendor_id, two.product_id)
+
+
+def same_device(one: DeviceInfo, two: DeviceInfo) -> bool:
+    """Whether these are surely one device, or two interfaces of one."""
+    return unit(one)[3] == unit(two)[3] and same_model(one, two)
 
 
 def described(info: DeviceInfo) -> str:

@@ -37,10 +37,12 @@ class ControlValues:
     click: dict[Axis, float] = field(default_factory=dict)  # what the longest of the steps is worth
     positions: dict[Axis, float] = field(default_factory=dict)
     dial: float = 0.0
+    deflected: bool = False
     presses: list[Press] = field(default_factory=list)
 
     def deflect(self, section: ControlSection, deflection: float) -> None:
         deflection *= -section.speed if section.invert else section.speed
+        self.deflected = self.deflected or deflection != 0
         if section.axis is None:
             self.dial = _limited(self.dial + deflection)
         else:
@@ -55,6 +57,7 @@ class ControlValues:
             self.click[axis] = max(self.click.get(axis, 0.0), other.click.get(axis, 0.0))
         self.positions.update(other.positions)
         self.dial = _limited(self.dial + other.dial)
+        self.deflected = self.deflected or other.deflected
         self.presses.extend(other.presses)
 
 
@@ -86,8 +89,11 @@ class Stick:
         self._dead_zone = dead_zone if section.dead_zone is None else section.dead_zone
         self._expo = expo if section.expo is None else section.expo
         self.center: Center | None = None
-        self.is_trigger = False  # by its guessed mapping, and where it first was
+        self.is_trigger = False  # by its guessed mapping, and where it first was (see Pair)
+        self.at_center = False
         self.is_inside = False  # deflected, and not to the end of its range
+        self.is_deflected = False
+        self._seen = self._is_late = self._rested = False
 
     @property
     def finding(self) -> bool:
@@ -96,6 +102,18 @@ class Stick:
     @property
     def uncentered(self) -> bool:
         return self.center is not None and not self.center.centered
+
+    @property
+    def is_unrested(self) -> bool:
+        """Whether it is deflected, came later than the device's first report, and was never seen at rest.
+
+        It may have been held all along; what is in the first report is locked by the input's interlock.
+        """
+        return self.is_deflected and self._is_late and not self._rested
+
+    def expect(self) -> None:
+        """The device has reported: if this one has not, it is late."""
+        self._is_late = self._is_late or not self._seen
 
     @property
     def is_locked(self) -> bool:
@@ -109,14 +127,15 @@ class Stick:
         return self.center is not None and not self.center.centered and not self.center.learned
 
     def read(self, sample: Sample, changes: Sequence[Change], now: float, fine: bool, values: ControlValues) -> None:  # noqa: ARG002
-        section = self._section
-        self.is_inside = False
+        section, self._seen = self._section, True
+        self.is_inside = self.is_deflected = self.at_center = False
         low, high = section.range or (sample.minimum, sample.maximum)
         if sample.null or low == high:
             return
         if (section.rest or ("low" if (low, high) == (0, 1) else "middle")) == "middle":
             self.center = self.center or Center(low, high, self._given(low, high))
             self.center.see(sample.value, now)
+            self.at_center = self.center.has(sample.value)
             if self.is_locked or self.center.value is None:
                 return
             deflection = deflect(sample.value, low, self.center.value, high)
@@ -126,7 +145,9 @@ class Stick:
             deflection = share(sample.value, low, high)
         factor = section.fine if fine else section.coarse
         shaped = shape(deflection, self._dead_zone, self._expo)
-        self.is_inside = bool(shaped) and abs(deflection) < 1
+        self.is_deflected = bool(shaped)
+        self._rested = self._rested or not shaped
+        self.is_inside = self.is_deflected and abs(deflection) < 1
         values.deflect(section, _limited((factor or 1.0) * shaped))
 
     def _given(self, low: float, high: float) -> float | None:

@@ -3,7 +3,7 @@
 Three troubles lock it: unplugged, silent for 0.2 s, and frozen, the very same report for 10 s while something is
 deflected and not at the end of its range. A device that reports only changes is silent by nature: at rest that is no
 trouble, and while it is deflected it is asked. One that repeats itself more rarely is silent only when a repetition is
-missing. Which kind a device is, its reports show (`HidState.steady`, `interval`) unless the profile says it.
+missing. Which kind a device is, its reports show (`Cadence`) unless the profile says it.
 
 Reading here never waits: a thread of the reader's does all that may.
 """
@@ -19,13 +19,15 @@ from teleop.config.inputs_section import DIRECTIONS, ActionSection, ControlSecti
 from teleop.config.operator_settings import DEAD_ZONE, EXPO
 from teleop.config.pad_file import load_pad
 from teleop.core.operator_input import Command, Held
-from teleop.inputs.evdev.backend import AllDevices
+from teleop.inputs.evdev.backend import AllDevices, missing_package
 from teleop.inputs.hid.backend import DeviceInfo, HidBackend, Unit, described, identified, unit
+from teleop.inputs.hid.cadence import SILENT
 from teleop.inputs.hid.claims import Claims
+from teleop.inputs.hid.descriptor.identity import MULTI_AXIS
 from teleop.inputs.hid.mapping import Mapped
-from teleop.inputs.hid.pads import MULTI_AXIS, Chosen, may_stop, shipped
+from teleop.inputs.hid.pads import Chosen, may_stop, shipped
 from teleop.inputs.hid.reader import HidReader, Plugged
-from teleop.inputs.hid.state import SILENT, HidState
+from teleop.inputs.hid.state import HidState
 
 RUN_COMMANDS = {Command.STOP, Command.CLEAR, Command.PAUSE, Command.GO, Command.QUIT}  # of a run that moves by itself
 
@@ -106,7 +108,7 @@ class HidInput:
                 self._keep_centers(self._plugged)
             last_words = self._plugged and self._look(self._plugged, now)
             self._plugged, self._judged, self._misnamed = plugged, set(), self._enable_trouble(plugged)
-            if plugged is not None and (self._reader.rivals or self._is_spare(plugged)):
+            if plugged is not None and (self._reader.is_chosen or self._is_spare(plugged)):
                 notes.append(f"{self._section.name or self._section.device}: using {identified(plugged.info)}")
             if plugged is not None and plugged.missing and not plugged.chosen.guessed:
                 notes.append(f"{self.name}: no control {', '.join(plugged.missing)}: its mapping is ignored")
@@ -134,8 +136,8 @@ class HidInput:
             return f"{self.name}: no control {', '.join(sorted(stops))}"
         if text := undescribed(plugged, now):
             return f"{self.name}: {text}"
-        if not plugged.on_change and now - state.last > state.patience:
-            return f"{self.name}: no report for {state.patience:g} s"
+        if not plugged.on_change and now - state.last > state.cadence.patience:
+            return f"{self.name}: no report for {state.cadence.patience:g} s"
         return ""
 
     @property
@@ -190,17 +192,22 @@ class HidInput:
         state = plugged.state
         if self._misnamed:
             return self._misnamed
-        deflected = bool(held.dial) or any(held.deflections.values())
+        deflected = held.deflected
         if text := undescribed(plugged, now):
             return text
         if not plugged.mapped.names & state.values.keys():
             return "no report yet"
         if plugged.mapped.finding:
             return "finding its center: release the sticks"
-        if now - state.last > state.patience and (deflected or not plugged.on_change):
-            return f"no report for {state.patience:g} s"
+        patience = state.cadence.patience
+        if now - state.last > patience and (deflected or not plugged.on_change):
+            return f"no report for {patience:g} s"
+        if deflected and state.is_overdue(plugged.mapped.deflected, now):
+            return "its reports of a stick that is deflected have ended"
+        if plugged.mapped.is_unrested:
+            return "center its sticks"
         unchanged = now - state.differed > plugged.chosen.stuck_timeout
-        if unchanged and plugged.mapped.is_inside and not state.has_heartbeat:
+        if unchanged and plugged.mapped.is_inside and not state.cadence.has_heartbeat:
             return f"reports unchanged for {plugged.chosen.stuck_timeout:g} s; stuck_timeout in the profile changes it"
         return ""
 
@@ -228,6 +235,8 @@ def undescribed(plugged: Plugged, now: float) -> str:
     if plugged.on_change and state.values and state.is_described(number):
         return ""
     text = f"sends report {number:#04x}, which its descriptor does not describe"
+    if install := missing_package():
+        return f"{text}: connect it by cable, or read its event device: {install}"
     return f"{text}: connect it by cable, or turn it off and on with no other program using it"
 
 
@@ -263,7 +272,7 @@ def open_inputs(
     all, DocumentError when a pad cannot be used.
     """
     devices, sections = backend or AllDevices(), sections or [InputSection()]
-    claims = Claims(sections)
+    claims = Claims(sections, exchangeable=stop_only)
     shipped()  # read now: once the loop runs nothing shall keep it waiting
     with ExitStack() as stack:
         inputs = [

@@ -12,9 +12,8 @@ from teleop.config.inputs_section import DIRECTIONS, ControlSection
 from teleop.core.operator_input import Held
 from teleop.inputs.hid.controls import Button, ControlReader, ControlValues, Lever, Stick, Wheel
 from teleop.inputs.hid.pads import stops
+from teleop.inputs.hid.pairs import PAIRS, Pair
 from teleop.inputs.hid.state import Change, Sample
-
-PAIRS = (("Rx", "Ry"), ("Z", "Rz"))  # of a guess: a right stick or two triggers; X and Y are a stick on every pad
 
 
 class Mapped:
@@ -51,6 +50,8 @@ class Mapped:
         others = {
             name: _reader(section, name in relative) for name, section in flat.items() if name not in self._sticks
         }
+        pairs = [[self._sticks[name] for name in pair if name in self._sticks] for pair in PAIRS if guessed]
+        self._pairs = [Pair(sticks) for sticks in pairs if sticks]
         self.stops = frozenset(name for name, section in flat.items() if stops(section))
         self._readers: Mapping[str, ControlReader] = {**self._sticks, **others}
         buttons = {name for name in (enable, *self._fine.values()) if name}
@@ -76,18 +77,20 @@ class Mapped:
         return any(stick.is_inside for stick in self._sticks.values())
 
     @property
+    def deflected(self) -> Collection[str]:
+        """The sticks that are not at rest."""
+        return [name for name, stick in self._sticks.items() if stick.is_deflected]
+
+    @property
+    def is_unrested(self) -> bool:
+        """Whether a stick is deflected that was never seen at rest: its first report may come after the others'."""
+        return any(stick.is_unrested for stick in self._sticks.values())
+
+    @property
     def centers(self) -> Mapping[str, float]:
         """The centers that were learned."""
         known = {name: stick.center for name, stick in self._sticks.items()}
         return {name: of.value for name, of in known.items() if of and of.learned and of.value is not None}
-
-    def _find_triggers(self) -> None:
-        """Two controls that were not centered, one of them at its low end, are triggers: the other may be held."""
-        for pair in PAIRS:
-            sticks = [self._sticks[name] for name in pair if name in self._sticks]
-            if any(stick.center is not None and stick.center.at_low for stick in sticks):
-                for stick in sticks:
-                    stick.is_trigger = stick.uncentered
 
     def read(self, values: Mapping[str, Sample], changes: Iterable[Change], now: float) -> Held:
         """What the controls ask for at `now`; of a control that has not reported, or has no value, nothing."""
@@ -103,8 +106,11 @@ class Mapped:
                 if self.each is not None:
                     self.each[name] = own
                     read.add(own)
-        if self._guessed:
-            self._find_triggers()
+        for pair in self._pairs:
+            pair.see(now)
+        if values:
+            for stick in self._sticks.values():
+                stick.expect()
         enabled = None if self._enable is None else _pressed(values, self._enable)
         return Held(
             read.deflections,
@@ -114,6 +120,7 @@ class Mapped:
             enabled,
             positions=read.positions,
             click=read.click,
+            deflected=read.deflected,
         )
 
 

@@ -29,8 +29,8 @@ from teleop.config.resources import folder
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Command
 from teleop.inputs.hid.backend import DeviceInfo
+from teleop.inputs.hid.descriptor.identity import MULTI_AXIS
 
-MULTI_AXIS = (0x01, 0x08)
 _BUTTONS = (
     ("Button 1", Command.STOP),
     ("Button 2", Command.CLEAR),

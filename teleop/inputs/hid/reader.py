@@ -15,7 +15,8 @@ import threading
 from collections.abc import Callable, Sequence
 
 from teleop.config.inputs_section import InputSection
-from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, described
+from teleop.inputs.evdev.backend import missing_package
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, MissingPackageError, described
 from teleop.inputs.hid.claims import Claims
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
 from teleop.inputs.hid.mapping import Mapped
@@ -45,7 +46,7 @@ class Plugged:
     @property
     def on_change(self) -> bool:
         """Whether its silence is no fault, as long as it is at rest or answers when asked."""
-        return self.chosen.reports == "on-change" or (self.chosen.reports == "auto" and not self.state.steady)
+        return self.chosen.reports == "on-change" or (self.chosen.reports == "auto" and not self.state.cadence.steady)
 
     def ask(self, device: HidDevice, now: Callable[[], float]) -> None:
         """Ask for its reports, if it has been quiet for a while and answers; one that once did not is left alone."""
@@ -80,7 +81,7 @@ class HidReader:
         self._section, self._backend, self._now, self._claims, self._mapped = section, backend, now, claims, mapped
         self.plugged: Plugged | None = None
         self.last: DeviceInfo | None = None  # the device that was there, which is taken again before any other
-        self.rivals = 0  # other devices that fitted when it was taken
+        self.is_chosen = False  # whether another device, or another input, would have done
         self._stayed: frozenset[bytes] | None = None  # what was plugged in when it was unplugged, and still is
         self.refused = ""
         self._refusal = ""  # what `refused` will be after this round
@@ -151,21 +152,27 @@ class HidReader:
             there = frozenset(info.path for info in found)
             self._stayed = there if self._stayed is None else self._stayed & there
         fitting = wanted(self._section.device, found, self.last, self._stayed or ())
-        free = [info for info in fitting if not self._claims.is_for_another(self._section, info)]
-        groups = together(free)
-        self.rivals = len(groups) - 1
+        groups = together([info for info in fitting if self._may_take(info, found)])
+        self.is_chosen = len(groups) > 1 or any(self._claims.shared(self._section, group[0]) for group in groups)
         was_there = False
         for group in groups:
             was_there = was_there or (yield from self._try(group))
         self.refused = self._refusal  # only now: while it is tried again, nothing has changed
         return was_there
 
+    def _may_take(self, info: DeviceInfo, found: Sequence[DeviceInfo]) -> bool:
+        if self._claims.is_for_another(self._section, info):
+            return False
+        doubt = self._claims.doubt(self._section, info, found)
+        self._refusal = doubt or self._refusal
+        return not doubt and not self._claims.is_for_one_before(self._section, info)
+
     def _try(self, infos: Sequence[DeviceInfo]) -> Steps:
         """Read this device until it is gone, unless another reader has it; whether it could be read.
 
         Of a device with several interfaces the one that reports is read.
         """
-        taken = [info for info in infos if self._claims.take(info.path)]
+        taken = [info for info in infos if self._claims.take(info.path, self._section)]
         opened: list[tuple[HidDevice, Plugged]] = []
         try:
             opened += [one for info in taken if (one := self._open(info))]
@@ -182,6 +189,9 @@ class HidReader:
         try:
             device = self._backend.open(info.path)
             descriptor = device.get_report_descriptor()
+        except MissingPackageError as error:
+            self._refusal = f"{described(info)} {error}"
+            return None
         except OSError as error:
             if device is None:
                 self._refusal = f"{described(info)} cannot be opened ({error}): check its udev rule: teleop doctor"
@@ -191,8 +201,8 @@ class HidReader:
             return None
         state = HidState(parse_descriptor(descriptor))
         chosen = choose(self._section, _as_guessed(info, state), state.guessable)
-        if chosen.unreadable:
-            self._refusal = f"{described(info)} cannot be used: {chosen.unreadable}"
+        if unusable := _unusable(chosen):
+            self._refusal = f"{described(info)} cannot be used: {unusable}"
             device.close()
             return None
         return device, Plugged(info, state, chosen, self._mapped(chosen, state, info))
@@ -249,3 +259,13 @@ def _as_guessed(info: DeviceInfo, state: HidState) -> DeviceInfo:
     """The device, for the collection that a guess is made for: the system lists one that it is for by chance."""
     page, usage = state.purpose
     return info._replace(usage_page=page, usage=usage) if page else info
+
+
+def _unusable(chosen: Chosen) -> str:
+    """Why the device does nothing with this mapping, and the cure; "" where it does something."""
+    if chosen.unreadable:
+        install = missing_package()
+        return f"{chosen.unreadable}; read its event device: {install}" if install else chosen.unreadable
+    if chosen.guessed and not chosen.controls:
+        return "it has no stick or button to guess a mapping for; teleop live --learn makes one"
+    return ""

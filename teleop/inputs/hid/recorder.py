@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Sequence
 from typing import TextIO
 
-from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, same_unit, unit
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, same_model, unit
 
 WAIT = 0.05  # s for a report
 LOOK_EVERY = 0.5  # s between two looks for a device that was unplugged
@@ -32,7 +33,7 @@ class Recorder:
         self.reports = 0
         self._write(
             device={
-                "name": self._info.name,
+                "name": self._info.name if serial else _without(self._info.serial, self._info.name),
                 "vendor": f"{self._info.vendor_id:04x}",
                 "product": f"{self._info.product_id:04x}",
                 "serial": self._info.serial if serial else "",
@@ -71,8 +72,9 @@ class Recorder:
 
     def _find(self) -> None:
         try:
-            again = [info for info in self._backend.enumerate() if unit(info) == unit(self._info)]
-            again.sort(key=lambda info: not same_unit(info, self._info))
+            found = self._backend.enumerate()
+            again = [info for info in found if same_model(info, self._info) and info.serial == self._info.serial]
+            again.sort(key=lambda info: unit(info) != unit(self._info))
             if again:
                 self._device = self._backend.open(again[0].path)
                 self._write(time=self._time, plugged=True)
@@ -86,3 +88,8 @@ class Recorder:
     def _write(self, **record: object) -> None:
         self._stream.write(json.dumps(record) + "\n")
         self._stream.flush()
+
+
+def _without(serial: str, name: str) -> str:
+    """The name without the serial number that some devices have in it."""
+    return re.sub(re.escape(serial), "", name, flags=re.IGNORECASE).strip(" -()[]") if serial else name

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from teleop.config.inputs_section import DeviceSection
-from teleop.inputs.hid.backend import DeviceInfo, same_unit, unit
+from teleop.inputs.hid.backend import DeviceInfo, same_model, unit
 from teleop.inputs.hid.descriptor.identity import STICKS
 from teleop.inputs.hid.pads import fits, pad_for
 
@@ -18,7 +18,7 @@ def together(infos: Sequence[DeviceInfo]) -> list[list[DeviceInfo]]:
     for info in infos:
         for group in groups:
             first = group[0]
-            one_device = unit(info) == unit(first) and info.port == first.port and (info.port or info.serial)
+            one_device = same_model(info, first) and (info.serial, info.port) == (first.serial, first.port) != ("", "")
             if info.path in [each.path for each in group]:
                 break  # the system lists an interface once for each of its usages
             if one_device and info.interface not in [each.interface for each in group]:
@@ -40,20 +40,16 @@ def wanted(
     """
     fitting = [info for info in found if fits(device, info) and (device.vendor is not None or _for_hands(device, info))]
     if last is not None:
-        fitting = [info for info in fitting if _alike(info, last) or info.path not in stayed]
+        fitting = [info for info in fitting if same_model(info, last) or info.path not in stayed]
 
     def rank(info: DeviceInfo) -> tuple[bool, bool, bool, bool, bool, bytes]:
         usage = (info.usage_page, info.usage)
-        other = last is not None and not _alike(info, last)
-        same = last is None or same_unit(info, last)
+        other = last is not None and not same_model(info, last)
+        same = last is None or unit(info) == unit(last)
         serial = last.serial if last is not None else ""
         return other, info.serial != serial, not same, usage not in STICKS, usage in _OTHER_HANDS, info.path
 
     return sorted(fitting, key=rank)
-
-
-def _alike(one: DeviceInfo, two: DeviceInfo) -> bool:
-    return (one.vendor_id, one.product_id) == (two.vendor_id, two.product_id)
 
 
 def _for_hands(device: DeviceSection, info: DeviceInfo) -> bool:

@@ -4,32 +4,25 @@ The reader puts a whole new mapping of values in place of the old one, and queue
 looks: every change of a button, every count of a wheel. Assigning an attribute and appending to a deque are atomic in
 Python, so that neither side needs a lock.
 
-Whether a device reports all the time or only when something changes is seen from the reports themselves: only the
-first kind repeats itself, and then many times. How often it does is learned too: `patience` is how long a silence of
-this device is normal. Vendors' fields are left out of this and of all else: a pad has clocks and gyroscopes there.
+Whether a device reports all the time or only when something changes, and how often, is seen from the reports
+themselves (`Cadence`). Vendors' fields are left out of this and of all else: a pad has clocks and gyroscopes there.
 """
 
 from __future__ import annotations
 
 import math
-from collections import deque
+from collections import defaultdict, deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from teleop.inputs.hid.cadence import Cadence
 from teleop.inputs.hid.descriptor.fields import VENDOR_PAGES, Field
-from teleop.inputs.hid.descriptor.identity import LONGEST_ARRAY
+from teleop.inputs.hid.descriptor.identity import LONGEST_ARRAY, MULTI_AXIS
 from teleop.inputs.hid.descriptor.parser import Descriptor
 from teleop.inputs.hid.descriptor.report import Control, read_report
 from teleop.inputs.hid.hat import DIRECTIONS, HAT, Hat, points_to
 
-SILENT = 0.2  # s without a report, after which a device is not trusted that was not seen to report more rarely
-REPEATS = 9  # the latest repetitions whose interval is looked at
-FEW_REPEATS = 3  # enough of them to know the interval
-SLOWEST_REPEAT = 1.0  # s: what is repeated after longer is no sign of life to be expected
-LATE = 2.5  # times the usual interval: then a report is missing
-HEARTBEAT = 0.15  # s: what repeats itself more rarely reports changes at once, and lives between them
-STEADY = 20  # reports in a row without a change: more than any device that reports changes sends for one
 MAX_CHANGES = 4096  # changes pile up while no run reads them
 
 
@@ -46,6 +39,9 @@ class Sample(NamedTuple):
     def pressed(self) -> bool:
         """Beyond the middle: of a button its only other value, of a trigger its second half."""
         return not self.null and 2 * self.value > self.minimum + self.maximum
+
+
+_ON = Sample(1, 0, 1)  # a control of an array that is there
 
 
 class Change(NamedTuple):
@@ -67,9 +63,12 @@ class HidState:
         fields = [field for field in descriptor.fields if field.usage_page < VENDOR_PAGES]
         self._descriptor = replace(descriptor, fields=tuple(fields))
         self.names = frozenset(name for field in fields for name in _names(field))
-        self.guessable = frozenset(name for field in self._descriptor.primary_fields for name in _names(field))
         self.purpose = descriptor.purpose
         self.relative = frozenset(name for field in fields if field.relative for name in _names(field))
+        primary = self._descriptor.primary_fields
+        if self.purpose != MULTI_AXIS:  # whose places are called relative: what counts is no stick to be guessed
+            primary = [field for field in primary if not field.relative]
+        self.guessable = frozenset(name for field in primary for name in _names(field))
         self.watched: Collection[str] = frozenset()
         self.counting: Mapping[str, bool] = {}
         self.vital: Collection[int] = frozenset(field.report_id for field in fields)
@@ -80,26 +79,14 @@ class HidState:
         self._ids = {name: field.report_id for field in reversed(fields) for name in _names(field)}
         self._reports: dict[int, bytes] = {}
         self._held: dict[int, Mapping[str, Sample]] = {}
-        self._same = 0
+        self._blank: set[int] = set()  # whose latest report had no controls, though others had
         self._hats: dict[str, Hat] = {}
-        self._arrived = -math.inf  # when the last report came by itself
-        self._intervals: deque[float] = deque(maxlen=REPEATS)  # before reports that repeated the one before
-        self.interval = 0.0  # s, the usual one of these, 0 until it is known
+        self.cadence = Cadence()
+        self._cadences: defaultdict[int, Cadence] = defaultdict(Cadence)  # of each report
 
-    @property
-    def patience(self) -> float:
-        """s without a report after which one is missing."""
-        return max(SILENT, LATE * self.interval)
-
-    @property
-    def has_heartbeat(self) -> bool:
-        """Whether it reports changes at once and, between them, that it lives."""
-        return self.interval > HEARTBEAT
-
-    @property
-    def steady(self) -> bool:
-        """Whether it has been seen to report without anything having changed."""
-        return self._same >= STEADY
+    def is_overdue(self, names: Collection[str], now: float) -> bool:
+        """Whether a report with one of these controls has ended, which was repeated all the time."""
+        return any(self._cadences[number].is_overdue(now) for number in self.report_ids(names) if number in self._held)
 
     def report_ids(self, names: Collection[str]) -> Sequence[int]:
         """The reports that these controls are in."""
@@ -116,54 +103,62 @@ class HidState:
     def take(self, report: bytes, now: float, asked: bool = False) -> None:
         """A report as the device sent it, its id in front where it has one; `asked`: it did not come by itself."""
         number = report[0] if self._descriptor.numbered and report else 0
+        before = self._held.get(number, {})
         if self._reports.get(number) != report:
             self._reports[number] = report
             self.differed = now
-        held: dict[str, Sample] = {}
-        for control in read_report(self._descriptor, report):
-            if control.usage_page >= VENDOR_PAGES:
-                continue  # an array's usage: fields of these pages are left out already
-            for name, sample in self._samples(control):
-                held[name] = sample._replace(relative=self.counting[name]) if name in self.counting else sample
+            held = self._read(report)
+        elif self.relative or self.counting or number in self._blank:
+            held = self._read(report)
+        else:
+            held = before  # byte for byte, and nothing in it counts: what most reports of most devices are
         if not held:
+            self._blank.add(number)
             self.opaque = number, now
             return
+        self._blank.discard(number)
         if number in self.vital:
             self.last = now
-        before = self._held.get(number, {})
-        held.update(_released(before.keys() - held.keys(), before))
-        if not asked:
-            self._learn_interval(held == before and not any(map(_counts, held.values())), now)
+        if held is before:
+            self._count(number, True, now, asked)
+            return
+        if gone := before.keys() - held.keys():
+            held = {**held, **dict(_released(gone, before))}
+        self._count(number, held == before and not any(map(_counts, held.values())), now, asked)
         self._held[number] = held
         for name, sample in held.items():
             if name in self.watched and (sample.value if sample.relative else sample != before.get(name, sample)):
                 self._changes.append(Change(now, name, sample))
         self.values = {**self.values, **held} if len(self._held) > 1 else held
 
-    def _learn_interval(self, repeats: bool, now: float) -> None:
-        """`repeats`: this report is the one before it once more."""
-        interval, self._arrived = now - self._arrived, now
-        if repeats and interval <= SLOWEST_REPEAT:
-            self._intervals.append(interval)
-            if len(self._intervals) >= FEW_REPEATS:
-                self.interval = sorted(self._intervals)[len(self._intervals) // 2]
-        if self._same < STEADY:
-            self._same = self._same + 1 if repeats and interval <= SLOWEST_REPEAT else 0
+    def _read(self, report: bytes) -> dict[str, Sample]:
+        held: dict[str, Sample] = {}
+        for control in read_report(self._descriptor, report):
+            if control.usage_page < VENDOR_PAGES:  # an array's usage: fields of these pages are left out already
+                self._add(control, held)
+        for name in self.counting.keys() & held.keys():
+            held[name] = held[name]._replace(relative=self.counting[name])
+        return held
 
-    def _samples(self, control: Control) -> Iterator[tuple[str, Sample]]:
+    def _count(self, number: int, repeats: bool, now: float, asked: bool) -> None:
+        if not asked:
+            self.cadence.take(repeats, now)
+            self._cadences[number].take(repeats, now)
+
+    def _add(self, control: Control, held: dict[str, Sample]) -> None:
         """The control, and of a hat its four directions as buttons."""
+        name = control.name
         if control.raw is not None:
-            yield control.name, Sample(1, 0, 1)
+            held[name] = _ON
             return
-        yield control.name, Sample(control.value, control.minimum, control.maximum, control.relative, control.null)
-        if (control.usage_page, control.usage) != HAT:
-            return
-        hat = self._hats.setdefault(control.name, Hat())
-        angle = hat.angle(control)
-        for direction, at in DIRECTIONS:
-            name = f"{control.name} {direction}"
-            pressed = hat.first == direction if name in self.watched else points_to(angle, at)
-            yield name, Sample(int(pressed), 0, 1)
+        held[name] = Sample(control.value, control.minimum, control.maximum, control.relative, control.null)
+        if (control.usage_page, control.usage) == HAT:
+            hat = self._hats.setdefault(name, Hat())
+            angle = hat.angle(control)
+            for direction, at in DIRECTIONS:
+                way = f"{name} {direction}"
+                pressed = hat.first == direction if way in self.watched else points_to(angle, at)
+                held[way] = Sample(int(pressed), 0, 1)
 
     def changes(self) -> Iterator[Change]:
         """What has been queued since the last call."""

@@ -12,9 +12,13 @@ BETWEEN_STEPS = 0.5  # s between them
 
 
 class Autotune:
-    """Runs from a start command to its last push, or a stop command, which is answered by a push as well."""
+    """Runs from a start command to its last push, or a stop command, which is answered by a push as well.
 
-    def __init__(self) -> None:
+    One that `needs_type` refuses to start with type 0.
+    """
+
+    def __init__(self, needs_type: bool = False) -> None:
+        self._needs_type = needs_type
         self._beat: Beat | None = None
         self._stopped: list[Due] = []
         self.handlers: Handlers = {gimbal.Calibrate: self._calibrate}
@@ -35,6 +39,8 @@ class Autotune:
         return gimbal.Calibration(gimbal.CalibrationState.RUNNING, round(100 * share))
 
     def _calibrate(self, message: gimbal.Calibrate, now: float) -> Answer:
+        if message.start and self._needs_type and not message.type:
+            return ReturnCode.FAILED
         if message.start:
             self._beat = Beat(now, BETWEEN_STEPS, STEPS)
         elif self.running(now):

@@ -7,31 +7,35 @@ and `refusals` has it with its reason. Reserved bits are not looked at where cli
 
 Every part is a function of time between commands, so looking often or seldom makes no difference.
 
-What goes wrong with real ones can be asked for: a reboot, an axis held by hand, missing angle reports, and the
-time that it takes to react.
+What goes wrong with real ones can be asked for: a reboot, an axis held by hand, missing angle reports, the time that it
+takes to react, and other dynamics, from the start or from any moment on.
 """
 
 from __future__ import annotations
 
+import random
 from collections import Counter, deque
+from collections.abc import Iterable, Sequence
 from operator import itemgetter
 from typing import Any
 
 from teleop.dji.frame import Frame
-from teleop.dji.gimbal import focus
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.session import Session
 from teleop.dji.message import FieldError, Message, Result, ReturnCode
 from teleop.sim.gimbal.accessories import Camera, FocusMotor
 from teleop.sim.gimbal.autotune import Autotune
+from teleop.sim.gimbal.dynamics import Dynamics
 from teleop.sim.gimbal.firmware import DOCUMENTED, Firmware
 from teleop.sim.gimbal.gimbal_axes import Angles, GimbalAxes
 from teleop.sim.gimbal.handlers import Answer, Handlers, without_reserved
+from teleop.sim.gimbal.outgoing import Outgoing
 from teleop.sim.gimbal.pushes import Beat, Due
-from teleop.sim.gimbal.quirks import legacy_angles, pushed
+from teleop.sim.gimbal.quirks import has_no_reply, pushed, replied
 from teleop.sim.gimbal.settings import Settings
 from teleop.sim.refusals import Refusals, Why, command_name
 
+JOYSTICK_SPEED = 60.0, 30.0, 60.0  # deg/s of yaw, roll and pitch at full deflection
 PUSH_RATE = 10.0  # Hz; it varies with the firmware, from 1 Hz up (docs/protocol-facts.md)
 
 _MOTION = gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Mode
@@ -48,6 +52,10 @@ class SimulatedGimbal:
     firmware before 01.04.00.20 does. `push_rate` is in Hz, once the push is switched on. What moves it is carried out
     `reaction` seconds after it came. While `tells_angles` is False it neither answers for its angles nor pushes them.
     `firmware` is how else it differs from the document.
+
+    `dynamics` are how each axis moves and reports, one for all or yaw, roll and pitch; they overrule `lag`. `changes`
+    are when (s after it was first given a time) which take their place, as with another payload. `mount` is the yaw in
+    deg to which the mount is turned at boot, `lost_readings` the share of angle reports that get lost.
     """
 
     def __init__(
@@ -56,7 +64,7 @@ class SimulatedGimbal:
         boot: tuple[float, float, float] = (0.0, 0.0, 0.0),
         signs: tuple[int, int, int] = (1, 1, 1),
         lag: float = 0.05,
-        joystick_speed: tuple[float, float, float] = (60.0, 30.0, 60.0),
+        joystick_speed: tuple[float, float, float] = JOYSTICK_SPEED,
         continuous: bool = False,
         focus_speed: float = 4095.0,
         focus_calibrated: bool = True,
@@ -65,27 +73,39 @@ class SimulatedGimbal:
         reaction: float = 0.0,
         version: str = "02.02.00.07",
         firmware: Firmware = DOCUMENTED,
+        dynamics: Dynamics | Sequence[Dynamics] | None = None,
+        changes: Iterable[tuple[float, Dynamics | Sequence[Dynamics]]] = (),
+        mount: float = 0.0,
+        lost_readings: float = 0.0,
     ) -> None:
         self.counts: Counter[str] = Counter()  # messages by name, as they were understood
         self.follow = gimbal.FollowMode.YAW
         self.settings = Settings(version)
         self.refusals = Refusals()
-        self._head = GimbalAxes(Angles(*boot), Angles(*signs), lag, Angles(*joystick_speed), continuous, firmware)
+        own = _of_each(dynamics if dynamics is not None else Dynamics(lag=lag))
+        self._head = GimbalAxes(
+            *(Angles(*boot), Angles(*signs), lag, Angles(*(firmware.stick_speed or joystick_speed)), continuous),
+            *(firmware, own, mount),
+        )
+        self._changes = deque(sorted(((time, _of_each(then)) for time, then in changes), key=itemgetter(0)))
+        self._started: float | None = None  # s
+        self._lost_readings = lost_readings
+        self._chance = random.Random(1)  # losses repeat
         self._camera = Camera()
         calibrated = focus_calibrated and firmware.focus_motor == "calibrated"
         self._focus = FocusMotor(focus_speed, calibrated, firmware.focus_motor == "absent", firmware.ignores_zero_focus)
-        self._tuning = Autotune()
+        self._tuning = Autotune(firmware.autotune_needs_type)
         self.tells_angles = True
         self._push_rate = push_rate
         self._reaction = reaction
         self._to_come: deque[tuple[float, Message]] = deque()  # what has still to be reacted to, and when
         self._booted = float("-inf")  # s
-        self._bare_replies = bare_replies or firmware.legacy_replies
+        self._bare_replies = bare_replies or firmware.legacy_replies or firmware.bare_replies
         self._firmware = firmware
         self._push: Beat | None = None
         self._session = Session()
         self._now = float("-inf")
-        self._outgoing = bytearray()
+        self._outgoing = Outgoing(firmware.reply_delay)
         self._handlers: Handlers = {
             gimbal.PushSettings: self._switch_push,
             gimbal.Mode: self._change_mode,
@@ -134,8 +154,10 @@ class SimulatedGimbal:
                 continue
             self.counts[received.message.name] += 1
             answer = self._obey(received.message)
-            answers = self.tells_angles or not isinstance(received.message, gimbal.Angles)
-            if frame.cmd_type & _REPLY_TYPE and answers and not _has_no_reply(received.message):
+            answers = not isinstance(received.message, gimbal.Angles) or (
+                self._tells_angles_now() and not self._firmware.silent_angles
+            )
+            if frame.cmd_type & _REPLY_TYPE and answers and not has_no_reply(received.message):
                 self._reply(frame, answer)
         if self._session.last_damage is not damage and self._session.last_damage:
             self.refusals.add_damage(now, self._session.last_damage)
@@ -143,9 +165,7 @@ class SimulatedGimbal:
     def advance(self, now: float) -> bytes:
         """What it has sent up to `now`: replies, and pushes at their own times."""
         self._pass(now)
-        sent = bytes(self._outgoing)
-        self._outgoing.clear()
-        return sent
+        return self._outgoing.taken(self._now)
 
     def reboot(self, now: float, seconds: float) -> None:
         """It goes out, hears and says nothing for so long, and is then as at first."""
@@ -161,17 +181,28 @@ class SimulatedGimbal:
         self._pass(now)
         self._head.hold(now, Angles(yaw, roll, pitch))
 
+    def change(self, now: float, dynamics: Dynamics | Sequence[Dynamics]) -> None:
+        """It moves and reports so from `now` on, as with another payload; commands before keep what they had."""
+        self._pass(now)
+        self._head.change(_of_each(dynamics))
+
     def _pass(self, now: float) -> None:
         self._now = max(self._now, now)
+        self._started = self._now if self._started is None else self._started
+        while self._changes and self._changes[0][0] <= self._now - self._started:
+            self._head.change(self._changes.popleft()[1])
         while self._to_come and self._to_come[0][0] <= self._now:
             time, message = self._to_come.popleft()
             self._handlers[type(message)](message, time)
         due: list[Due] = self._tuning.due(self._now)
-        if self._push:
+        if self._push and not self._firmware.silent_pushes:
             beats = self._push.due(self._now)
-            due += [(time, self._parameters(time)) for time in beats if self.tells_angles]
+            due += [(time, self._parameters(time)) for time in beats if self._tells_angles_now()]
         for _, push in sorted(due, key=itemgetter(0)):
-            self._outgoing += pushed(self._session.command(push), push, self._firmware)
+            self._outgoing.push(pushed(self._session.command(push), push, self._firmware))
+
+    def _tells_angles_now(self) -> bool:
+        return self.tells_angles and not (self._lost_readings and self._chance.random() < self._lost_readings)
 
     def _obey(self, message: Message) -> Answer:
         handler = self._handlers.get(type(message))
@@ -202,9 +233,8 @@ class SimulatedGimbal:
 
     def _reply(self, frame: Frame, answer: Answer) -> None:
         message = Result(answer) if isinstance(answer, ReturnCode) else answer
-        if self._firmware.legacy_replies and isinstance(message, gimbal.AnglesReply):
-            message = legacy_angles(message, self._firmware.legacy_order)
-        self._outgoing += self._session.reply(frame, message, bare=self._bare_replies)
+        message = replied(message, self._firmware, self._bare_replies)
+        self._outgoing.reply(self._session.reply(frame, message, bare=self._bare_replies), self._now)
 
     def _switch_push(self, message: gimbal.PushSettings, now: float) -> Answer:
         if message.switch == gimbal.Switch.ON and self._push is None:
@@ -234,9 +264,6 @@ class SimulatedGimbal:
         )
 
 
-def _has_no_reply(message: Message) -> bool:
-    """Whether no reply belongs to it, well formed or not, whatever its CmdType asks (V2.5, figures 17, 21, 22, 32)."""
-    data = message.data()
-    if data[:2] == gimbal.Version.set_and_id:
-        return isinstance(message, gimbal.VersionPush)
-    return data[:2] == gimbal.Joystick.set_and_id or data[:3] == focus.Set.set_and_id + b"\x01"
+def _of_each(dynamics: Dynamics | Sequence[Dynamics]) -> Sequence[Dynamics]:
+    """Of yaw, roll and pitch."""
+    return [dynamics] * len(Angles._fields) if isinstance(dynamics, Dynamics) else dynamics

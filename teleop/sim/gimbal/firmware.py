@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
-Order = Literal["yaw-roll-pitch", "yaw-pitch-roll"]
-FocusMotorState = Literal["calibrated", "uncalibrated", "absent"]
+from teleop.config.simulated_firmware import BeyondStop, FocusMotorState, PositionUnderSpeed
+from teleop.config.wiring import AngleOrder as Order
 
 
 @dataclass(frozen=True)
@@ -17,9 +16,15 @@ class Firmware:
       signs of the angles. Some gimbals have other ones: one driver negates roll in 0x01 alone. `report_signs` likewise
       of the angles that it reports and pushes.
     - `legacy_replies`: replies without set and id, that of 0x02 without the type byte too, its angles in `legacy_order`
-      (yaw, roll, pitch by two sources; yaw, pitch, roll by one).
+      (yaw, roll, pitch by two sources; yaw, pitch, roll by one). With all-yaw-pitch-roll so are those of every reply.
+      `bare_replies`: without set and id only. `silent_angles`: no reply to 0x02. `reply_delay`: s until a reply.
+    - `silent_pushes`: none, although they are on.
     - `push_reply_bit`: pushes have CmdType 0x20. `short_push`: a push of 25 bytes (flags, yaw, roll, pitch).
     - `ignores_speed`: 0x01 is answered and does nothing, as some RS 3 Pro and RS 4 Pro firmware does.
+    - `stick_speed`: full deflection of the joystick for yaw, roll and pitch, in deg/s; None for that of the gimbal.
+    - `beyond_stop`: a position beyond a stop leads to the stop, or is refused. `position_under_speed`: a position while
+      speed control is taken over is obeyed, or answered and ignored. The document says nothing of either.
+    - `autotune_needs_type`: automatic tuning starts with type 1 only.
     - `focus_motor`: one that is not calibrated ignores positions; without one, it is answered that that failed.
       `ignores_zero_focus`: position 0 does nothing, as with some motors.
     - `roll_error`: how far from level (deg) the roll is left when speed control is given back, until a position comes.
@@ -37,6 +42,14 @@ class Firmware:
     ignores_zero_focus: bool = False
     roll_error: float = 0.0
     pitch_max: int = 145
+    bare_replies: bool = False
+    silent_angles: bool = False
+    reply_delay: float = 0.0
+    silent_pushes: bool = False
+    stick_speed: tuple[float, float, float] | None = None
+    beyond_stop: BeyondStop = "stop"
+    position_under_speed: PositionUnderSpeed = "obey"
+    autotune_needs_type: bool = False
 
 
 DOCUMENTED = Firmware()

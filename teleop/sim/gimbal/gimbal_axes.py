@@ -10,10 +10,13 @@ speed control (it wins).
 from __future__ import annotations
 
 import math
+import random
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.message import ReturnCode
+from teleop.sim.gimbal.dynamics import Dynamics
 from teleop.sim.gimbal.firmware import DOCUMENTED, Firmware
 from teleop.sim.gimbal.handlers import Answer, Handlers, timeless
 from teleop.sim.gimbal.motors import Motor
@@ -21,6 +24,7 @@ from teleop.sim.gimbal.motors import Motor
 SPEED_HOLDS = 0.5  # s after which a speed command no longer counts: V2.5, section 2.3.4.2
 STICK_FULL = 15_000  # full deflection on the wire: section 2.3.4.11
 SETTLES = 0.3  # s in which a roll that is left off level gets there
+WIRE_STEP = 0.1  # deg, of every angle on the wire
 CENTRING_LAG = 0.3  # s, so that recentring is all but done in 1.5 s
 
 
@@ -37,7 +41,11 @@ NAMEABLE_UP, NAMEABLE_DOWN = Angles(179.0, 30.0, 145.0), Angles(179.0, 30.0, 55.
 
 
 class GimbalAxes:
-    """Motors for yaw, roll and pitch, and the messages that move and ask them."""
+    """Motors for yaw, roll and pitch, and the messages that move and ask them.
+
+    `mount` is the yaw (deg) to which the gimbal's mount is turned: its middle, its stops and where it boots are there.
+    `dynamics` are those of yaw, roll and pitch; None for the `lag` alone.
+    """
 
     def __init__(
         self,
@@ -47,15 +55,20 @@ class GimbalAxes:
         joystick_speed: Angles,
         continuous: bool,
         firmware: Firmware = DOCUMENTED,
+        dynamics: Sequence[Dynamics] | None = None,
+        mount: float = 0.0,
     ) -> None:
         self.controlled = False  # whether a speed command has taken over, and none has given back
-        self._boot = boot
+        self._mount = Angles(mount, 0.0, 0.0)
+        self._boot = boot._replace(yaw=boot.yaw + mount)
+        self._chance = random.Random(1)  # noise repeats
         self._signs = signs
         self._speed_signs = Angles(*firmware.speed_signs) if firmware.speed_signs else signs
         self._report_signs = Angles(*firmware.report_signs) if firmware.report_signs else signs
         self._firmware = firmware
         self._joystick_speed = joystick_speed
-        self._motors = [Motor(angle, lag) for angle in boot]
+        self._motors = [Motor(angle, lag) for angle in self._boot]
+        self.change(dynamics or [Dynamics(lag=lag)] * len(self._motors))
         self._nameable_up = NAMEABLE_UP._replace(pitch=float(firmware.pitch_max))
         self._restrict(MECHANICAL_UP._replace(pitch=firmware.pitch_max + 1.0), MECHANICAL_DOWN)
         if continuous:
@@ -69,6 +82,11 @@ class GimbalAxes:
             gimbal.Limits: timeless(self._report_limits),
         }
 
+    def change(self, dynamics: Sequence[Dynamics]) -> None:
+        """Move and report so from now on, as with another payload; commands before keep what they had."""
+        for motor, each in zip(self._motors, dynamics, strict=True):
+            motor.dynamics = each
+
     def angles(self, time: float) -> Angles:
         """Exact, in the signs of `core.axes`; an axis without stops counts its turns."""
         return Angles(*(motor.at(time)[0] for motor in self._motors))
@@ -77,22 +95,24 @@ class GimbalAxes:
         return Angles(*(motor.at(time)[1] for motor in self._motors))
 
     def reported(self, time: float) -> Angles:
-        """As on the wire: in the wire's signs, and within half a turn."""
-        signed = zip(self._report_signs, self.angles(time), strict=True)
-        return Angles(*(_half_turn(sign * angle) for sign, angle in signed))
+        """As on the wire: late, noisy and in steps, in the wire's signs, and within half a turn."""
+        signed = zip(self._report_signs, self._motors, strict=True)
+        return Angles(*(_half_turn(sign * self._measured(motor, time)) for sign, motor in signed))
 
     def limits(self) -> dict[str, Any]:
         """The fields of LimitsReply and Push, no more than these can name."""
-        up = [min(motor.maximum, most) for motor, most in zip(self._motors, self._nameable_up, strict=True)]
-        down = [min(-motor.minimum, most) for motor, most in zip(self._motors, NAMEABLE_DOWN, strict=True)]
+        most, least = self._nameable_up, NAMEABLE_DOWN
+        turned = list(zip(self._motors, self._mount, strict=True))
+        up = [min(motor.maximum - middle, limit) for (motor, middle), limit in zip(turned, most, strict=True)]
+        down = [min(middle - motor.minimum, limit) for (motor, middle), limit in zip(turned, least, strict=True)]
         names = ("yaw", "roll", "pitch")
-        most = {f"{name}_max": round(value) for name, value in zip(names, up, strict=True)}
-        return most | {f"{name}_min": round(value) for name, value in zip(names, down, strict=True)}
+        named = {f"{name}_max": round(value) for name, value in zip(names, up, strict=True)}
+        return named | {f"{name}_min": round(value) for name, value in zip(names, down, strict=True)}
 
     def turn(self, now: float, target: Angles) -> None:
-        """Ease to these angles, as recentring does."""
-        for motor, angle in zip(self._motors, target, strict=True):
-            motor.ease(now, self._nearest(motor, angle, now), CENTRING_LAG)
+        """Ease to these angles of the mount, as recentring does."""
+        for motor, angle, middle in zip(self._motors, target, self._mount, strict=True):
+            motor.ease(now, self._nearest(motor, angle + middle, middle, now), CENTRING_LAG)
 
     def halt(self, now: float) -> None:
         """The motors lose their power; nothing sags."""
@@ -113,11 +133,19 @@ class GimbalAxes:
 
     def _position(self, message: gimbal.Position, now: float) -> Answer:
         ignored = message.yaw_ignored, message.roll_ignored, message.pitch_ignored
+        if self.controlled and self._firmware.position_under_speed == "ignore":
+            return ReturnCode.OK
         wanted = message.yaw, message.roll, message.pitch
-        for motor, sign, angle, ignore in zip(self._motors, self._signs, wanted, ignored, strict=True):
-            if ignore:
-                continue
-            target = self._nearest(motor, sign * angle, now) if message.absolute else motor.at(now)[0] + sign * angle
+        targets: list[tuple[Motor, float]] = []
+        for motor, sign, angle, middle, ignore in zip(
+            self._motors, self._signs, wanted, self._mount, ignored, strict=True
+        ):
+            if not ignore:
+                absolute = self._nearest(motor, sign * angle, middle, now)
+                targets.append((motor, absolute if message.absolute else motor.at(now)[0] + sign * angle))
+        if self._firmware.beyond_stop == "refuse" and any(motor.clamp(target) != target for motor, target in targets):
+            return ReturnCode.FAILED
+        for motor, target in targets:
             motor.travel(now, target, message.time_for_action)
         return ReturnCode.OK
 
@@ -126,8 +154,11 @@ class GimbalAxes:
             return ReturnCode.OK
         released = self.controlled and not message.take_over
         self.controlled = message.take_over
-        speeds = (message.yaw, message.roll, message.pitch) if message.take_over else (0.0, 0.0, 0.0)
-        self._cruise(Angles(*speeds), now)
+        if message.take_over:
+            self._cruise(Angles(message.yaw, message.roll, message.pitch), now)
+        else:
+            for motor in self._motors:
+                motor.coast(now)
         if released and self._firmware.roll_error:
             roll = self._motors[1]
             roll.travel(now, roll.at(now)[0] + self._firmware.roll_error, SETTLES)
@@ -163,13 +194,26 @@ class GimbalAxes:
         return gimbal.LimitsReply(ReturnCode.OK, **self.limits())
 
     def _restrict(self, up: Angles, down: Angles) -> None:
-        for motor, most, least in zip(self._motors, up, down, strict=True):
-            motor.minimum, motor.maximum = -least, most
+        for motor, most, least, middle in zip(self._motors, up, down, self._mount, strict=True):
+            motor.minimum, motor.maximum = middle - least, middle + most
 
-    def _nearest(self, motor: Motor, angle: float, now: float) -> float:
-        """The position that stands for `angle`: for an axis that turns for ever, the one a half turn away at most."""
+    def _measured(self, motor: Motor, time: float) -> float:
+        """What the axis's own sensor says of it at `time`."""
+        dynamics = motor.dynamics
+        angle = motor.at(time - dynamics.report_age)[0]
+        if dynamics.noise:
+            angle += self._chance.gauss(0.0, dynamics.noise)
+        if dynamics.resolution > WIRE_STEP:
+            angle = round(angle / dynamics.resolution) * dynamics.resolution
+        return angle
+
+    def _nearest(self, motor: Motor, angle: float, middle: float, now: float) -> float:
+        """The position that has `angle`: between the stops, or of an axis without any the one half a turn away at most.
+
+        `middle` is where the mount has the middle of the axis.
+        """
         if math.isfinite(motor.maximum):
-            return angle
+            return middle + _half_turn(angle - middle)
         position = motor.at(now)[0]
         return position + _half_turn(angle - position)
 

@@ -16,7 +16,7 @@ from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError
 from teleop.core.operator_input import Command, Held
 from teleop.inputs.evdev import backend as evdev_backend
-from teleop.inputs.evdev.backend import AllDevices, EventBackend, open_events
+from teleop.inputs.evdev.backend import INSTALL, AllDevices, EventBackend, open_events
 from teleop.inputs.hid import reader as hid_reader
 from teleop.inputs.hid.device import HidInput, open_inputs
 
@@ -203,3 +203,38 @@ def test_a_device_that_is_gone_when_it_is_opened_is_closed_again(machine: FakeMa
     assert pad.closed == 1
     with pytest.raises(OSError, match="no such device"):
         EventBackend(machine.sys, machine.dev).open(b"/dev/input/event99")
+
+
+@pytest.mark.parametrize(("driver", "bus"), [("nintendo", 3), ("playstation", 5)])
+def test_without_the_evdev_package_a_pad_that_has_hidraw_is_read_by_it(
+    machine: FakeMachine, monkeypatch: pytest.MonkeyPatch, driver: str, bus: int
+) -> None:
+    hid = f310(machine.dev / "hidraw0")
+    event = machine.plug(FakeEvents(), parent=HID, driver=driver, bus=bus, hidraw=["hidraw0"])
+    devices = AllDevices(FakeBackend(hid), machine.backend)
+    assert [info.path for info in devices.enumerate()] == [bytes(event)]
+    machine.backend.has_package = False
+    assert [info.path for info in devices.enumerate()] == [hid.info.path]
+    monkeypatch.setattr("os.access", lambda path, mode: "hidraw" not in str(path))
+    assert [info.path for info in devices.enumerate()] == [bytes(event)], "hidraw may not be opened"
+
+
+def test_without_the_evdev_package_a_pad_without_hidraw_is_one_line_with_the_cure(
+    machine: FakeMachine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "evdev", None)
+    machine.plug(FakeEvents())
+    events = EventBackend(machine.sys, machine.dev)
+    with open_inputs([InputSection()], lambda: 0.0, AllDevices(FakeBackend(), events)) as [pad]:
+        cure = "joystick: Microsoft X-Box One pad needs the package evdev: pip install 'rs-teleop[evdev]'"
+        wait_until(lambda: pad.read(0.0).trouble == cure, "the line")
+
+
+def test_without_the_evdev_package_a_switch_pro_read_by_hidraw_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(hid_reader, "missing_package", lambda: INSTALL)
+    pro = FakeDevice(bytes.fromhex(F310["descriptor"]), (0x057E, 0x2009), "Pro Controller")
+    with open_inputs([InputSection()], lambda: 0.0, FakeBackend(pro)) as [pad]:
+        ending = f"its reports are not what its descriptor says; read its event device: {INSTALL}"
+        wait_until(lambda: pad.read(0.0).trouble.endswith(ending), "the line")

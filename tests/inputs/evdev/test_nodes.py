@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fake_evdev import Axis, FakeEvents, FakeMachine, X, Y
+from fake_evdev import XBOX_BUTTONS, Axis, FakeEvents, FakeMachine, X, Y, xbox_axes
 
 from teleop.inputs.evdev.nodes import VIRTUAL, EventNode, event_nodes
+from teleop.inputs.hid.pads import pad_for
 
 HID = "0003:046D:C216.0001"
 
@@ -101,3 +102,28 @@ def test_a_driver_that_switches_its_device_to_undescribed_reports_is_read_here(
 
 def test_a_machine_without_sysfs_has_none(tmp_path: Path) -> None:
     assert list(event_nodes(tmp_path / "sys", tmp_path / "dev")) == []
+
+
+PLAYSTATION_BUTTONS = (*XBOX_BUTTONS, 0x138, 0x139)
+GENERIC_BUTTONS = range(0x130, 0x13A)
+
+
+@pytest.mark.parametrize(
+    ("axes", "keys", "mapping"),
+    [
+        (xbox_axes(), XBOX_BUTTONS, "Xbox"),
+        (xbox_axes(), PLAYSTATION_BUTTONS, None),
+        (xbox_axes(), GENERIC_BUTTONS, None),
+        ({code: axis for code, axis in xbox_axes().items() if code not in (3, 4)}, XBOX_BUTTONS, None),
+        ({code: axis for code, axis in xbox_axes().items() if code < 2}, [0x120, 0x121], None),
+    ],
+    ids=["as xpad", "as hid-playstation", "buttons in a row", "no right stick", "a joystick"],
+)
+def test_a_pad_that_a_program_made_is_an_xbox_pad_only_with_the_controls_of_one(
+    machine: FakeMachine, axes: dict[int, Axis], keys: list[int], mapping: str | None
+) -> None:
+    machine.plug(FakeEvents(axes, list(keys)), parent="")
+    [node] = nodes(machine)
+    pad = pad_for(node.info)
+    assert (pad and pad.name) == mapping
+    assert node.info.driver == ("xpad" if mapping else VIRTUAL), "its names are no descriptor's either way"

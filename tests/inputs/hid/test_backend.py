@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import pytest
 
 from teleop.core.errors import DeviceError
-from teleop.inputs.hid.backend import DeviceInfo, Hidapi, described
+from teleop.inputs.hid.backend import DeviceInfo, Hidapi, described, unit, usb_port
 
 
 class Device:
@@ -78,3 +79,32 @@ def test_without_hidapi_it_says_what_to_install() -> None:
         DeviceError, match="joysticks cannot be read: No module named 'no_such_module': pip install hidapi"
     ):
         Hidapi(["no_such_module"])
+
+
+@pytest.mark.parametrize(
+    ("device", "port"),
+    [
+        ("devices/pci0000:00/0000:00:14.0/usb1/1-2/1-2:1.0/0003:046D:C216.0001", "1-2"),
+        ("devices/pci0000:00/0000:00:14.0/usb1/1-2/1-2.3/1-2.3.4/1-2.3.4:1.1/0003:046D:C52B.0002", "1-2.3.4"),
+        ("devices/virtual/misc/uhid/0005:054C:0CE6.0003", ""),
+    ],
+)
+def test_the_port_is_that_of_the_usb_interface_in_sysfs(tmp_path: Path, device: str, port: str) -> None:
+    (tmp_path / device).mkdir(parents=True)
+    (tmp_path / "class/hidraw/hidraw3").mkdir(parents=True)
+    (tmp_path / "class/hidraw/hidraw3/device").symlink_to(tmp_path / device)
+    assert usb_port(b"/dev/hidraw3", tmp_path / "class/hidraw") == port
+
+
+def test_without_sysfs_there_is_no_port_and_libusb_has_it_in_its_path(tmp_path: Path) -> None:
+    assert usb_port(b"/dev/hidraw3", tmp_path) == ""
+    assert usb_port(b"1-2.3:1.0", tmp_path) == "1-2.3"
+
+
+def test_a_unit_is_told_by_serial_number_without_one_by_port_and_without_that_by_path() -> None:
+    pad = DeviceInfo(b"/dev/hidraw0", 1, 2, "", "Pad", 1, 4, 0)
+    moved = pad._replace(path=b"/dev/hidraw7")
+    assert unit(pad) != unit(moved)
+    assert unit(pad._replace(port="1-2")) == unit(moved._replace(port="1-2"))
+    assert unit(pad._replace(serial="A", port="1-2")) == unit(moved._replace(serial="A", port="1-3"))
+    assert unit(pad._replace(port="1-2")) != unit(pad._replace(port="1-3"))

@@ -14,8 +14,8 @@ from teleop.config.inputs_section import DeviceSection, InputSection
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Command, Held, Press
 from teleop.inputs.hid import reader as hid_reader
+from teleop.inputs.hid.cadence import STEADY
 from teleop.inputs.hid.device import HidInput, open_inputs
-from teleop.inputs.hid.state import STEADY
 
 F310 = real("Logitech F310")
 REST, RIGHT = bytes.fromhex("7f7f7f7f08000000"), bytes.fromhex("ff7f7f7f08000000")

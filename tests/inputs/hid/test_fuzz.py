@@ -9,4 +9,4 @@ from input_fuzz import fuzz
 
 
 def test_random_devices_raise_nothing_and_move_nothing_before_they_were_centered() -> None:
-    assert fuzz(8_000, seed=14) > 0, "some of them move something, so that this can fail"
+    assert fuzz(8_000, seed=14).starts > 10, "some of them move something, so that this can fail"

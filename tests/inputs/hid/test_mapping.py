@@ -290,3 +290,22 @@ def test_what_each_control_asks_for_adds_up_to_what_all_do() -> None:
     assert {name: each.presses for name, each in apart.each.items() if each.presses} == {
         "Button 1": [Press(Command.STOP)]
     }
+
+
+def test_two_deflections_that_cancel_each_other_out_are_no_rest() -> None:
+    triggers = mapped({"Z": {"axis": "focus", "rest": "low", "invert": True}, "Rz": {"axis": "focus", "rest": "low"}})
+    both = look(triggers, Z=byte(128), Rz=byte(128))
+    assert both.deflections == {Axis.FOCUS: 0}
+    assert both.deflected
+    assert not look(triggers, Z=byte(0), Rz=byte(0)).deflected
+
+
+def test_a_stick_that_comes_later_than_the_first_report_has_to_be_seen_at_rest() -> None:
+    puck = mapped({"Rz": {"axis": "pan", "center": 0}, "Rx": {"axis": "tilt", "center": 0}})
+    look(puck, Rx=Sample(300, -350, 350))
+    assert not puck.is_unrested, "the interlock waits for what is in the first report"
+    look(puck, Rx=Sample(0, -350, 350), Rz=Sample(350, -350, 350))
+    assert puck.is_unrested
+    look(puck, Rx=Sample(0, -350, 350), Rz=Sample(0, -350, 350))
+    look(puck, Rx=Sample(0, -350, 350), Rz=Sample(350, -350, 350))
+    assert not puck.is_unrested

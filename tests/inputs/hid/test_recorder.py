@@ -60,3 +60,12 @@ def test_the_driver_and_the_port_of_a_device_are_recorded(tmp_path: Path) -> Non
         Recorder(FakeBackend(pad), [pad.info], stream, Seconds()).close()
     [info] = read_recording(file).infos
     assert (info.port, info.driver) == ("1-2.3", "xpad")
+
+
+@pytest.mark.parametrize("serial", [False, True])
+def test_a_serial_number_that_is_in_the_name_is_recorded_only_if_asked_for(tmp_path: Path, serial: bool) -> None:
+    pad, file = FakeDevice(F310, name="Pad (E417D8)", serial="e417d8"), tmp_path / "pad.jsonl"
+    with file.open("w") as stream:
+        Recorder(FakeBackend(pad), [pad.info], stream, Seconds(), serial).close()
+    assert ("e417d8" in file.read_text().casefold()) is serial
+    assert [info.name for info in read_recording(file).infos] == ["Pad (E417D8)" if serial else "Pad"]

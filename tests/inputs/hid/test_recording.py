@@ -5,13 +5,18 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import pytest
-from fake_hid import FakeBackend, FakeDevice
+from fake_hid import FakeBackend, FakeDevice, real
+from waiting import wait_until
 
 from teleop.config.documents.document import DocumentError
+from teleop.config.inputs_section import InputSection
+from teleop.core.axes import Axis
 from teleop.inputs.hid.backend import DeviceInfo
+from teleop.inputs.hid.device import open_inputs
 from teleop.inputs.hid.recording import MAX_PROBLEMS, RecordedDevice, RecordedDevices, Recording, Row, read_recording
 
 HEAD: dict[str, Any] = {"device": {"vendor": "046d", "product": "c216"}, "descriptor": "05"}
@@ -133,3 +138,25 @@ def test_devices_that_are_really_there_are_beside_the_recorded() -> None:
     assert backend.open(pad.info.path) is pad
     with pytest.raises(OSError, match="no such device"):
         RecordedDevices(recorded, Time(0), lambda: 0.0).open(pad.info.path)
+
+
+def test_a_recording_plays_in_real_time_beside_a_device_that_is_really_there() -> None:
+    """Each is read by a thread of its own: the recorded one by the clock, the real one when it reports."""
+    descriptor = bytes.fromhex(real("Logitech F310")["descriptor"])
+    rest, right = bytes.fromhex("7f7f7f7f08000000"), bytes.fromhex("ff7f7f7f08000000")
+    rows = [Row(index / 100, rest if index < 60 else right) for index in range(6000)]
+    pad = FakeDevice(descriptor, name="Real", path=b"/dev/hidraw0")
+    recorded = Recording([PAD._replace(name="Recorded")], descriptor, rows)
+    begin = monotonic()
+    backend = RecordedDevices([recorded], monotonic, lambda: begin, FakeBackend(pad))
+    sections = [{"device": {"name": "Recorded"}}, {"device": {"name": "Real"}, "controls": {"X": {"axis": "tilt"}}}]
+    with open_inputs([InputSection.model_validate(each) for each in sections], monotonic, backend) as inputs:
+
+        def asks(number: int, report: bytes, axis: Axis, deflection: float) -> bool:
+            pad.report(report)
+            held = inputs[number].read(monotonic())
+            return not held.trouble and held.deflections.get(axis) == deflection
+
+        wait_until(lambda: asks(1, rest, Axis.TILT, 0), "the real one at rest")
+        wait_until(lambda: asks(0, rest, Axis.PAN, 1), "the recorded one pushed")
+        wait_until(lambda: asks(1, right, Axis.TILT, 1), "the real one pushed")

@@ -3,8 +3,9 @@
 import pytest
 from fake_hid import real
 
+from teleop.inputs.hid.cadence import STEADY
 from teleop.inputs.hid.descriptor.parser import parse_descriptor
-from teleop.inputs.hid.state import STEADY, HidState, Sample
+from teleop.inputs.hid.state import HidState, Sample
 
 
 def state_of(name: str, bus: str = "") -> HidState:
@@ -95,9 +96,9 @@ def test_several_reports_make_one_device() -> None:
 def test_a_device_that_repeats_itself_reports_all_the_time() -> None:
     state = state_of("Logitech F310")
     take(state, *[F310_REST] * STEADY)
-    assert not state.steady
+    assert not state.cadence.steady
     take(state, F310_REST)
-    assert state.steady
+    assert state.cadence.steady
 
 
 def test_one_that_reports_changes_never_repeats_itself() -> None:
@@ -105,7 +106,7 @@ def test_one_that_reports_changes_never_repeats_itself() -> None:
     for index in range(200):
         take(state, F310_REST if index % 2 else "807f7f7f08000000")
         state.take(bytes.fromhex(F310_REST), index, asked=True)
-    assert not state.steady
+    assert not state.cadence.steady
 
 
 def test_when_it_reported_last_and_when_something_new() -> None:
@@ -145,8 +146,8 @@ def test_how_long_a_silence_is_normal_is_learned_from_the_device(interval: float
     state = HidState(parse_descriptor(bytes.fromhex(real("Logitech F310")["descriptor"])))
     for index in range(12):
         state.take(bytes.fromhex("7f7f7f7f08000000"), index * interval)
-    assert state.patience == pytest.approx(patience)
-    assert state.has_heartbeat is (0.2 < interval < 1)
+    assert state.cadence.patience == pytest.approx(patience)
+    assert state.cadence.has_heartbeat is (0.2 < interval < 1)
 
 
 def test_a_roll_onto_a_diagonal_queues_no_press_of_the_neighbor() -> None:
@@ -158,3 +159,11 @@ def test_a_roll_onto_a_diagonal_queues_no_press_of_the_neighbor() -> None:
         ("Hat switch up", 1),
         ("Hat switch up", 0),
     ]
+
+
+def test_a_report_without_controls_that_is_repeated_says_nothing_of_those_before() -> None:
+    state = HidState(parse_descriptor(bytes.fromhex(real("Logitech F310")["descriptor"])))
+    state.take(bytes.fromhex(F310_REST), 1.0)
+    for time in (2.0, 2.1, 2.2):
+        state.take(b"", time)
+        assert (state.last, state.opaque) == (1.0, (0, time))

@@ -8,8 +8,8 @@ from waiting import wait_until
 
 from teleop.config.inputs_section import InputSection
 from teleop.core.operator_input import Held
+from teleop.inputs.hid.cadence import STEADY
 from teleop.inputs.hid.device import HidInput, open_inputs
-from teleop.inputs.hid.state import STEADY
 
 STICKS = "05010904a10185010930093109320935150026ff00750895048102"
 VENDOR = "0600ff85310931750895048102"  # as a vendor's own report, which nothing can be read of

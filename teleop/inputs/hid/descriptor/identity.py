@@ -16,7 +16,8 @@ from teleop.inputs.hid.descriptor.fields import VENDOR_PAGES, Field
 from teleop.inputs.hid.descriptor.names import usage_name
 
 Usage = tuple[int, int]
-STICKS: frozenset[Usage] = frozenset({(0x01, 0x04), (0x01, 0x05), (0x01, 0x08)})  # joystick, gamepad, multi-axis
+MULTI_AXIS: Usage = (0x01, 0x08)
+STICKS: frozenset[Usage] = frozenset({(0x01, 0x04), (0x01, 0x05), MULTI_AXIS})  # joystick, gamepad, multi-axis
 NOT_STICKS: frozenset[Usage] = frozenset({(0x01, 0x01), (0x01, 0x02), (0x01, 0x06), (0x01, 0x07)})
 """Pointer, mouse, keyboard, keypad: a mapping for these is never guessed."""
 
