@@ -6,8 +6,12 @@ Made from the sections that check a file; the docstrings of their fields are the
 
 from __future__ import annotations
 
+import ast
+import inspect
+import textwrap
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from itertools import pairwise
+from typing import Any, cast
 
 from teleop.config.documents.base_model import Section
 
@@ -39,11 +43,43 @@ KINDS: Mapping[str, Callable[[], type[Section]]] = {"sequence": _sequence, "prof
 def schema(kind: str) -> dict[str, Any]:
     """The schema of a kind of file."""
     made = KINDS[kind]().model_json_schema(by_alias=True)
+    sections = {section.__name__: section for section in _sections(Section)}
+    for part in _objects(made):
+        if section := sections.get(part.get("title", "")):
+            _describe(part.get("properties", {}), section)
     for part in _objects(made):
         part.pop("title", None)
         if "description" in part:
             part["description"] = " ".join(part["description"].split())
     return {"$schema": DIALECT, "title": f"teleop {kind}", **made}
+
+
+def _sections(section: type[Section]) -> Iterator[type[Section]]:
+    for each in section.__subclasses__():
+        yield each
+        yield from _sections(each)
+
+
+def _describe(properties: dict[str, dict[str, Any]], section: type[Section]) -> None:
+    """Give each property the docstring of its field."""
+    said = {name: text for each in reversed(section.__mro__) for name, text in _docstrings(each).items()}
+    for name, field in section.model_fields.items():
+        if name in said:
+            key = field.alias or name
+            properties[key] = {"description": said[name], **properties[key]}
+
+
+def _docstrings(section: type) -> dict[str, str]:
+    """What follows each annotation of a class, read from its source."""
+    if section.__module__.partition(".")[0] != "teleop":
+        return {}
+    (definition,) = ast.parse(textwrap.dedent(inspect.getsource(section))).body
+    found = {}
+    for field, text in pairwise(cast("ast.ClassDef", definition).body):
+        match field, text:
+            case ast.AnnAssign(target=ast.Name(name)), ast.Expr(ast.Constant(str(said))):
+                found[name] = inspect.cleandoc(said)
+    return found
 
 
 def _objects(part: Any) -> Iterator[dict[str, Any]]:

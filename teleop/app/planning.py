@@ -13,7 +13,7 @@ from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis
 from teleop.core.errors import UsageError
-from teleop.recording.writer import ENDING
+from teleop.recording import ENDING
 from teleop.sequence.compile import CompiledSequence, load_sequence
 
 if TYPE_CHECKING:
@@ -55,7 +55,9 @@ def plan_file(file: str, profile: Profile, share: float = 1.0) -> Plan:
     except UnplayableError as error:
         if share == 1:
             raise
-        raise UnplayableError([*error.problems, f"{file}: was planned with {share:.0%} of the rig's limits"]) from None
+        raise UnplayableError(
+            [*error.problems, f"{file}: was planned with {share:.0%} of the rig's limits"], error.more
+        ) from None
 
 
 def plan_content(content: Mapping[str, Any], profile: Profile) -> Plan:

@@ -194,11 +194,12 @@ def _read(path: Path) -> str:
 def _print_table(listing: Listing) -> None:
     from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
 
     console = Console()
     table = Table("kind", "in a profile", "description", box=None, header_style="bold")
     for device in listing.devices:
-        table.add_row(device.kind, "\n".join(device.names), device.description)
+        table.add_row(*map(Text, (device.kind, "\n".join(device.names), device.description)))
     console.print(table if listing.devices else "nothing is plugged in")
     for note in listing.notes:
         print(note, file=sys.stderr)

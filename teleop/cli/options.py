@@ -13,11 +13,12 @@ from cyclopts import Parameter, Token
 
 from teleop.app.planning import Plan, plan_file
 from teleop.cli.completion import offered
+from teleop.cli.screens.busy import busy
 from teleop.cli.screens.folded import complain, tell
 from teleop.config.documents.document import DocumentError
 from teleop.config.files import is_stdout
 from teleop.config.profile import Profile, load_profile
-from teleop.recording.writer import ENDING
+from teleop.recording import ENDING
 
 MOVES, RIGS = offered("sequences", ".yaml", ".yml", ENDING), offered("profiles", ".yaml", ".yml")
 
@@ -66,10 +67,13 @@ class Options:
         Raises DocumentError, and with --json prints it.
         """
         try:
-            plan = plan_file(file, self.profile(), share)
+            profile = self.profile()
+            with busy("Planning"):
+                plan = plan_file(file, profile, share)
         except DocumentError as error:
             if self.json:
-                print(json.dumps({"ok": False, "problems": error.problems}))
+                more = {"more": error.more} if error.more else {}
+                print(json.dumps({"ok": False, "problems": error.problems, **more}))
             raise
         print_warnings(plan.warnings)
         return plan

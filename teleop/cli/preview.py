@@ -19,9 +19,11 @@ from teleop.app.planning import Plan
 from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json, print_warnings
 from teleop.cli.own_files import check_own
 from teleop.cli.shipped_files import named
+from teleop.cli.signals import unwound_by_signals
 from teleop.config.files import replacing
 from teleop.config.frame_rates import exact_rate
 from teleop.core.errors import UsageError
+from teleop.core.timing import SAME_TIME
 from teleop.sequence.compile import CompiledSequence
 
 if TYPE_CHECKING:
@@ -77,7 +79,7 @@ def _write(file: str, options: Options, writes: Mapping[Path, Write], watch: Wat
         print_warnings(performance.warnings)
     written = []
     for path, write in writes.items():
-        with replacing(path) as stream:
+        with unwound_by_signals(), replacing(path) as stream:
             write(plan, stream, watch)
             written.append({"path": str(path), "bytes": stream.tell()})
         if not options.json:
@@ -152,15 +154,21 @@ def _table(rate: float) -> Write:
 
 def _progress(performance: CompiledSequence, rate: float) -> Iterator[str]:
     """The table's text, with a bar on a terminal: a day takes a minute."""
+    import numpy as np
     from rich.console import Console
     from rich.progress import Progress
 
     from teleop.plots.table import header, lines
 
     move, console = performance.move, Console(stderr=True)
+    last = 0.0
     yield header(list(move.tracks))
     with Progress(console=console, transient=True, disable=not console.is_terminal or console.is_dumb_terminal) as bar:
         task = bar.add_task("Writing", total=move.duration or None)
         for times, samples in move.chunks(rate):
             yield from lines([(times, samples)])
-            bar.update(task, completed=float(times[-1]))
+            last = float(times[-1])
+            bar.update(task, completed=last)
+        if last < move.duration - SAME_TIME:  # the last row is the end, on the rate's grid or not
+            end = np.array([move.duration])
+            yield from lines([(end, move.sample(end))])

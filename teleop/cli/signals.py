@@ -58,6 +58,34 @@ def signals_to(
             process.run_ends()
 
 
+@contextlib.contextmanager
+def unwound_by_signals() -> Iterator[None]:
+    """A signal that would end the process at once first leaves the block, so that nothing half written stays behind."""
+    ending: list[int] = []
+
+    def unwind(number: int, _frame: FrameType | None) -> None:
+        ending.append(number)
+        raise _Unwound
+
+    numbers = [each for each in _known((*STOPPING[1:], *LEAVING)) if signal.getsignal(each) == signal.SIG_DFL]
+    if threading.current_thread() is not threading.main_thread():
+        numbers = []  # no other may have handlers
+    for number in numbers:
+        signal.signal(number, unwind)
+    try:
+        yield
+    except _Unwound:
+        signal.signal(ending[0], signal.SIG_DFL)
+        os.kill(os.getpid(), ending[0])
+    finally:
+        for number in numbers:
+            signal.signal(number, signal.SIG_DFL)
+
+
+class _Unwound(BaseException):
+    """A signal has come."""
+
+
 class _Desk:
     """Where the signals of a run come in."""
 

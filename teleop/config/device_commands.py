@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from teleop.config.documents.messages import nearest
 from teleop.core.events import DeviceCommand
-from teleop.dji.gimbal.command_table import RIG, find
 
 DRONE = "drone"
 DRONE_COMMANDS = (
@@ -24,6 +23,8 @@ def parse_command(text: str) -> DeviceCommand:
         if name not in DRONE_COMMANDS:
             raise ValueError(f"unknown command {text}{nearest(name, DRONE_COMMANDS)}")
         return DeviceCommand(DRONE, name)
+    from teleop.dji.gimbal.command_table import RIG, find  # only a file with such commands needs the protocol
+
     find(words)
     name = [word for word in words if "=" not in word]
     full = " ".join(name) if name[0] in RIG.devices else RIG.full_name(words)

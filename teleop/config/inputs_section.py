@@ -17,8 +17,8 @@ from teleop.config.documents.base_model import Finite, Section
 from teleop.config.documents.document import DocumentError, Location, Wrong, mapping, sequence
 from teleop.config.resources import find
 from teleop.core.axes import STICKS, Axis
+from teleop.core.errors import TeleopError
 from teleop.core.operator_input import Command
-from teleop.dji.message import FieldError
 
 PADS = "profiles/pads"  # where the shipped mappings lie
 DIRECTIONS = ("up", "right", "down", "left")
@@ -261,7 +261,7 @@ def _action_rules(action: Mapping[str, Any], here: Location, axes: Mapping[str, 
 def _command_error(command: str) -> str:
     try:
         parse_command(command)
-    except (ValueError, FieldError) as error:
+    except (ValueError, TeleopError) as error:
         return f": {error}"
     return ""
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from teleop.config.documents.document import Location, Wrong, mapping, number, sequence
-from teleop.config.sinks_section import DRONES, FLIGHT_MODES, MOVES, combination_of
+from teleop.config.sinks_section import DRONES, MOVES
 from teleop.core.axes import STICKS, Axis
 from teleop.links.url import LinkUrlError, parse
 
@@ -80,8 +80,15 @@ def _drone_rules(sink: Mapping[str, Any], kind: str, here: Location, data: Any) 
         yield (*here, "link"), f"must be the drone's alone, and {others[0]} is on {link} too"
     if _is_bus(mapping(data, "links").get(link)):
         yield ("links", link), "must be a serial line, as a drone's is: serial:/dev/ttyUSB0@230400, or sim:"
+    if kind == "flight":
+        yield from _flight_rules(sink, here)
+
+
+def _flight_rules(sink: Mapping[str, Any], here: Location) -> Iterator[Wrong]:
+    from teleop.config.flight_modes import FLIGHT_MODES, combination_of  # only a rig that flies needs the protocol
+
     mode, vertical, yaw = sink.get("mode"), sink.get("vertical", "velocity"), sink.get("yaw", "rate")
-    if kind == "flight" and isinstance(mode, str) and mode in FLIGHT_MODES:
+    if isinstance(mode, str) and mode in FLIGHT_MODES:
         if vertical not in ("velocity", "height") or yaw not in ("rate", "angle"):
             return
         ranges = combination_of(mode, vertical, yaw).ranges

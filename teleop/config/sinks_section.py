@@ -14,24 +14,12 @@ from teleop.config.documents.base_model import NoTruth, Section
 from teleop.config.simulated_section import SimulatedSection
 from teleop.config.wiring import Angle, AngleOrder, Sign, Wiring
 from teleop.core.axes import STICKS, Axis
-from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, ReferenceFrame, Vertical, Yaw
-from teleop.dji.drone.virtual_rc import CENTER, DEFLECTION
 
 DRONES = ("virtual-rc", "flight")
-FLIGHT_MODES: Mapping[str, tuple[Horizontal, ReferenceFrame]] = {
-    "velocity-body": (Horizontal.VELOCITY, ReferenceFrame.BODY),
-    "velocity-ground": (Horizontal.VELOCITY, ReferenceFrame.GROUND),
-    "tilt": (Horizontal.TILT, ReferenceFrame.BODY),
-    "tilt-ground": (Horizontal.TILT, ReferenceFrame.GROUND),
-    "offset-body": (Horizontal.POSITION, ReferenceFrame.BODY),
-    "offset-ground": (Horizontal.POSITION, ReferenceFrame.GROUND),
-}
-"""What the horizontal sticks are; offsets are for sequences."""
-
 Magnitude = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
 Rate = Annotated[Literal[1, 2, 4, 5, 10, 20, 25, 50, 100], NoTruth]  # Hz: whole numbers of the loop's ticks
-Channel = Annotated[int, Field(ge=CENTER - DEFLECTION, le=CENTER + DEFLECTION)]
+Channel = Annotated[int, Field(ge=364, le=1684)]  # docs/protocol-facts.md
 LowBattery = Annotated[int, Field(ge=10, le=90)]
 
 MOVES: Mapping[str, Sequence[Axis]] = {
@@ -227,22 +215,5 @@ class FlightSection(Section):
     low_battery: LowBattery = 25
     """Battery level in % below which the drone is not taken and control is released."""
 
-    @property
-    def frame(self) -> ReferenceFrame:
-        return FLIGHT_MODES[self.mode][1]
-
-    @property
-    def combination(self) -> Combination:
-        return combination_of(self.mode, self.vertical, self.yaw)
-
 
 SinkSection = GimbalSection | FocusSection | CameraSection | VirtualRcSection | FlightSection
-
-
-def combination_of(mode: str, vertical: str, yaw: str) -> Combination:
-    """The control mode of a flight section with these keys; raises ValueError for one that the drone lacks."""
-    up = Vertical.VELOCITY if vertical == "velocity" else Vertical.POSITION
-    made = Combination(FLIGHT_MODES[mode][0], up, Yaw.RATE if yaw == "rate" else Yaw.ANGLE)
-    if made not in COMBINATIONS:
-        raise ValueError(f"the drone has no mode {made}")
-    return made

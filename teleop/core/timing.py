@@ -7,6 +7,7 @@ from dataclasses import dataclass
 RATE = 100  # Hz, of ticks
 PERIOD = 1 / RATE  # s, of a tick
 KEEP_ALIVE = 0.4  # s: the longest a resting loop sleeps; a gimbal forgets a speed after 0.5 s
+SAME_TIME = 1e-6  # s: two times that are closer are the same, whatever they were added up from
 FIRST_REPORT = 2.0  # s to wait for the first report of every axis in use
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from teleop.config.credentials import APP_KEY, load_credentials
 from teleop.config.documents.document import DocumentError
+from teleop.config.flight_modes import FLIGHT_MODES, combination_of
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import (
     MOVES,
@@ -290,7 +291,8 @@ def _virtual_rc(section: VirtualRcSection, connection: Connection, limits: Mappi
 
 def _flight(section: FlightSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
     site = Site(section.guidance, section.indoors)
-    mode = MovementControl(connection, section.combination, section.frame, section.full_scale.model_dump(), site)
+    combination, frame = combination_of(section.mode, section.vertical, section.yaw), FLIGHT_MODES[section.mode][1]
+    mode = MovementControl(connection, combination, frame, section.full_scale.model_dump(), site)
     return _drone(section, mode, connection)
 
 

@@ -14,9 +14,9 @@ from dataclasses import dataclass, field
 
 from teleop.core.axes import Axis, Motion
 from teleop.core.events import Tick
+from teleop.core.timing import SAME_TIME
 from teleop.monitors.tracking_error import Score
 
-SAME = 1e-6  # s: times of two passes that are closer are the same
 Place = tuple[int, float]  # the pass, from 1, and the move's own time in s
 
 
@@ -41,10 +41,10 @@ class Trace:
 
     def at(self, time: float) -> float | None:
         """Where it was, between the two positions around `time`; None outside."""
-        after = bisect_left(self._times, time - SAME)
+        after = bisect_left(self._times, time - SAME_TIME)
         if after == len(self._times):
             return None
-        if self._times[after] <= time + SAME:
+        if self._times[after] <= time + SAME_TIME:
             return self._positions[after]
         if after == 0:
             return None

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from teleop.config.frame_rates import shown_rate
 from teleop.config.profile import Profile
@@ -96,7 +97,7 @@ def _interval(timelapse: Timelapse) -> dict[str, Any]:
     }
 
 
-def _kept(rows: Array) -> tuple[Array, Array]:
+def _kept(rows: Array) -> tuple[Array, NDArray[np.intp]]:
     """The rows (k, n) at few enough frames to draw, and which frames those are."""
     count = rows.shape[1]
     kept = np.arange(count) if count <= MOST else outline(rows)

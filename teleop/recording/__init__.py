@@ -1,1 +1,4 @@
 """Takes: recorded, read back, reported, replayed. Nothing here opens a port."""
+
+ENDING = ".mcap"
+"""Of a take's file."""

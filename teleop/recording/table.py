@@ -14,10 +14,10 @@ from itertools import chain
 from pathlib import Path
 from typing import Any, TextIO
 
+from teleop.core.timing import SAME_TIME
 from teleop.recording.messages import Line, Messages, reading_errors
 
 HELD = 1.0  # s that a row waits for what was measured at its time; a device that is silent for longer is lost
-SAME = 1e-6  # s
 
 Row = dict[str, Any]
 
@@ -71,7 +71,7 @@ def _rows(lines: Iterable[Line], axes: Sequence[str]) -> Iterator[Row]:
         elif topic == "/actions" and waiting:
             done = content.get("words") or content["action"]
             waiting[-1]["actions"] = "; ".join(filter(None, [waiting[-1]["actions"], done]))
-        if topic in ("/sticks", "/demand") and waiting and waiting[-1]["time"] >= time - SAME:
+        if topic in ("/sticks", "/demand") and waiting and waiting[-1]["time"] >= time - SAME_TIME:
             waiting[-1].update(_asked(waiting[-1], sticks, demand, axes))
     yield from waiting
 
@@ -101,7 +101,7 @@ def _measured(waiting: deque[Row], time: float, content: Mapping[str, float]) ->
     """Put it into the first row that is not before it; whether there was one."""
     found: Row | None = None
     for row in reversed(waiting):
-        if row["time"] < time - SAME:
+        if row["time"] < time - SAME_TIME:
             break
         found = row
     if found is None:

@@ -22,10 +22,10 @@ from teleop.core.clock import date
 from teleop.core.errors import UsageError
 from teleop.core.events import Tick
 from teleop.core.run_state import Result
+from teleop.recording import ENDING
 from teleop.recording.format import NO_SEQUENCE, About, TakeWriter
 from teleop.recording.played import SequenceFacts
 
-ENDING = ".mcap"
 CAPACITY = 6000  # ticks in the queue: a minute of a disk that does not answer
 POLL = 0.1  # s between looks at the queue
 FLUSH = 8  # looks between flushes: what kill -9 loses is younger than a second

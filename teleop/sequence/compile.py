@@ -15,18 +15,20 @@ from teleop.config.documents.document import ENTRIES, Document, DocumentError, U
 from teleop.config.quantities import seconds
 from teleop.config.resources import find
 from teleop.core.axes import Axis, Limits
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.findings import Infeasible
 from teleop.planner.keyframes.planner import Key, plan, stretch
-from teleop.planner.keyframes.rests import SAME, Rest, rests
+from teleop.planner.keyframes.rests import AT_REST, Rest, rests
 from teleop.planner.trajectory import Move
 from teleop.sequence.aim import ON_THE_WAY
 from teleop.sequence.cues import Cue, Wait
 from teleop.sequence.keys import Keys
 from teleop.sequence.model import PREROLL, SequenceModel
 from teleop.sequence.reader import SequenceReader
+from teleop.sequence.refusal import Found, refusal
 from teleop.sequence.tables.section import WHERE
 from teleop.sequence.tables.timed_frames import TimedFrames
-from teleop.sequence.timeline import Origin, Timed, Timeline
+from teleop.sequence.timeline import Origin, Timed
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ def load_sequence(
     try:
         keys, move, factor = _planned(timeline.keys, model, {axis: limits[axis] for axis in timeline.keys})
     except Infeasible as error:
-        raise UnplayableError(_refusals(timeline, error)) from None
+        raise refusal(error, timeline.places, _text) from None
     cues = [timed._replace(cue=timed.cue._replace(at=factor * timed.cue.at)) for timed in timeline.cues]
     if problems := [text for aimed in timeline.aims if (text := aimed.problem(move, factor))]:
         raise UnplayableError(problems)
@@ -122,15 +124,11 @@ def _is_of_table(place: Origin) -> bool:
     return place.location[:1] == (WHERE,) or str(place.location[:1][0]).startswith("frame ")
 
 
-def _refusals(timeline: Timeline, error: Infeasible) -> list[str]:
-    """A line for each finding, at its key; the keys of one aim stand in no file, and are one."""
-    lines = []
-    for found in error.findings:
-        text = str(found)
-        if ON_THE_WAY in found.first or ON_THE_WAY in found.last:
-            text = f"{found.axis} cannot keep the target in sight: the base is too fast there; use more time"
-        lines.append(timeline.places[found.last].line(text))
-    return list(dict.fromkeys(lines))
+def _text(found: Found) -> str:
+    """What is wrong; the keys of one aim stand in no file, and are one."""
+    if ON_THE_WAY in found.first or ON_THE_WAY in found.last:
+        return f"{found.axis} cannot keep the target in sight: the base is too fast there; use more time"
+    return str(found)
 
 
 def _planned(keys: Keys, model: SequenceModel, limits: Mapping[Axis, Limits]) -> tuple[Keys, Move, float]:
@@ -145,8 +143,8 @@ def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
     """A line for each cue that needs rest and has none, with what would be right."""
     places = rests(move)
     for (at, action), needs_rest, place in cues:
-        held = [axis for axis, state in move.at(at).items() if axis.is_stick and abs(state.position) > SAME]
-        if needs_rest and not any(rest.start - SAME <= at <= rest.end + SAME for rest in places):
+        held = [axis for axis, state in move.at(at).items() if axis.is_stick and abs(state.position) > AT_REST]
+        if needs_rest and not any(rest.start - SAME_TIME <= at <= rest.end + SAME_TIME for rest in places):
             yield place.line(f"{path_text(place.location)} {_where_it_may_be(move, places, at)}")
         elif isinstance(action, Wait) and held:
             text = f"holds {' and '.join(held)} deflected, so the drone keeps flying: bring it to 0 before"
@@ -155,7 +153,7 @@ def _restless(cues: Sequence[Timed], move: Move) -> Iterator[str]:
 
 def _where_it_may_be(move: Move, places: Sequence[Rest], at: float) -> str:
     """Why a cue may not be `at` its time (s), and the nearest rests before and after it."""
-    moving = [axis for axis, state in move.at(at).items() if abs(state.velocity) > SAME] or list(move.tracks)
+    moving = [axis for axis, state in move.at(at).items() if abs(state.velocity) > AT_REST] or list(move.tracks)
     before = max((rest.end for rest in places if rest.end < at), default=None)
     after = min((rest.start for rest in places if rest.start > at), default=None)
     times = " or ".join(f"{time:g} s" for time in (before, after) if time is not None)

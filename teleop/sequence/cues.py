@@ -19,13 +19,9 @@ from teleop.config.documents.document import Location, Wrong, mapping
 from teleop.config.documents.json_types import Time
 from teleop.core.axes import Axis
 from teleop.core.events import Action, DeviceCommand, TickEvent
-from teleop.dji.gimbal import camera, focus
-from teleop.dji.gimbal import messages as gimbal
-from teleop.dji.gimbal.command_table import find, is_taken_back
-from teleop.dji.message import FieldError, Message
+from teleop.core.timing import SAME_TIME
 
 LASTING = ((Action.RECORD, Action.STOP), (Action.FOCUS, Action.END_FOCUS))  # what begins it, and ends it
-INSTANT = 1e-6  # s: two times that are closer are the same
 KINDS = ("camera", "follow", "recenter", "send", "wait")
 FOLLOW: Mapping[str, DeviceCommand] = {
     "lock": DeviceCommand("gimbal", "follow lock"),
@@ -35,15 +31,6 @@ FOLLOW: Mapping[str, DeviceCommand] = {
 }
 CENTERED = (Axis.PAN, Axis.TILT, Axis.ROLL)
 """What a recenter takes to 0, and what moves when the gimbal does something by itself."""
-
-_BY_ITSELF = (gimbal.Calibrate, gimbal.ActiveTrack, gimbal.Orient)
-_CAMERA = {
-    camera.CameraCommand.RECORD: Action.RECORD,
-    camera.CameraCommand.STOP: Action.STOP,
-    camera.CameraCommand.SHUTTER: Action.SHUTTER,
-    camera.CameraCommand.CENTER_FOCUS: Action.FOCUS,
-    camera.CameraCommand.END_CENTER_FOCUS: Action.END_FOCUS,
-}
 
 
 class CueSection(Section):
@@ -83,9 +70,11 @@ class CueSection(Section):
     @property
     def needs_rest(self) -> bool:
         """Whether it may be only where every axis rests; a command for the camera may be anywhere."""
-        return bool(self.follow or self.wait) or (
-            self.send is not None and not find(self.send.split()).name.startswith("camera.")
-        )
+        if self.send is None:
+            return bool(self.follow or self.wait)
+        from teleop.sequence.sent_commands import is_for_camera
+
+        return not is_for_camera(self.send)
 
 
 class Wait(NamedTuple):
@@ -116,7 +105,7 @@ def cues_from(cues: Sequence[Cue], start_at: float) -> tuple[list[TickEvent], li
     What came before is not made up for, but for what would be going on by then: the camera records, or focuses, as the
     run-up begins, and the gimbal has its follow mode.
     """
-    before = [cue.action for cue in cues if cue.at < start_at - INSTANT]
+    before = [cue.action for cue in cues if cue.at < start_at - SAME_TIME]
     follows = [
         act
         for act in before
@@ -135,8 +124,11 @@ def cue_rules(cue: Any, here: Location) -> Iterator[Wrong]:
     if isinstance(cue, dict) and len(given) != 1 and cue.keys() <= {"at", *KINDS}:
         yield here, f"must have one of {', '.join(KINDS)}{', not ' + ' and '.join(given) if given else ''}"
     words = mapping(cue).get("send")
-    if isinstance(words, str) and (wrong := _unsendable(words)):
-        yield (*here, "send"), wrong
+    if isinstance(words, str):
+        from teleop.sequence.sent_commands import unsendable
+
+        if wrong := unsendable(words):
+            yield (*here, "send"), wrong
 
 
 def moved_rules(cue: Any, here: Location, moved: Collection[str]) -> Iterator[Wrong]:
@@ -145,33 +137,9 @@ def moved_rules(cue: Any, here: Location, moved: Collection[str]) -> Iterator[Wr
     if mapping(cue).get("recenter") is not None and not turns:
         yield (*here, "recenter"), "needs a keyframe with pan, tilt or roll"
     words = mapping(cue).get("send")
-    message = find(words.split()) if words else None
-    if isinstance(message, _BY_ITSELF) and turns:
-        yield (*here, "send"), "moves the gimbal by itself, against the keyframes"
-    if isinstance(message, focus.Calibrate) and Axis.FOCUS in moved:
-        yield (*here, "send"), "moves the focus motor by itself, against the keyframes"
+    if words:
+        from teleop.sequence.sent_commands import moves_by_itself
 
-
-def _unsendable(words: str) -> str:
-    try:
-        message = find(words.split())
-        message.check()
-    except FieldError as error:
-        return f": {error}"
-    if isinstance(message, camera.Command | camera.ShortCommand) and message.command in _CAMERA:
-        return f"must be written as camera: {_CAMERA[camera.CameraCommand(message.command)].value}"
-    if is_taken_back(message):
-        return f"conflicts with the motion of the run: {_instead(message)}"
-    return ""
-
-
-def _instead(message: Message) -> str:
-    match message:
-        case gimbal.Mode(action=gimbal.CenterAction.RECENTER):
-            return "write recenter: 3s"
-        case gimbal.Dial():
-            return "a dial is for teleop live"
-        case focus.Set():
-            return "write focus: into a keyframe"
-        case _:
-            return "write pan:, tilt: and roll: into a keyframe"
+        device = moves_by_itself(words)
+        if (device == "gimbal" and turns) or (device == "focus motor" and Axis.FOCUS in moved):
+            yield (*here, "send"), f"moves the {device} by itself, against the keyframes"

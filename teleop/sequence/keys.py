@@ -8,13 +8,13 @@ from dataclasses import replace
 from teleop.config.documents.document import Document, numbered
 from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.keys import Key
 from teleop.sequence.aim import Scene
 from teleop.sequence.cues import CENTERED
 from teleop.sequence.easing import ramps
 from teleop.sequence.model import SequenceModel
 
-SAME = 1e-6  # s: times that are closer are the same
 Keys = Mapping[Axis, Sequence[Key]]
 
 
@@ -67,20 +67,20 @@ def recentered(keys: Keys, limits: Mapping[Axis, Limits], at: float, duration: f
 def _with_center(
     axis: Axis, keys: Sequence[Key], limits: Limits, at: float, duration: float, where: str
 ) -> Sequence[Key]:
-    before = [key for key in keys if key.at <= at + SAME]
+    before = [key for key in keys if key.at <= at + SAME_TIME]
     after = list(keys[len(before) :])
     last = before[-1] if before else replace(after[0], at=0.0, hold=0.0)
     rested, stops = last.at + last.hold, last.stop or last.hold > 0 or len(before) == 1 or not after
-    if rested > at + SAME:
+    if rested > at + SAME_TIME:
         raise KeysError(f"begins while {last.where} holds {axis} (until {rested:g} s)")
-    if before and after and (not stops or at > rested + SAME) and after[0].position != last.position:
+    if before and after and (not stops or at > rested + SAME_TIME) and after[0].position != last.position:
         rest = f"it rests until {rested:g} s" if stops else f"add `pass: stop` to {last.where}"
         raise KeysError(f"begins while {axis} moves to {after[0].where}; {rest}")
-    if after and after[0].at <= at + duration + SAME:
+    if after and after[0].at <= at + duration + SAME_TIME:
         raise KeysError(f"must end before {after[0].where} ({after[0].at:g} s), where {axis} is elsewhere")
     whole = 360.0 * round(last.position / 360) if limits.continuous else 0.0
     start = replace(last, at=at, hold=0.0, stop=True, where=where)
-    if before and rested >= at - SAME:
+    if before and rested >= at - SAME_TIME:
         before[-1] = replace(last, stop=True)
     else:
         before.append(start)

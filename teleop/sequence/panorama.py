@@ -19,10 +19,12 @@ from teleop.config.documents.document import Wrong, mapping, number, numbered, s
 from teleop.config.documents.json_types import MOST_OVERLAP, Overlap, Time
 from teleop.config.quantities import percentage, seconds
 from teleop.core.axes import Axis, Limits
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.keys import Key
 
 WHERE = "panorama"
 MOST = 2000  # frames
+STILL = 0.5  # s, before each shutter and after it, unless the file says otherwise
 BIGGEST = 1e6  # deg: what is beyond is for others to refuse
 ROUNDING = 1e-9  # of a frame: what is that close to a whole number is one
 TIMES = ("at", "every", "settle", "exposure")
@@ -44,9 +46,9 @@ class PanoramaSection(Section):
     """First and last edge of the picture in deg, up and down."""
     every: Time
     """Time from one shutter to the next: `3s`."""
-    settle: Time = 0.5
+    settle: Time = STILL
     """Rest before the shutter: `0.5s`."""
-    exposure: Time = 0.5
+    exposure: Time = STILL
     """Rest after the shutter: `0.5s`."""
     at: Time = 0
     """Time at which the panorama begins."""
@@ -117,10 +119,15 @@ def shots(section: PanoramaSection, fps: float | None) -> Shots:
     return Shots(keys, shutters)
 
 
+def still_seconds(section: Mapping[str, Any], fps: float | None) -> float:
+    """How long the axes rest at each shot, in s."""
+    return sum(seconds(section.get(name, STILL), fps) for name in ("settle", "exposure"))
+
+
 def panorama_rules(data: Any, fps: float | None) -> Iterator[Wrong]:
     """What is wrong with a panorama beyond its single values."""
     section = mapping(data, WHERE)
-    given: dict[str, float] = {"settle": 0.5, "exposure": 0.5}
+    given: dict[str, float] = {"settle": STILL, "exposure": STILL}
     for name in TIMES:
         try:
             if name in section:
@@ -131,7 +138,7 @@ def panorama_rules(data: Any, fps: float | None) -> Iterator[Wrong]:
         if (ends := _pair(section, name)) and abs(ends[1] - ends[0]) > most:
             yield (WHERE, name), f"must be at most {most:g} deg from edge to edge"
     still = given["settle"] + given["exposure"]
-    if "every" in given and given["every"] <= still:
+    if "every" in given and given["every"] < still + SAME_TIME:
         yield (WHERE, "every"), f"must be longer than settle and exposure ({still:g} s), or there is no time to move"
     try:
         overlap = percentage(section.get("overlap", "30%"))

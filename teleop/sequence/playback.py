@@ -15,6 +15,7 @@ from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import replace
 
 from teleop.core.axes import Axis, Limits, State
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.time_scaling import TimeScaling, at_most, change_rate, go_to, run_up, state_at, steady
 from teleop.planner.trajectory import Move
@@ -24,7 +25,6 @@ LATER = 2.0  # times further ahead when it was found too late
 WRITTEN = 1.0  # the speed that a move was written for
 FASTEST = 2.0  # times the speed that a move was written for
 ASK_AGAIN = 0.05  # s between two looks at a paused move
-_INSTANT = 1e-6  # s: times on the loop's grid that are closer are the same
 
 Search = Callable[[TimeScaling, float], TimeScaling]  # from the present pace, for a change at that time
 
@@ -111,7 +111,7 @@ class Playback:
 
     def changing(self, now: float) -> bool:
         """Whether a change of speed is going on, or being searched for."""
-        return self._search is not None or now < self._pace.start + self._pace.duration - _INSTANT
+        return self._search is not None or now < self._pace.start + self._pace.duration - SAME_TIME
 
     def speed(self, rate: float, now: float) -> None:
         """To `rate` (0..2, 1 is 100 %), now or after the pause."""
@@ -190,9 +190,9 @@ class Playback:
             self.refusal = str(error)
             self._search = self._found = None
             return
-        if now < pace.start - _INSTANT:
+        if now < pace.start - SAME_TIME:
             return
-        if self._read > pace.start + _INSTANT:  # found after its beginning: the move has gone on at the old pace
+        if self._read > pace.start + SAME_TIME:  # found after its beginning: the move has gone on at the old pace
             self._ahead *= LATER
             self._begin_search(now)
             return

@@ -6,10 +6,10 @@ import math
 from bisect import bisect_right
 
 from teleop.core.run_status import NextCue, NextKey, RunStatus
+from teleop.core.timing import SAME_TIME
 from teleop.sequence.phases import SequencePhase
 from teleop.sequence.source import SequenceSource
 
-_INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 _LABELS = {
     SequencePhase.EASING: "to the start",
     SequencePhase.PREROLL: "starts in",
@@ -79,7 +79,7 @@ def _runs_up(sequence: SequenceSource, now: float) -> bool:
 
 def _next_key(sequence: SequenceSource, elapsed: float) -> NextKey | None:
     times = sequence.key_times
-    index = bisect_right(times, elapsed + _INSTANT)
+    index = bisect_right(times, elapsed + SAME_TIME)
     return NextKey(index + 1, times[index]) if index < len(times) else None
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from teleop.config.documents.document import Location, Wrong, mapping, number, numbered, sequence
 from teleop.config.documents.messages import ALIASES, missing_space
 from teleop.config.quantities import frame_rate, frames, percentage, seconds
 from teleop.core.axes import STICKS, Axis, Limits
+from teleop.core.timing import SAME_TIME
 from teleop.sequence.aim_section import aim_rules
 from teleop.sequence.cues import cue_rules
 from teleop.sequence.easing import ease_rules
@@ -19,6 +20,16 @@ from teleop.sequence.tables.section import source_limits, source_rules
 from teleop.sequence.timelapse_section import is_timelapse, timelapse_rules
 
 AXES = tuple(axis.value for axis in Axis)
+
+
+class _Held(NamedTuple):
+    """Which keyframe (from 0) has an axis, until when, and where."""
+
+    holder: int
+    until: float
+    position: Any
+
+
 When = Callable[[Any], float]  # a time as written -> seconds, or output frames
 SLOWEST, FASTEST = 0.01, 10.0  # of an included move
 DEVICES = {"camera": "camera", "follow": "gimbal", "send": "gimbal"}  # what performs a cue
@@ -54,7 +65,7 @@ def file_rules(data: Any) -> Iterator[Wrong]:
 
 def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
     before: tuple[int, float] | None = None
-    free: dict[str, tuple[int, float]] = {}  # axis -> the keyframe that holds it, and until when
+    free: dict[str, _Held] = {}
     for index, frame in enumerate(sequence(data, "keyframes")):
         if missing_space(frame):
             continue
@@ -70,7 +81,7 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
                 yield ("keyframes", index, key), text
         if at is None:
             continue
-        if before and at <= before[1]:
+        if before and at < before[1] + SAME_TIME:
             yield (
                 ("keyframes", index, "at"),
                 f"must be after {numbered('keyframes', before[0])} ({_time_text(before[1], when)})",
@@ -78,7 +89,7 @@ def _keyframe_rules(data: Any, when: When) -> Iterator[Wrong]:
         else:
             yield from _hold_rules(index, frame, at, free, when)
         before = (index, at)
-        free.update(dict.fromkeys(_named(frame), (index, at + (hold or 0))))
+        free.update({axis: _Held(index, at + (hold or 0), frame.get(axis)) for axis in _named(frame)})
 
 
 def _named(frame: Mapping[str, Any]) -> list[str]:
@@ -111,10 +122,12 @@ def _stick_rules(data: Any) -> Iterator[Wrong]:
 
 
 def _hold_rules(
-    index: int, frame: Mapping[str, Any], at: float, free: Mapping[str, tuple[int, float]], when: When
+    index: int, frame: Mapping[str, Any], at: float, free: Mapping[str, _Held], when: When
 ) -> Iterator[Wrong]:
-    for axis, (holder, end) in free.items():
-        if axis in _named(frame) and at < end:
+    """A key may begin where a hold ends only if it is at the same position."""
+    for axis, (holder, end, position) in free.items():
+        first = end - SAME_TIME if frame.get(axis) == position else end + SAME_TIME
+        if axis in _named(frame) and at < first:
             yield (
                 ("keyframes", index, "at"),
                 f"must be after {numbered('keyframes', holder)} has held {axis} (until {_time_text(end, when)})",

@@ -17,7 +17,7 @@ from teleop.core.errors import DeviceError
 from teleop.core.events import TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, StateTarget
-from teleop.core.timing import KEEP_ALIVE
+from teleop.core.timing import KEEP_ALIVE, SAME_TIME
 from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
 from teleop.sequence.compile import CompiledSequence
@@ -28,7 +28,6 @@ from teleop.sequence.playback import Playback
 
 EASE_SHARE = 0.5  # of each axis's velocity, acceleration and jerk: on the way to the start nothing is in a hurry
 RHYTHM = 0.2  # s: corrected passes begin so far apart that what is asked at a rate is asked at the same places again
-_INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 
 
 class SequenceSource:
@@ -107,7 +106,7 @@ class SequenceSource:
             return now
         if self.phase is SequencePhase.PREROLL:
             quiet = self.until - KEEP_ALIVE
-            return quiet if self.cycle.compared and now < quiet - _INSTANT else self.until
+            return quiet if self.cycle.compared and now < quiet - SAME_TIME else self.until
         if self.phase is not SequencePhase.PLAYING or self.playback.changing(now):
             return now
         coming = min(self.move.next_motion(self.playback.time(now)), self.cues[0].at if self.cues else math.inf)
@@ -137,7 +136,7 @@ class SequenceSource:
 
     def place(self, time: float) -> tuple[int, float] | None:
         """The pass, and the move's own time, at a time of the pass that is played; None while none is."""
-        if self.phase is not SequencePhase.PLAYING or time < self._began - _INSTANT:
+        if self.phase is not SequencePhase.PLAYING or time < self._began - SAME_TIME:
             return None
         return self.number, self.playback.time(time)
 
@@ -156,7 +155,7 @@ class SequenceSource:
     def _advance(self, now: float) -> None:
         """End the phases that are due by `now`; one tick may end several."""
         before = None
-        while self.phase is not before and (self.phase not in TIMED or now > self.until - _INSTANT):
+        while self.phase is not before and (self.phase not in TIMED or now > self.until - SAME_TIME):
             before = self.phase
             self._on_due[self.phase](now)
 
@@ -215,14 +214,14 @@ class SequenceSource:
     def _follow(self, now: float) -> Motion:
         """Where the move is at `now`, with the cues that are due; it may end there."""
         elapsed, motion = self.playback.at(now)
-        while self.cues and not self.waiting and self.cues[0].at <= elapsed + _INSTANT:
+        while self.cues and not self.waiting and self.cues[0].at <= elapsed + SAME_TIME:
             cue = self.cues.pop(0)
             if isinstance(cue.action, Wait):
                 self.waiting = True
                 elapsed, motion = self.playback.hold(cue.at, now)
             else:
                 self._events.append(cue.action)
-        ended = elapsed > self._end - _INSTANT and not self.playback.paused
+        ended = elapsed > self._end - SAME_TIME and not self.playback.paused
         if self.phase is SequencePhase.PLAYING and ended:
             self._end_pass(now, motion)
         return motion
@@ -267,9 +266,9 @@ class SequenceSource:
         start = arrival + max(whole_ticks(self.cycle.preroll), KEEP_ALIVE if self.cycle.compared else 0.0)
         if self.cycle.corrector is None:
             return start
-        return self._origin + RHYTHM * math.ceil((start - self._origin) / RHYTHM - _INSTANT)
+        return self._origin + RHYTHM * math.ceil((start - self._origin) / RHYTHM - SAME_TIME)
 
 
 def whole_ticks(seconds: float) -> float:
     """At least as long, and so many hundredths."""
-    return math.ceil(seconds * 100 - _INSTANT) / 100
+    return math.ceil(seconds * 100 - SAME_TIME) / 100

@@ -15,13 +15,14 @@ from teleop.config.documents.document import Document, Location, numbered, path_
 from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Action
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.keyframes.keys import Key
 from teleop.planner.keyframes.repeat import repeated
 from teleop.planner.trajectory import Move
 from teleop.sequence.aim import MOST_MISSED, ON_THE_WAY, Scene, Tracked
 from teleop.sequence.cues import Cue, moved_rules
-from teleop.sequence.keys import SAME, Keys, KeysError, keys_of, recentered
+from teleop.sequence.keys import Keys, KeysError, keys_of, recentered
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.panorama import WHERE, shots
 from teleop.sequence.tables.section import RUN_OUT, RUN_UP
@@ -196,8 +197,8 @@ def _overlaps(axis: Axis, blocks: Sequence[Block]) -> Iterator[str]:
     last = blocks[0]
     for block in blocks[1:]:
         first = block.keys[0]
-        meets = abs(first.at - last.end) < SAME and first.position == last.keys[-1].position
-        if first.at < last.end + SAME and not meets:
+        meets = abs(first.at - last.end) < SAME_TIME and first.position == last.keys[-1].position
+        if first.at < last.end + SAME_TIME and not meets:
             text = f"{block.name} must begin after {last.name} ends ({axis}, {last.end:g} s)"
             yield block.place.line(
                 text if block.name != last.name else f"{block.name} uses {axis} twice at the same time"

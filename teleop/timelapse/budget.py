@@ -14,6 +14,7 @@ import numpy as np
 
 from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
+from teleop.core.timing import SAME_TIME
 from teleop.planner.polynomial import Array, extremes
 from teleop.planner.rest_to_rest import shortest
 from teleop.planner.time_scaling import at_most
@@ -24,7 +25,6 @@ from teleop.timelapse.schedule import Schedule
 STEP_SHARE = 0.95  # of velocity, acceleration and jerk for a step between two frames that has no time to lose
 TICKS = 0.02  # s: a step begins and ends on the loop's grid
 TIGHT = 0.1  # of an interval; with less to spare than this a warning is due
-ROUNDING = 1e-9  # s
 
 
 class Phases(NamedTuple):
@@ -89,7 +89,7 @@ def _held(needs: Array, slots: Schedule, text: Callable[[int], str]) -> tuple[li
     spare = intervals - needs
     worst = int(spare.argmin())
     takes = f"frame {worst} of {slots.frames} takes {text(worst)}"
-    if spare[worst] < -ROUNDING:
+    if spare[worst] < -SAME_TIME:
         return [_too_short(intervals, needs, worst, takes, slots)], []
     if spare[worst] < TIGHT * intervals[worst]:
         return [], [f"is tight: {takes}, which leaves {spare[worst]:.2f} s of {intervals[worst]:.3g} s"]
@@ -97,10 +97,10 @@ def _held(needs: Array, slots: Schedule, text: Callable[[int], str]) -> tuple[li
 
 
 def _too_short(intervals: Array, needs: Array, worst: int, takes: str, slots: Schedule) -> str:
-    least = math.ceil(needs[worst] * 100 - 1e-6) / 100
+    least = math.ceil(needs[worst] * 100 - SAME_TIME) / 100
     if not slots.change:
         return f"must be at least {least:.2f} s, not {intervals[worst]:g} s: {takes}"
-    many = int(np.count_nonzero(intervals < needs - ROUNDING))
+    many = int(np.count_nonzero(intervals < needs - SAME_TIME))
     others = f" ({many} frames are too short)" if many > 1 else ""
     return f"is {intervals[worst]:.2f} s and must be at least {least:.2f} s: {takes}{others}"
 
@@ -114,7 +114,7 @@ def _speed(move: Move, slots: Schedule, limits: Mapping[Axis, Limits]) -> tuple[
     frame = _frame_at(time, slots)
     if rate >= 1:
         return [], [f"is tight: at frame {frame} {axis} is near its {limit} limit"]
-    least = math.ceil(slots.interval(frame) / rate * 100 - 1e-6) / 100
+    least = math.ceil(slots.interval(frame) / rate * 100 - SAME_TIME) / 100
     return [
         f"must be at least {least:.2f} s, not {slots.interval(frame):.3g} s: frame {frame}: {axis} needs "
         f"{1 / rate:.2f} x its {limit} limit"
@@ -138,4 +138,4 @@ def _fastest(move: Move, limits: Mapping[Axis, Limits]) -> tuple[float, Axis, st
 
 def _frame_at(time: float, slots: Schedule) -> int:
     """The last frame that is due by `time`."""
-    return max(0, bisect_right(range(slots.frames), time + ROUNDING, key=slots.at) - 1)
+    return max(0, bisect_right(range(slots.frames), time + SAME_TIME, key=slots.at) - 1)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teleop.config.documents.document import Document, DocumentError, UnplayableError
+from teleop.config.documents.document import Document, DocumentError, UnplayableError, numbered
 from teleop.config.documents.yaml_loader import read_document
 from teleop.config.frame_rates import shown_rate
 from teleop.config.quantities import seconds
@@ -29,9 +29,10 @@ from teleop.sequence.aim import UnaimedError
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.keys import axes_of, keys_of, line_at
 from teleop.sequence.model import SequenceModel
+from teleop.sequence.refusal import refusal
 from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import TimelapseSection, is_timelapse
-from teleop.sequence.timeline import aims_of
+from teleop.sequence.timeline import Origin, aims_of
 from teleop.timelapse.budget import Phases, budget
 from teleop.timelapse.schedule import Schedule
 
@@ -156,7 +157,8 @@ def _compiled(
     try:
         move, factor = stretch(timed, limits, model.tension)
     except Infeasible as error:
-        raise UnplayableError([line_at(document, finding.last, str(finding)) for finding in error.findings]) from None
+        places = {numbered("keyframes", i): Origin(document, ("keyframes", i)) for i in range(len(model.keyframes))}
+        raise refusal(error, places) from None
     if problems := [text for aimed in aims if (text := aimed.problem(move, step * factor))]:
         raise UnplayableError(problems)
     path = FramePath(move, step * factor, section.lead_in)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from teleop.core.timing import PERIOD
+from teleop.core.timing import PERIOD, SAME_TIME
 from teleop.timelapse.compile import Timelapse
 from teleop.timelapse.frame_log import FrameBook, FrameLog
 from teleop.timelapse.frame_shutter import FrameShutter
@@ -21,8 +21,8 @@ from teleop.timelapse.progress import Progress
 from teleop.timelapse.settle_detector import SettleDetector
 
 LEAD = 0.1  # s before a shutter at which its frame is written down: a commit takes half a millisecond, a slow one 50
+RETRY = 1.0  # s after which a journal that could not be written is tried again
 LATE_SHARE = 0.2  # of an interval, by which a frame may be late before its slot is missed
-_INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 
 
 class FrameCycle:
@@ -87,16 +87,17 @@ class FrameCycle:
             TimelapsePhase.EXPOSE: shutter.exposed_at,
             TimelapsePhase.POST: max(now, shutter.done_at) if shutter.answered else now,
             TimelapsePhase.FINISH: now,
+            TimelapsePhase.PAUSED: self.since + RETRY if self.progress.problem else math.inf,
         }
         return waiting.get(self.phase, math.inf)
 
     def _travel(self, now: float) -> None:
-        if now >= self._mover.arrival - _INSTANT:
+        if now >= self._mover.arrival - SAME_TIME:
             self.settle_detector.reset()
             self.handle(PhaseEvent.ARRIVED, now)
 
     def _settle(self, now: float) -> None:
-        over = now >= self.since + self._phases.settle - _INSTANT
+        over = now >= self.since + self._phases.settle - SAME_TIME
         if over or self.settle_detector.reached:
             self.progress.unsettled += self._phases.below is not None and not self.settle_detector.reached
             self.handle(PhaseEvent.SETTLED, now)
@@ -108,29 +109,38 @@ class FrameCycle:
             self.handle(PhaseEvent.PAUSE, now)
         elif time > self.due + self._grace:
             self._miss(now)
-        elif time >= self.due - self.lead - _INSTANT:
+        elif time >= self.due - self.lead - SAME_TIME:
             self.shutter.begin(self.frame, now)
             self.handle(PhaseEvent.DUE, now)
 
     def _continue(self, now: float) -> None:
-        if not self.asked_to_pause:
+        retried = not self.progress.problem or now >= self.since + RETRY - SAME_TIME
+        if not self.asked_to_pause and retried:
+            self.progress.problem = ""
             self._mover.resume(now, self.due, self.lead)
             self.handle(PhaseEvent.RESUME, now)
 
     def _prefocus(self, now: float) -> None:
+        if self.shutter.is_unwritten:
+            self.shutter.give_up()
+            self._mover.pause(now)
+            for event in (PhaseEvent.MISSED, PhaseEvent.PAUSE):  # begun again, and no slot is counted as missed
+                self.handle(event, now)
+            self.progress.problem = "the journal could not be written: trying again"
+            return
         late, ready = self._mover.time(now) - self.due, self.shutter.ready(now)
         if late > self._grace:
             self.shutter.give_up()
             self._miss(now)
-        elif ready and late >= -_INSTANT:
+        elif ready and late >= -SAME_TIME:
             self.shutter.press(now)
-            if late > PERIOD + _INSTANT:
+            if late > PERIOD + SAME_TIME:
                 self.progress.late += 1
                 self.progress.latest = max(self.progress.latest, late)
             self.handle(PhaseEvent.FIRE, now)
 
     def _expose(self, now: float) -> None:
-        if now >= self.shutter.exposed_at - _INSTANT:
+        if now >= self.shutter.exposed_at - SAME_TIME:
             self.shutter.release()
             self.handle(PhaseEvent.EXPOSED, now)
 
@@ -152,7 +162,8 @@ class FrameCycle:
         self.handle(PhaseEvent.STEP if stepped else PhaseEvent.STAY, now)
 
     def _finish(self, now: float) -> None:
-        self._end_note = self._end_note or self.log.finish()
+        if self._end_note is None or (self._end_note.failed and now >= self.since + RETRY - SAME_TIME):
+            self._end_note, self.since = self.log.finish(), now
         self.log.check_end()
         if self._end_note.safe:
             self.handle(PhaseEvent.WRITTEN, now)

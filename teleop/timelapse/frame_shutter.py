@@ -9,12 +9,12 @@ from __future__ import annotations
 import math
 
 from teleop.core.events import Exposure, ShutterResult, ShutterStep, TickEvent
+from teleop.core.timing import SAME_TIME
 from teleop.timelapse.budget import Phases
 from teleop.timelapse.frame_log import FrameLog
 from teleop.timelapse.journal import Note
 
 ANSWER_TIMEOUT = 0.7  # s after which a camera counts as silent: a lost link has been found out by then
-_INSTANT = 1e-6  # s: two times on the loop's grid that are closer are the same
 
 
 class FrameShutter:
@@ -46,10 +46,16 @@ class FrameShutter:
         """Whether the frame is on the disk."""
         return self._note is not None and self._note.safe
 
+    @property
+    def is_unwritten(self) -> bool:
+        """Whether writing the frame down has failed, for the time being. Raises TeleopError where it is for good."""
+        self._log.check(self._frame)
+        return self._note is not None and self._note.failed
+
     def ready(self, now: float) -> bool:
         """Whether the shutter may be pressed. Raises TeleopError when nothing can be written down."""
         self._log.check(self._frame)
-        return self.noted and now >= self._focus_end - _INSTANT
+        return self.noted and now >= self._focus_end - SAME_TIME
 
     def press(self, now: float) -> None:
         self._events.append(Exposure(self._frame, ShutterStep.PRESS))
@@ -87,7 +93,7 @@ class FrameShutter:
     def result(self, now: float) -> ShutterResult | None:
         """The camera's answer, once, when the frame is done; None until then."""
         result = self._result
-        if result is None or now < self.done_at - _INSTANT:
+        if result is None or now < self.done_at - SAME_TIME:
             return None
         if result.code is None and now < self.pressed + ANSWER_TIMEOUT:
             return None

@@ -24,6 +24,7 @@ from teleop.core.errors import UsageError
 
 ENDING = ".journal"
 FORMAT = 1  # of the tables
+TRIES = 3  # of a write, until the journal counts as one that can no longer be written
 DISK_TIMEOUT = 3.0  # s at the end for what is still to be written
 
 _TABLES = """
@@ -47,11 +48,15 @@ OVER = (FrameState.DONE, FrameState.MISSED, FrameState.DOUBTFUL)  # the shoot is
 
 @dataclass
 class Note:
-    """Something to be written; `safe` once it is on the disk. `frame` None is the end of the shoot."""
+    """Something to be written; `safe` once it is on the disk. `frame` None is the end of the shoot.
+
+    `failed` is one that could not be written: it is tried again before the next.
+    """
 
     frame: int | None
     state: FrameState
     safe: bool = False
+    failed: bool = False
 
 
 class Journal:
@@ -63,6 +68,8 @@ class Journal:
     def __init__(self, path: Path, database: sqlite3.Connection, frames: dict[int, FrameState], patient: bool) -> None:
         self.path, self.frames, self.trouble = path, frames, ""
         self._database, self._patient = database, patient
+        self._unwritten: list[Note] = []  # in their order
+        self._failures = 0  # in a row
         self._queue: SimpleQueue[Note | Event | None] = SimpleQueue()
         self._thread = Thread(target=self._work, name="journal", daemon=True)
         if not patient:
@@ -114,18 +121,31 @@ class Journal:
                 asked.set() if isinstance(asked, Event) else self._write(asked)
 
     def _write(self, note: Note) -> None:
-        if self.trouble:
-            return
-        try:
-            if note.frame is None:
-                self._database.execute("INSERT OR REPLACE INTO shoot VALUES ('finished', 1)")
-            else:
-                self._database.execute("INSERT OR REPLACE INTO frames VALUES (?, ?)", (note.frame, note.state.value))
-                self.frames[note.frame] = note.state
-        except Exception as error:  # noqa: BLE001 - a thread that ended unseen would let slot after slot be missed
-            self.trouble = f"{self.path} cannot be written: {error or type(error).__name__}"
+        """Write what failed before, and this; in vain as long as nothing can be written."""
+        self._unwritten.append(note)
+        while self._unwritten and not self.trouble:
+            first = self._unwritten[0]
+            try:
+                self._put(first)
+            except sqlite3.Error as error:
+                self._failures += 1
+                if self._failures >= TRIES:
+                    self.trouble = f"{self.path} cannot be written: {error}"
+                first.failed = note.failed = True
+                return
+            except Exception as error:  # noqa: BLE001 - a thread that ended unseen would let slot after slot be missed
+                self.trouble = f"{self.path} cannot be written: {error or type(error).__name__}"
+                return
+            self._failures = 0
+            del self._unwritten[0]
+            first.safe, first.failed = True, False
+
+    def _put(self, note: Note) -> None:
+        if note.frame is None:
+            self._database.execute("INSERT OR REPLACE INTO shoot VALUES ('finished', 1)")
         else:
-            note.safe = True
+            self._database.execute("INSERT OR REPLACE INTO frames VALUES (?, ?)", (note.frame, note.state.value))
+            self.frames[note.frame] = note.state
 
 
 @dataclass(frozen=True)
@@ -225,10 +245,15 @@ def next_frame(frames: Mapping[int, FrameState]) -> int:
     return next(frame for frame in range(len(frames) + 1) if frames.get(frame) not in OVER)
 
 
+_ANEW = "move it away and start the shoot again; the pictures already shot are in the camera"
+
+
 def _explained(error: Exception) -> str:
     text = str(error)
     if "locked" in text:
         return "another teleop is shooting with this journal"
     if "not a database" in text or isinstance(error, ValueError):
-        return "is not a timelapse journal"
+        return f"is not a timelapse journal: {_ANEW}"
+    if isinstance(error, sqlite3.DatabaseError) and ("malformed" in text or "corrupt" in text):
+        return f"is damaged ({text}): {_ANEW}"
     return f"cannot be used: {text}"

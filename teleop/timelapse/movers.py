@@ -13,6 +13,7 @@ from concurrent.futures import Executor
 from typing import Protocol
 
 from teleop.core.axes import Axis, Limits, Motion, State
+from teleop.core.timing import SAME_TIME
 from teleop.planner.polynomial import Array
 from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
@@ -25,7 +26,6 @@ BACKLASH = {Axis.FOCUS: 0.02}  # units, how far before its place an axis is appr
 BACKLASH_ANGLE = 1.0  # deg
 FAR = 1000.0  # s: when any run-up is long over
 _GRID = 100  # Hz: what begins and ends on the loop's ticks
-_INSTANT = 1e-6  # s: times on the loop's grid that are closer are the same
 
 
 class Mover(Protocol):
@@ -87,7 +87,7 @@ class Way:
         move = rest_to_rest(self._motion, target, limits, share, least)
         self._legs.append((self.arrival, move))
         self._motion = {axis: State(position) for axis, position in target.items()}
-        self.arrival += math.ceil(move.duration * _GRID - _INSTANT) / _GRID
+        self.arrival += math.ceil(move.duration * _GRID - SAME_TIME) / _GRID
 
     def at(self, now: float) -> Motion:
         for begin, move in self._legs:
@@ -130,7 +130,7 @@ class StepMover:
         return True
 
     def next_motion(self, now: float) -> float:
-        return now if now < self.arrival - _INSTANT else math.inf
+        return now if now < self.arrival - SAME_TIME else math.inf
 
     def time(self, now: float) -> float:
         return now - self._base
@@ -183,26 +183,26 @@ class GlideMover:
         self._playback.begin(self._begin)
 
     def at(self, now: float) -> Motion:
-        return self._way.at(now) if now < self._begin - _INSTANT else self._playback.at(now)[1]
+        return self._way.at(now) if now < self._begin - SAME_TIME else self._playback.at(now)[1]
 
     def step(self, now: float, frame: int, spare: float) -> bool:  # noqa: ARG002 - it is on its way
         return False
 
     def next_motion(self, now: float) -> float:
-        if now < self._begin - _INSTANT:
-            return now if now < self.arrival - _INSTANT else self._begin
+        if now < self._begin - SAME_TIME:
+            return now if now < self.arrival - SAME_TIME else self._begin
         if self._playback.changing(now):
             return now
         return self._playback.when(self._move.next_motion(self._playback.time(now)), now)
 
     def time(self, now: float) -> float:
         """Before it moves, its time runs as the clock does, so that the prefocus of the first frame begins in time."""
-        if now < self._begin - _INSTANT:
+        if now < self._begin - SAME_TIME:
             return self._playback.opening - (self._begin - now)
         return self._playback.time(now)
 
     def when(self, time: float, now: float) -> float:
-        if now < self._begin - _INSTANT and time <= self._playback.opening:
+        if now < self._begin - SAME_TIME and time <= self._playback.opening:
             return self._begin - (self._playback.opening - time)
         return self._playback.when(time, max(now, self._begin))
 
@@ -210,7 +210,7 @@ class GlideMover:
         return False
 
     def pause(self, now: float) -> None:
-        if now < self._begin - _INSTANT:
+        if now < self._begin - SAME_TIME:
             self._begin = math.inf
         else:
             self._playback.pause(now)

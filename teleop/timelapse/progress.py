@@ -34,6 +34,7 @@ class Progress:
     due: float = math.inf  # when that is, on the loop's clock
     phase: str = "approach"
     pausing: bool = False
+    problem: str = ""  # why it is paused, where nobody asked for it
 
     def left(self, now: float) -> float:
         """Seconds until the last frame."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import json
+import signal
+import subprocess
 import sys
 from pathlib import Path
 
@@ -96,3 +98,29 @@ def test_a_drawing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str)
     assert run(["preview", "reveal", "-o", f"move.{ending.upper()}"]) == 0
     data = (tmp_path / f"move.{ending.upper()}").read_bytes()
     assert data.startswith({"svg": b"<?xml", "png": b"\x89PNG"}[ending])
+
+
+def test_the_last_row_of_a_table_is_the_end_of_the_move(tmp_path: Path) -> None:
+    (tmp_path / "short.yaml").write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 1.237, pan: 3}\n")
+    assert run(["preview", str(tmp_path / "short.yaml"), "--csv", str(tmp_path / "short.csv"), "--rate", "10"]) == 0
+    *_, before, last = (tmp_path / "short.csv").read_text().splitlines()
+    assert before.split(",")[0] == "1.2"
+    assert [float(cell) for cell in last.split(",")[:3]] == [1.237, 3.0, pytest.approx(0.0, abs=1e-6)]
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_a_table_that_a_signal_ends_leaves_nothing_behind(tmp_path: Path, number: signal.Signals) -> None:
+    """On a file system that cannot keep a file without a name until it is whole."""
+    code = f"""
+import os
+from pathlib import Path
+from teleop.cli.signals import unwound_by_signals
+from teleop.config import files
+os.O_TMPFILE = None
+with unwound_by_signals(), files.replacing(Path("move.csv")) as stream:
+    assert list(Path().glob(".*.part"))
+    os.kill(os.getpid(), {int(number)})
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=False)
+    assert done.returncode == -number
+    assert list(tmp_path.iterdir()) == []

@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from teleop.config.sinks_section import FLIGHT_MODES, FlightSection, GimbalSection, combination_of
+from teleop.config.flight_modes import FLIGHT_MODES, combination_of
+from teleop.config.sinks_section import FlightSection, GimbalSection
 from teleop.core.axes import Axis
 from teleop.dji.drone.movement import COMBINATIONS, Combination, Horizontal, ReferenceFrame, Vertical, Yaw
 
@@ -60,8 +61,10 @@ def test_a_value_that_no_gimbal_has_is_refused_at_its_key(key: str, value: objec
 
 def test_the_keys_of_a_flight_section_are_one_of_the_drones_modes() -> None:
     section = flight(mode="tilt-ground", vertical="height", yaw="angle")
-    assert section.combination == Combination(Horizontal.TILT, Vertical.POSITION, Yaw.ANGLE)
-    assert section.frame is ReferenceFrame.GROUND
+    assert combination_of(section.mode, section.vertical, section.yaw) == Combination(
+        Horizontal.TILT, Vertical.POSITION, Yaw.ANGLE
+    )
+    assert FLIGHT_MODES[section.mode][1] is ReferenceFrame.GROUND
     made = {
         combination_of(mode, up, yaw)
         for mode in FLIGHT_MODES

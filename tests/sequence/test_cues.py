@@ -159,7 +159,7 @@ def test_a_recentre_of_what_moves_or_is_wanted_elsewhere_is_refused(tmp_path: Pa
 
 def test_a_recentre_that_is_too_fast_or_moves_nothing_is_said_where_it_stands(tmp_path: Path) -> None:
     found, *_ = problems_of(tmp_path, cued("at: 9, recenter: 0.1s"), UnplayableError)
-    assert found.startswith("shoot.yaml:6:5: pan needs 0.960 s from key 3 to cue 1, not 0.100 s ")
+    assert found.startswith("shoot.yaml:6:5: pan needs 0.958 s from key 3 to cue 1, not 0.100 s ")
     [found] = problems_of(tmp_path, "keyframes: [{at: 0, focus: 0}]\ncues: [{at: 1, recenter: 3s}]\n")
     assert found.endswith("cue 1: recenter needs a keyframe with pan, tilt or roll")
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from teleop.config.frame_rates import exact_rate
 from teleop.core.axes import Axis, Limits
+from teleop.planner.keyframes.keys import Key, waypoints
 from teleop.sequence.rules import file_rules, rig_rules
 
 LIMITS = {Axis.PAN: Limits(-60, 60, 120, 240, 1200)}
@@ -62,3 +64,32 @@ def test_each_rule_of_a_rig_names_its_place(data: dict, location: tuple, text: s
 def test_what_has_the_wrong_shape_is_left_to_the_model(data: object) -> None:
     list(file_rules(data))
     list(rig_rules(data, LIMITS, "the rig", []))
+
+
+WHOLE_FRAMES = [(at, hold) for at in range(1, 97) for hold in range(1, 44)]  # 4128; rounding refused an eighth
+
+
+def _held_then_key(fps: float, at: int, hold: int) -> dict:
+    held = {"at": f"{at}f", "pan": 10, "hold": f"{hold}f"}
+    return {"fps": fps, "keyframes": [held, {"at": f"{at + hold}f", "pan": 10}]}
+
+
+def test_a_hold_may_end_exactly_on_the_next_key() -> None:
+    assert [whole for whole in WHOLE_FRAMES if list(file_rules(_held_then_key(24, *whole)))] == []
+
+
+@pytest.mark.parametrize("fps", [23.976, 24, 25, 29.97, 30, 59.94])
+def test_a_key_where_a_hold_ends_continues_it(fps: float) -> None:
+    exact, refused = exact_rate(fps), []
+    for at, hold in WHOLE_FRAMES:
+        held = Key(at / exact, 10, hold=hold / exact)
+        points = waypoints(Axis.PAN, [Key(0, 0), held, Key((at + hold) / exact, 10), Key(500 / exact, 0)])
+        if [point.rest for point in points] != [True] * 4:
+            refused.append((at, hold))
+    assert refused == []
+
+
+def test_a_key_at_another_position_must_be_after_the_hold() -> None:
+    data = _held_then_key(20, 20, 2)
+    data["keyframes"][1]["pan"] = 11
+    assert list(file_rules(data)) == [(("keyframes", 1, "at"), "must be after key 1 has held pan (until 1.1 s)")]

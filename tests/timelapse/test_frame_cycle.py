@@ -10,7 +10,7 @@ from timelapse_bench import Book, timelapse
 
 from teleop.core.axes import Axis, State
 from teleop.core.events import ShutterResult
-from teleop.timelapse.frame_cycle import LATE_SHARE, LEAD, FrameCycle
+from teleop.timelapse.frame_cycle import LATE_SHARE, LEAD, RETRY, FrameCycle
 from teleop.timelapse.journal import FrameState
 from teleop.timelapse.movers import StepMover
 from teleop.timelapse.phases import TimelapsePhase
@@ -125,3 +125,21 @@ def test_after_the_last_frame_it_is_over_once_the_journal_says_so(tmp_path: Path
     [end] = [note for note in bench.book.notes if note.frame is None]
     end.safe = True
     assert bench.at(SLOT + 1.01) is TimelapsePhase.OVER
+
+
+def test_a_journal_that_could_not_be_written_pauses_the_shoot_and_is_tried_again(tmp_path: Path) -> None:
+    bench = Bench(tmp_path, "settle: 0s")
+    assert bench.at(SLOT - LEAD) is TimelapsePhase.PREFOCUS
+    note = bench.book.notes[-1]
+    note.safe, note.failed = False, True
+    assert bench.at(SLOT) is TimelapsePhase.PAUSED
+    assert bench.progress.problem == "the journal could not be written: trying again"
+    assert bench.cycle.next_event(SLOT) == SLOT + RETRY
+    assert bench.at(SLOT + RETRY - 0.01) is TimelapsePhase.PAUSED
+    assert bench.at(SLOT + RETRY) is not TimelapsePhase.PAUSED
+    assert bench.progress.problem == ""
+    again = SLOT + RETRY
+    while bench.at(again) is not TimelapsePhase.EXPOSE and again < SLOT + 3 * INTERVAL:
+        again += 0.01
+    assert bench.cycle.phase is TimelapsePhase.EXPOSE
+    assert (bench.cycle.frame, bench.progress.lost) == (0, [])

@@ -9,7 +9,7 @@ import pytest
 from waiting import wait_until
 
 from teleop.core.errors import UsageError
-from teleop.timelapse.journal import FrameState, Shoot, open_journal
+from teleop.timelapse.journal import TRIES, FrameState, Shoot, open_journal
 
 SHOOT = Shoot("dusk.yaml", "abc", 720)
 
@@ -157,3 +157,51 @@ def test_whatever_fails_in_its_thread_is_said_and_keeps_nobody_waiting(
         assert not note.safe
         assert not journal.note(1, FrameState.BEGUN).safe
         journal.catch_up()
+
+
+class Full:
+    """A disk that takes nothing for so many writes."""
+
+    def __init__(self, database: sqlite3.Connection, times: int) -> None:
+        self._database, self._left = database, times
+
+    def execute(self, *arguments) -> object:
+        self._left -= 1
+        if self._left >= 0:
+            raise sqlite3.OperationalError("database or disk is full")
+        return self._database.execute(*arguments)
+
+    def close(self) -> None:
+        self._database.close()
+
+
+def test_one_failed_write_is_tried_again_before_the_next(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with open_journal(path, SHOOT, patient=True) as journal:
+        monkeypatch.setattr(journal, "_database", Full(journal._database, 1))
+        first = journal.note(0, FrameState.BEGUN)
+        assert (first.safe, first.failed, journal.trouble, journal.frames) == (False, True, "", {})
+        second = journal.note(0, FrameState.DONE)
+        assert (first.safe, first.failed, second.safe) == (True, False, True)
+        assert journal.frames == {0: FrameState.DONE}
+
+
+def test_a_write_that_fails_time_and_again_is_trouble(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with open_journal(path, SHOOT, patient=True) as journal:
+        monkeypatch.setattr(journal, "_database", Full(journal._database, TRIES))
+        for _ in range(TRIES):
+            assert journal.trouble == ""
+            journal.note(0, FrameState.BEGUN)
+        assert journal.trouble == f"{path} cannot be written: database or disk is full"
+
+
+def test_a_damaged_journal_is_said_with_what_to_do(path: Path) -> None:
+    with open_journal(path, SHOOT, patient=True) as journal:
+        for frame in range(100):
+            journal.note(frame, FrameState.DONE)
+    whole = path.read_bytes()
+    path.write_bytes(whole[:4096] + b"\x55" * (len(whole) - 4096))
+    with pytest.raises(UsageError) as caught, open_journal(path, SHOOT, resume=True):
+        pass
+    assert str(caught.value).startswith(
+        f"{path}: is damaged (database disk image is malformed): move it away and start"
+    )

@@ -101,7 +101,7 @@ def _doing(progress: Progress, now: float) -> str:
     phase = "pausing after this frame" if progress.pausing and progress.phase != "paused" else progress.phase
     soon = progress.due - now
     wait = f", frame {progress.frame} in {clock(soon)}" if phase in ("wait", "approach") and 0 < soon < math.inf else ""
-    return f"{phase}{wait}"
+    return f"{phase}: {progress.problem}" if progress.problem else f"{phase}{wait}"
 
 
 def free(folder: Path) -> int:

@@ -14,7 +14,7 @@ from teleop.cli.screens.folded import tell
 from teleop.cli.take.options import Json, Overwrite, TakeFile, length, notify, place, problems_as_json
 from teleop.config.files import replacing
 from teleop.core.errors import UsageError
-from teleop.recording.writer import ENDING
+from teleop.recording import ENDING
 
 COLUMNS = (
     "Columns: time (s); of each axis, as of pan, pan_stick (-1..1), pan_wish (cruise, goto, follow or halt), pan_asked"

@@ -82,10 +82,11 @@ def take_keyframes(
 def _busy(what: str) -> Iterator[None]:
     """A sign of life on a terminal: a minute of a restless hand takes about as long to fit."""
     from rich.console import Console
+    from rich.text import Text
 
     console = Console(stderr=True)
     if not console.is_terminal or console.is_dumb_terminal:
         yield
         return
-    with console.status(what, spinner="dots" if console.encoding.startswith("utf") else "line"):
+    with console.status(Text(what), spinner="dots" if console.encoding.startswith("utf") else "line"):
         yield

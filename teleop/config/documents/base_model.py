@@ -23,9 +23,12 @@ NoTruth = BeforeValidator(_no_truth)
 
 
 class Section(BaseModel):
-    """A mapping in a file, as an immutable object."""
+    """A mapping in a file, as an immutable object.
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True)
+    The docstrings of its fields are what a schema says of them (`app/json_schema`); a check need not read them.
+    """
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
     RENAMED: ClassVar[Mapping[str, str]] = {}
     """Old names of keys, and what they are called now: an old one is refused with its new name."""

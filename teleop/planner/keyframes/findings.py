@@ -29,7 +29,8 @@ class Finding:
 
     `limit` is "velocity", "acceleration", "jerk", "minimum" or "maximum". `factor` is how many times what the planner
     may use of it (0.95 of the axis' limit) is needed; for a soft limit it is the distance beyond in units, and there
-    is no time. `seconds` is what the keys allow, `shortest` the shortest time that is possible, None when none is.
+    is no time. `seconds` is what the keys allow, `shortest` the shortest time that is possible, None when it was not
+    searched for; then `least` is a time that is not enough, None where only the limit is known.
     """
 
     axis: Axis
@@ -39,15 +40,19 @@ class Finding:
     factor: float
     seconds: float | None = None
     shortest: float | None = None
+    least: float | None = None
 
     def __str__(self) -> str:
         if self.seconds is None:
             side = "below" if self.limit == "minimum" else "above"
             return f"{self.axis} is {_amount(self.axis, self.factor)} {side} its {self.limit} at {self.first}"
         way = f"from {self.first} to {self.last}"
-        if self.shortest is None:
-            return f"{self.axis} cannot go {way} in any time{self._excess()}"
-        needs = f"{self.axis} needs {self.shortest:.3f} s {way}, not {self.seconds:.3f} s"
+        if self.shortest is not None:
+            needs = f"{self.axis} needs {self.shortest:.3f} s {way}, not {self.seconds:.3f} s"
+        elif self.least is not None:
+            needs = f"{self.axis} needs more than {self.least:.3f} s {way}, not {self.seconds:.3f} s"
+        else:
+            needs = f"{self.axis} cannot go {way} in {self.seconds:.3f} s"
         return f"{needs}{self._excess()}; or `fit: stretch`"
 
     def _excess(self) -> str:
@@ -59,7 +64,10 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class RampsTooLong:
-    """Getting up to speed and coming to rest, both in seconds, would take longer than there is between two rests."""
+    """Getting up to speed and coming to rest, both in seconds, would take longer than there is between two rests.
+
+    Ramps that are shares grow with the time: `shortest` is that in which both have room, None where no time is enough.
+    """
 
     axis: Axis
     first: str
@@ -67,13 +75,15 @@ class RampsTooLong:
     leave: float
     arrive: float
     seconds: float
+    shortest: float | None = None
 
     def __str__(self) -> str:
         both = f"{self.leave:.3g} s + {self.arrive:.3g} s"
-        return (
-            f"{self.axis} needs {self.leave + self.arrive:.3f} s for its ramps ({both})"
-            f" from {self.first} to {self.last}, not {self.seconds:.3f} s; or a shorter `ease`"
-        )
+        way = f"from {self.first} to {self.last}"
+        if self.shortest is None:
+            return f"{self.axis} has no time for its ramps ({both}) {way} in {self.seconds:.3f} s; use a shorter `ease`"
+        needs = f"needs {self.shortest:.3f} s for its ramps ({both}) {way}, not {self.seconds:.3f} s"
+        return f"{self.axis} {needs}; or a shorter `ease`"
 
 
 @dataclass(frozen=True, slots=True)

@@ -92,11 +92,11 @@ class FrameFitter:
         return None
 
     def _runs(self, step: float, gently: float, steady: int) -> Runs:
-        seconds = (
+        up, out = (
             max(_ramp(table, end, step, gently, steady) for table in self.tables) if given is None else given
             for end, given in enumerate((self.run_up, self.run_out))
         )
-        return Runs(*(ceil(each / step - 1e-6) for each in seconds), steady)
+        return Runs(ceil(up / step - 1e-6), ceil(out / step - 1e-6), steady)
 
     def _factors(self) -> Iterator[float]:
         """Factors to be tried, rising.

@@ -1,203 +1,193 @@
-"""Why a segment is infeasible: which interval needs more time, how much, and which limit is in the way.
+"""Why keys cannot be met in their times: which way between two keys needs more, how much, and what is in the way.
 
-1. An elastic program finds the fewest limits that would have to be exceeded, and so the intervals at fault.
-2. Those are lengthened together until the segment has a plan (with the planner's own finest rule).
-3. Each in turn is then made as short as the others allow.
+1. `bounds` finds what no plan can do, without a solver: by what each interval asks for more than the limits.
+2. `least_times` gives the segments at fault the least durations that the limits allow. They are tried with the
+   planner's own rules, and made a little longer until those find a plan.
+3. Times are found for each axis alone, then once more with what the other axes need, and tried together: a file that
+   takes all suggestions is playable.
 
-So all suggested times together are possible, and less of any one is not. Shortening one interval while the others have
-no limits would suggest times that are not: a key next to a soft limit is then met at a speed that cannot be stopped.
-
-A change at one key has an effect only within a few intervals, or a few stopping times. So a change is tried on a window
-of the segment, between the velocities and accelerations that the solution so far has at its ends: the cost of a finding
-does not grow with the number of keys.
-
-A loop or a bounce has the same two keys several times. Such intervals are twins: they are lengthened together and make
-one finding.
+What is worth that work has a bound (`Budget`): a file with hundreds of intervals at fault is no matter of single keys.
+Those are named with what they exceed, and are to be stretched. Identical ways from rest to rest are timed once, and
+so are the ways of a loop or a bounce, which have the same two keys several times (twins).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from itertools import pairwise
-
-import numpy as np
+from collections.abc import Iterator, Mapping, Sequence
 
 from teleop.core.axes import Axis, Limits
-from teleop.planner.keyframes.findings import Finding
-from teleop.planner.keyframes.qp import HEADROOM, Rule, least_factors, solve
-from teleop.planner.keyframes.segment import Segment
-from teleop.planner.polynomial import Array
+from teleop.core.timing import SAME_TIME
+from teleop.planner.keyframes.blame import timed, untimed
+from teleop.planner.keyframes.budget import Budget
+from teleop.planner.keyframes.findings import Finding, RampsTooLong, Unsolved
+from teleop.planner.keyframes.keys import Key, ramps_asked, ramps_fit
+from teleop.planner.keyframes.leg_times import LegTimes, Possible
+from teleop.planner.keyframes.legs import Points, durations, last_alike, legs, shortened
+from teleop.planner.keyframes.ramp import together
+from teleop.planner.keyframes.retiming import Way, retimed, ways
 
-FINEST = Rule(pieces=8, directed=False)
-BLAMED = 1 + 1e-3  # a factor above this is a limit that gives, not the solver's tolerance
-PRECISION = 0.005  # relative, of the shortest time
-ROOM = 0.95  # a time that can be cut to this share has been found too long: less time is not always harder for the mesh
-LONGEST = 2.0**20  # times the duration asked for: nothing that time could mend needs more
-WIDE = 5  # intervals, at least, on either side of the one that a window is about
-STOPS = 2.0  # and so many of the axis's longest stops
-LIMITS = ("velocity", "acceleration", "jerk")
+ROUNDS = 3  # of all axes together
+SWEEPS = 2  # of each axis among the others
+NOTICED = 1.02  # times what an axis needs alone: with so much more time, what it needs beside that is other
+LONGER = 1e-4  # s: a way that needs so little more is as it was
 
-_Twins = Sequence[Sequence[int]]
-
-
-def infeasibilities(axis: Axis, segment: Segment, names: Sequence[str], limits: Limits) -> list[Finding]:
-    """The findings of a segment that no rule solves; `names` (n + 1,) name its keys."""
-    factors = least_factors(segment, limits, FINEST)
-    if factors is None:
-        factors = np.ones((len(segment.steps), 3))
-    too_fast = np.abs(segment.steps) / (HEADROOM * limits.velocity * segment.durations)
-    factors[:, 0] = np.maximum(factors[:, 0], too_fast)
-    twins = _twins(names)
-    factors = np.array([factors[list(alike)].max(axis=0) for alike in twins])
-    worst = factors.max(axis=1)
-    suspects = [i for i in np.argsort(-worst, kind="stable").tolist() if worst[i] > BLAMED or i == worst.argmax()]
-    firsts = [i for i in suspects if i == twins[i][0]]
-    times = _least_times(segment, _culprits(segment, limits, firsts, twins), limits, twins)
-    return [
-        Finding(
-            axis,
-            names[interval],
-            names[interval + 1],
-            LIMITS[int(factors[interval].argmax())],
-            float(factors[interval].max()),
-            float(segment.durations[interval]),
-            shortest,
-        )
-        for interval, shortest in times.items()
-    ]
+Found = Finding | RampsTooLong | Unsolved
 
 
-def _twins(names: Sequence[str]) -> _Twins:
-    """For each interval, all that lie between the same two keys in either direction, itself included, in order."""
-    alike: dict[object, list[int]] = {}
-    pairs = [frozenset(pair) if all(pair) else number for number, pair in enumerate(pairwise(names))]
-    for number, pair in enumerate(pairs):
-        alike.setdefault(pair, []).append(number)
-    return [alike[pair] for pair in pairs]
+def infeasibilities(
+    keys: Mapping[Axis, Sequence[Key]],
+    limits: Mapping[Axis, Limits],
+    refused: Mapping[Axis, Sequence[Points]],
+    possible: Possible,
+) -> list[Found]:
+    """The findings of the legs that were `refused`, in order of time; `possible` tells whether a leg has a plan."""
+    search = _Search(keys, limits, refused, possible)
+    search.run()
+    return search.findings()
 
 
-class _Solution:
-    """A solved segment whose intervals `relaxed` have no limits.
-
-    Of the solution only `states` (n + 1, 2) are kept: velocity and acceleration at each key. A change applies to an
-    interval and its twins; it is tried on a window, and kept if that can be solved.
-    """
+class _Search:
+    """`needs` are the seconds of each way that has to be longer; `untimed` are legs for which no time was found."""
 
     def __init__(
-        self, segment: Segment, states: Array, limits: Limits, twins: _Twins, relaxed: frozenset[int] = frozenset()
+        self,
+        keys: Mapping[Axis, Sequence[Key]],
+        limits: Mapping[Axis, Limits],
+        refused: Mapping[Axis, Sequence[Points]],
+        possible: Possible,
     ) -> None:
-        self.segment, self.relaxed = segment, relaxed
-        self._states, self._limits, self._twins = states, limits, twins
-        velocity, acceleration, jerk = limits.velocity, limits.acceleration, limits.jerk
-        self._reach = STOPS * (velocity / acceleration + acceleration / jerk)
+        self.keys, self.limits, self.refused = keys, limits, refused
+        self.possible = _remembered(possible)
+        self.needs: dict[Way, float] = {}
+        self.ramps: dict[Way, RampsTooLong] = {}
+        self.untimed: list[tuple[Axis, Points]] = []
+        planned = [points for axis, of_axis in keys.items() for points in legs(axis, of_axis)]
+        budget = Budget.of(planned, [(points, limits[axis]) for axis, of_axis in refused.items() for points in of_axis])
+        self.times = {axis: LegTimes(axis, limits[axis], self.possible, budget) for axis in keys}
 
-    def lasting(self, interval: int, duration: float) -> bool:
-        """Make an interval last `duration` seconds; whether that is possible."""
-        return self._change(interval, _stretched(self.segment, self._twins[interval], duration), self.relaxed)
+    def run(self) -> None:
+        """Time each axis alone, then with the others."""
+        for axis, of_axis in self.refused.items():
+            for points in of_axis:
+                self._time(axis, points, self.keys[axis])
+        if len({way.axis for way in self.needs}) > 1 and not self.untimed:
+            for axis in [*self.refused] * SWEEPS:
+                self._time_among_others(axis)
+        for _ in range(ROUNDS):
+            if self.untimed or not self._lengthened_together():
+                return
 
-    def limited(self, interval: int) -> bool:
-        """Apply the limits to an interval again; whether that is possible."""
-        return self._change(interval, self.segment, self.relaxed - {*self._twins[interval]})
+    def _time(self, axis: Axis, points: Points, keys: Sequence[Key]) -> None:
+        """What a leg of `keys`, which may already be later than the file's, needs beyond its own times."""
+        between = ways(axis, keys, points)
+        if not self._has_ramps(Way(axis, between[0].first, between[-1].last), points):
+            return
+        least = self.times[axis].least(points)
+        if least is None:
+            self.untimed.append((axis, points))
+            return
+        for way, seconds, had in zip(between, least, durations(points), strict=True):
+            if seconds > had + LONGER:
+                self.needs[way] = max(seconds, self.needs.get(way, 0.0))
 
-    def _change(self, interval: int, segment: Segment, relaxed: frozenset[int]) -> bool:
-        first, last = self._window(segment, interval)
-        inside = frozenset(other - first for other in relaxed if first <= other < last)
-        states = _solve(segment.window(first, last, self._states), self._limits, inside)
-        if states is None:
-            return False
-        self.segment, self.relaxed = segment, relaxed
-        self._states = np.concatenate([self._states[:first], states, self._states[last + 1 :]])
-        return True
+    def _has_ramps(self, way: Way, points: Points) -> bool:
+        """Whether there is time for both ramps of a leg; else it is needed first."""
+        asked, duration = ramps_asked(points), points[-1].time - points[0].time
+        if asked is None or ramps_fit(points):
+            return True
+        leave, arrive = points[0].leave or points[-1].arrive, points[-1].arrive or points[0].leave
+        shortest = together(leave, arrive) if leave and arrive else None
+        shortest = shortest and math.ceil(shortest * 1000 - SAME_TIME) / 1000
+        names = points[0].where, points[-1].where
+        self.ramps[way] = RampsTooLong(way.axis, *names, *asked, duration, shortest)
+        if shortest is not None:
+            self.needs[way] = max(shortest, self.needs.get(way, 0.0))
+        return False
 
-    def _window(self, segment: Segment, interval: int) -> tuple[int, int]:
-        """First and last key of the window in which a change of `interval` and its twins has an effect."""
-        begun, ended = self._twins[interval][0], self._twins[interval][-1] + 1
-        start, end = segment.times[begun] - self._reach, segment.times[ended] + self._reach
-        first = min(begun - WIDE, int(np.searchsorted(segment.times, start, "right")) - 1)
-        last = max(ended + WIDE, int(np.searchsorted(segment.times, end)))
-        return max(first, 0), min(last, len(segment.steps))
+    def _time_among_others(self, axis: Axis) -> None:
+        """Time an axis again where the others take longer anyhow; what they need more of has one finding, theirs."""
+        own = {self._events(way): seconds for way, seconds in self.needs.items() if way.axis is axis}
+        others = {
+            way: seconds
+            for way, seconds in self.needs.items()
+            if way.axis is not axis and seconds > own.get(self._events(way), 0.0)
+        }
+        keys = retimed(self.keys, others)[axis]
+        starts = {points[0].time for points in self.refused[axis]}
+        for before, points in zip(legs(axis, self.keys[axis]), legs(axis, keys), strict=True):
+            between = ways(axis, keys, points)
+            alone = [max(self.needs.get(way, 0.0), had) for way, had in zip(between, durations(before), strict=False)]
+            if before[0].time in starts and any(
+                a > NOTICED * b for a, b in zip(durations(points), alone, strict=False)
+            ):
+                for way in between:
+                    self.needs.pop(way, None)
+                if not self.possible(axis, shortened(points)[0]):
+                    self._time(axis, points, keys)
 
+    def _lengthened_together(self) -> bool:
+        """Try all axes with what all need; lengthen what is still refused, and tell whether there was anything."""
+        keys, refused = retimed(self.keys, self.needs), False
+        for axis in self.keys:
+            for before, points in zip(legs(axis, self.keys[axis]), legs(axis, keys[axis]), strict=True):
+                if self._is_proved(axis, before, points) or self.possible(axis, shortened(points)[0]):
+                    continue
+                self._time(axis, points, keys[axis])
+                refused = True
+        return refused
 
-def _solve(segment: Segment, limits: Limits, relaxed: frozenset[int] = frozenset()) -> Array | None:
-    """Velocity and acceleration (n + 1, 2) at the keys of the solved segment, None when there is no solution."""
-    solved = solve(segment, limits, FINEST, relaxed)
-    if solved is None:
-        return None
-    widths, coefficients = solved
-    starts = segment.times[0] + np.concatenate([[0.0], np.cumsum(widths[:-1])])
-    pieces = [int(np.abs(starts - time).argmin()) for time in segment.times[:-1]]
-    return np.concatenate([coefficients[pieces, 1:3] * (1, 2), segment.ends[1:]])
+    def _is_proved(self, axis: Axis, before: Points, points: Points) -> bool:
+        """Whether a leg needs no further try: it is as it was, or a single way that has only become longer."""
+        between = ways(axis, self.keys[axis], before)
+        return last_alike(before, points) or (len(points) == 2 and not {*between} & {*self.ramps})
 
+    def _events(self, way: Way) -> tuple[float, float]:
+        of_axis = self.keys[way.axis]
+        return round(of_axis[way.first].at, 6), round(of_axis[way.last].at, 6)
 
-def _stretched(segment: Segment, intervals: Sequence[int], duration: float) -> Segment:
-    for interval in intervals:
-        segment = segment.stretched(interval, duration)
-    return segment
+    def findings(self) -> list[Found]:
+        """All that was found, by time; what lies between the same two keys once, with the longest time."""
+        found: list[tuple[float, Found]] = []
+        for axis, points in self.untimed:
+            found += [(points[i + 1].time, each) for i, each in untimed(axis, points, self.limits[axis])]
+        for axis in self.keys:
+            for points in legs(axis, self.keys[axis]):
+                found += [(points[i + 1].time, each) for i, each in self._needed(axis, points)]
+        worst: dict[object, tuple[float, Found]] = {}
+        for time, each in found:
+            cause = (type(each), each.axis, frozenset((each.first, each.last)) if each.first and each.last else time)
+            known = worst.get(cause)
+            if known is None or _shortest(known[1]) < _shortest(each):
+                worst[cause] = (time if known is None else known[0]), each
+        return [each for _, each in sorted(worst.values(), key=lambda timed: timed[0])]
 
-
-def _culprits(segment: Segment, limits: Limits, suspects: list[int], twins: _Twins) -> list[int]:
-    """The suspects, in order, without those whose limits can be kept after all once the others have more time."""
-    relaxed = frozenset(twin for interval in suspects for twin in twins[interval])
-    states = _solve(segment, limits, relaxed)
-    if states is None:
-        return sorted(suspects)
-    solution = _Solution(segment, states, limits, twins, relaxed)
-    for interval in reversed(suspects):
-        if solution.relaxed > {*twins[interval]}:
-            solution.limited(interval)
-    return sorted(solution.relaxed & {*suspects})
-
-
-def _least_times(segment: Segment, blamed: list[int], limits: Limits, twins: _Twins) -> dict[int, float | None]:
-    """Durations, whole milliseconds up, of the intervals that need more time, with which the segment is possible.
-
-    Those are the `blamed`, and where their time alone does not help, their neighbors, and so on. None for each of the
-    blamed when no time would help.
-    """
-    firsts = sorted({alike[0] for alike in twins})
-    involved, solution = blamed, _possible(segment, blamed, limits, twins)
-    while solution is None and len(involved) < len(firsts):
-        near = {twin + side for interval in involved for twin in twins[interval] for side in (-1, 0, 1)}
-        involved = [interval for interval in firsts if near & {*twins[interval]}]
-        solution = _possible(segment, involved, limits, twins)
-    if solution is None:
-        return dict.fromkeys(blamed)
-    for interval in involved:
-        _shorten(solution, interval, float(segment.durations[interval]))
-    for interval in involved:  # those that were shortened since may have left it some room
-        duration = float(solution.segment.durations[interval])
-        if solution.lasting(interval, max(float(segment.durations[interval]), ROOM * duration)):
-            _shorten(solution, interval, float(segment.durations[interval]))
-    return {
-        interval: float(duration)
-        for interval, (duration, asked) in enumerate(zip(solution.segment.durations, segment.durations, strict=True))
-        if interval in involved and duration > asked + 1e-9
-    }
-
-
-def _possible(segment: Segment, intervals: list[int], limits: Limits, twins: _Twins) -> _Solution | None:
-    """The segment with these intervals so many times longer that it is possible, None when no time would do."""
-    factor = 2.0
-    while factor <= LONGEST:
-        longer = segment
-        for interval in intervals:
-            longer = _stretched(longer, twins[interval], factor * float(segment.durations[interval]))
-        states = _solve(longer, limits)
-        if states is not None:
-            return _Solution(longer, states, limits, twins)
-        factor *= 2
-    return None
+    def _needed(self, axis: Axis, points: Points) -> Iterator[tuple[int, Found]]:
+        """The findings of a leg and their intervals."""
+        between = ways(axis, self.keys[axis], points)
+        if not between:
+            return
+        ramps = self.ramps.get(Way(axis, between[0].first, between[-1].last))
+        if ramps is not None:
+            yield len(between) - 1, ramps
+        for interval, way in enumerate(between):
+            seconds = self.needs.get(way, 0.0)
+            if seconds > (ramps.shortest or 0.0 if ramps is not None and len(between) == 1 else 0.0) + LONGER:
+                yield interval, timed(axis, points, self.limits[axis], interval, seconds)
 
 
-def _shorten(solution: _Solution, interval: int, low: float) -> None:
-    """Give `interval` its least duration, at least `low`, rounded up to whole milliseconds where the solver allows."""
-    if solution.lasting(interval, low):
-        return
-    high = float(solution.segment.durations[interval])
-    while high > low * (1 + PRECISION):
-        middle = math.sqrt(low * high)
-        low, high = (low, middle) if solution.lasting(interval, middle) else (middle, high)
-    rounded = math.ceil(high * 1000) / 1000
-    while rounded < high * 1.05 and not solution.lasting(interval, rounded):
-        rounded = math.ceil(rounded * (1 + PRECISION) * 1000) / 1000
+def _remembered(possible: Possible) -> Possible:
+    """The same, asked once for each leg whatever its time."""
+    known: dict[object, bool] = {}
+
+    def ask(axis: Axis, points: Points) -> bool:
+        leg = axis, tuple(point._replace(time=round(point.time - points[0].time, 9)) for point in points)
+        if leg not in known:
+            known[leg] = possible(axis, points)
+        return known[leg]
+
+    return ask
+
+
+def _shortest(found: Found) -> float:
+    return 0.0 if isinstance(found, Unsolved) else found.shortest or 0.0

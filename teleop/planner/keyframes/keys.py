@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.keyframes.ramp import Ramp, quickest
 from teleop.planner.keyframes.segment import Segment
@@ -53,13 +54,16 @@ class Waypoint(NamedTuple):
 
 
 def waypoints(axis: Axis, keys: Sequence[Key]) -> list[Waypoint]:
-    """Keys in time, a dwell as two rests. Raises PlanError where one is not after the other."""
+    """Keys in time, a dwell as two rests; one that begins where a dwell ends continues it.
+
+    Raises PlanError where one is not after the other.
+    """
     points: list[Waypoint] = []
     for number, key in enumerate(keys):
         rest = key.stop or key.hold > 0 or number in (0, len(keys) - 1)
-        if points and key.at <= points[-1].time:
+        if points and key.at <= points[-1].time + SAME_TIME:
             last = points[-1]
-            if key.at < last.time or key.position != last.position:
+            if key.at < last.time - SAME_TIME or key.position != last.position:
                 raise PlanError(
                     f"{axis}: {key.where} (at {key.at:.6g} s) is not after {last.where} (until {last.time:.6g} s)"
                 )
@@ -79,6 +83,12 @@ def ramps_asked(points: Sequence[Waypoint]) -> tuple[float, float] | None:
         return None
     duration = points[-1].time - points[0].time
     return leave.over(duration), arrive.over(duration)
+
+
+def ramps_fit(points: Sequence[Waypoint]) -> bool:
+    """Whether there is time for both ramps from one rest to the next."""
+    asked = ramps_asked(points)
+    return asked is None or sum(asked) <= points[-1].time - points[0].time + SAME_TIME
 
 
 def segment_between(points: Sequence[Waypoint], asked: tuple[float, float] | None, limits: Limits) -> Segment:

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
+from teleop.planner.keyframes.bounds import is_beyond
 from teleop.planner.keyframes.diagnostics import long_ramps, overshoots
 from teleop.planner.keyframes.findings import (
     Finding,
@@ -22,11 +23,10 @@ from teleop.planner.keyframes.findings import (
     LongRamp,
     Overshoot,
     PlanError,
-    RampsTooLong,
-    Unsolved,
 )
 from teleop.planner.keyframes.infeasibility import infeasibilities
-from teleop.planner.keyframes.keys import Key, Waypoint, ramps_asked, segment_between, waypoints
+from teleop.planner.keyframes.keys import Key, Waypoint, ramps_asked, ramps_fit, segment_between, waypoints
+from teleop.planner.keyframes.legs import legs, shortened
 from teleop.planner.keyframes.qp import HEADROOM, Rule, solve
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import Array
@@ -35,17 +35,15 @@ from teleop.planner.trajectory import Move, Track
 PIECES = (2, 4, 8)
 STRETCH = 0.002  # relative, of the least factor
 MOST = 2.0**20  # times longer: what is impossible then is so at any speed
-ROUNDING = 1e-9  # relative, of ramps that are to take all of a segment
 
 
 class _Outcome(NamedTuple):
-    """One axis planned: its track, or else the segments without a plan (with their keys' names) and too long ramps."""
+    """One axis planned: its track, or else the legs from rest to rest that have no plan."""
 
     track: Track | None
     overshoots: list[Overshoot]
     long_ramps: list[LongRamp]
-    unsolved: list[tuple[Segment, list[str]]]
-    too_long: list[RampsTooLong]
+    refused: list[Sequence[Waypoint]]
 
 
 class _Pieces(NamedTuple):
@@ -63,13 +61,15 @@ def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tens
     outcomes = {
         axis: _plan_axis(axis, of_axis, limits[axis], tension) for axis, of_axis in keys.items() if not beyond[axis]
     }
-    findings: list[Finding | RampsTooLong | Unsolved] = [finding for of_axis in beyond.values() for finding in of_axis]
-    for axis, outcome in outcomes.items():
-        findings += outcome.too_long
-        for segment, names in outcome.unsolved:
-            findings += infeasibilities(axis, segment, names, limits[axis]) or [Unsolved(axis, names[0], names[-1])]
-    if findings:
-        raise Infeasible(findings)
+    refused = {axis: outcome.refused for axis, outcome in outcomes.items() if outcome.refused}
+    if refused or any(beyond.values()):
+
+        def possible(axis: Axis, points: Sequence[Waypoint]) -> bool:
+            return _plan_leg(axis, points, limits[axis], tension, _Outcome(None, [], [], [])) is not None
+
+        within = {axis: keys[axis] for axis in outcomes}
+        found = infeasibilities(within, limits, refused, possible) if refused else []
+        raise Infeasible([*(finding for of_axis in beyond.values() for finding in of_axis), *found])
     return _assemble(outcomes)
 
 
@@ -112,9 +112,9 @@ def _attempt(
         if beyond:
             raise Infeasible(beyond)
         outcomes[axis] = _plan_axis(axis, [key.later(factor) for key in of_axis], limits[axis], tension)
-        if outcomes[axis].too_long:
-            raise Infeasible(outcomes[axis].too_long)  # however long the move, its ramps take the same share
-        if outcomes[axis].unsolved:
+        if not all(map(ramps_fit, outcomes[axis].refused)):
+            plan(keys, limits, tension)  # however long the move, its ramps take the same share: raises with the reason
+        if outcomes[axis].refused:
             return None
     return _assemble(outcomes)
 
@@ -142,39 +142,42 @@ def _beyond(axis: Axis, keys: Sequence[Key], limits: Limits) -> list[Finding]:
 
 
 def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: float) -> _Outcome:
-    points = waypoints(axis, keys)
-    rests = [i for i, point in enumerate(points) if point.rest]
-    outcome = _Outcome(None, [], [], [], [])
+    outcome = _Outcome(None, [], [], [])
     breaks: list[Array] = []
     coefficients: list[Array] = [np.empty((0, 6))]
-    for first, last in pairwise(rests):
-        pieces = _plan_segment(axis, points[first : last + 1], limits, tension, outcome)
-        if pieces is not None:
-            breaks.append(points[first].time + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])]))
+    for points in legs(axis, keys):
+        few, _ = shortened(points)
+        is_repeated = len(few) < len(points)
+        pieces = None
+        if not is_repeated or _plan_leg(axis, few, limits, tension, _Outcome(None, [], [], [])) is not None:
+            pieces = _plan_leg(axis, points, limits, tension, outcome)
+        if pieces is None:
+            outcome.refused.append(points)
+        else:
+            breaks.append(points[0].time + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])]))
             coefficients.append(pieces.coefficients)
-    if outcome.unsolved or outcome.too_long:
+    if outcome.refused:
         return outcome
-    end = points[-1]
+    end = waypoints(axis, keys)[-1]
     track = Track(np.concatenate([*breaks, [end.time]]), np.concatenate(coefficients), end.position)
     return outcome._replace(track=track)
 
 
-def _plan_segment(
+def _plan_leg(
     axis: Axis, points: Sequence[Waypoint], limits: Limits, tension: float, outcome: _Outcome
 ) -> _Pieces | None:
-    """The pieces from one rest to the next. Adds to `outcome` its warnings, or, where this is None, why."""
+    """The pieces from one rest to the next, None where there is no plan. Adds its warnings to `outcome`."""
     names, asked = [point.where for point in points], ramps_asked(points)
-    duration = points[-1].time - points[0].time
-    if asked and sum(asked) > duration * (1 + ROUNDING):
-        outcome.too_long.append(RampsTooLong(axis, names[0], names[-1], *asked, duration))
+    if not ramps_fit(points):
         return None
     segment = segment_between(points, asked, limits)
+    if is_beyond(segment, limits):
+        return None
     evenness = tension if points[0].tension is None else points[0].tension
     pieces = _directed(segment, limits, evenness)
     if pieces is None:
         pieces = _undirected(segment, limits, evenness)
         if pieces is None:
-            outcome.unsolved.append((segment, names))
             return None
         outcome.overshoots.extend(overshoots(axis, segment, names, *pieces))
     if asked:

@@ -27,6 +27,14 @@ class Ramp(NamedTuple):
         return Ramp(self.seconds * factor, self.share)
 
 
+def together(leave: Ramp, arrive: Ramp) -> float | None:
+    """The least seconds of a way that has both ramps, None where it has no room for them however long it is."""
+    seconds, share = leave.seconds + arrive.seconds, leave.share + arrive.share
+    if seconds == 0:
+        return 0.0
+    return seconds / (1 - share) if share < 1 else None
+
+
 def quickest(change: float, limits: Limits) -> float:
     """The seconds that a smooth change of velocity (unit/s, >= 0) takes at least."""
     acceleration, jerk = limits.acceleration, limits.jerk

@@ -11,10 +11,9 @@ from dataclasses import replace
 from enum import StrEnum
 
 from teleop.core.axes import Axis
+from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.keyframes.planner import Key
-
-SAME_TIME = 1e-9  # s, of periods added up
 
 
 class Repeat(StrEnum):

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 from math import inf
 from typing import NamedTuple
 
+from teleop.core.timing import SAME_TIME
 from teleop.planner.trajectory import Move, Track
 
 AT_REST = 1e-6  # units per s and per s2: what a solver leaves of a 0
-SAME = 1e-6  # s: times that are closer are the same
 
 
 class Rest(NamedTuple):
@@ -50,7 +50,7 @@ def _both(one: Sequence[Rest], other: Sequence[Rest]) -> Iterator[Rest]:
     i = j = 0
     while i < len(one) and j < len(other):
         start, end = max(one[i].start, other[j].start), min(one[i].end, other[j].end)
-        if start <= end + SAME:
+        if start <= end + SAME_TIME:
             yield Rest(start, max(start, end))
         if one[i].end < other[j].end:
             i += 1

@@ -37,7 +37,7 @@ def smoothest(low: Array, high: Array, step: float, limits: Limits | None, rests
                 bounds += [np.full(matrix.shape[0], bound)] * 2
     for sign, edge in ((1.0, high), (-1.0, low)):
         known = np.isfinite(edge)
-        rows.append(sign * sparse.identity(len(low), format="csr")[known])
+        rows.append(sign * sparse.csr_matrix(sparse.identity(len(low)))[known])
         bounds.append(sign * (edge[known] - origin) / scale)
     cost = sparse.triu(orders[2].T @ orders[2], format="csc")
     found = minimize(cost, np.zeros(len(low)), sparse.vstack(rows, format="csc"), np.concatenate(bounds))

@@ -22,9 +22,12 @@ def test_the_time_that_is_needed_comes_first(factor: float, seconds: float, shor
     assert str(Finding(*KEYS, "jerk", factor, seconds, shortest)) == f"pan {text}; or `fit: stretch`"
 
 
-def test_stretching_is_not_advised_where_no_time_helps() -> None:
+def test_where_no_time_was_searched_for_there_is_what_is_known() -> None:
     text = str(Finding(*KEYS, "velocity", 3.0, 2.0))
-    assert text == "pan cannot go from key 1 to key 2 in any time (velocity would be 3 x its limit)"
+    assert text == "pan cannot go from key 1 to key 2 in 2.000 s (velocity would be 3 x its limit); or `fit: stretch`"
+    text = str(Finding(*KEYS, "velocity", 3.0, 2.0, least=6.0))
+    needs = "pan needs more than 6.000 s from key 1 to key 2, not 2.000 s"
+    assert text == f"{needs} (velocity would be 3 x its limit); or `fit: stretch`"
 
 
 @pytest.mark.parametrize(
@@ -39,8 +42,10 @@ def test_a_key_beyond_a_soft_limit_has_its_distance_and_its_unit(axis: Axis, lim
 
 
 def test_the_other_findings_name_their_keys_too() -> None:
-    ramps = str(RampsTooLong(*KEYS, 3, 2, 4))
+    ramps = str(RampsTooLong(*KEYS, 3, 2, 4, 5))
     assert ramps == "pan needs 5.000 s for its ramps (3 s + 2 s) from key 1 to key 2, not 4.000 s; or a shorter `ease`"
+    ramps = str(RampsTooLong(*KEYS, 3, 2, 4))
+    assert ramps == "pan has no time for its ramps (3 s + 2 s) from key 1 to key 2 in 4.000 s; use a shorter `ease`"
     assert str(Unsolved(*KEYS)) == "pan: no plan found from key 1 to key 2; use a longer `ease`, or more time"
     assert str(Overshoot(*KEYS, 0.8261)) == "pan overshoots by 0.826 deg between key 1 and key 2, to keep its limits"
     assert str(LongRamp(Axis.PAN, "key 1", 0.05, 0.523)) == "pan needs a ramp of 0.52 s at key 1, not 0.05 s"
