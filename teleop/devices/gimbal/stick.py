@@ -23,7 +23,7 @@ from teleop.dji.gimbal.joystick import deflection
 from teleop.dji.gimbal.messages import Joystick
 from teleop.identification.candidates import Start
 
-SETTING = Start(gain_doubt=0.3, gains=(0.4, 2.5))  # what full deflection gives may not be what the profile says
+SETTING = Start(gain_doubt=0.15, gains=(0.4, 2.5))  # what full deflection gives may not be what the profile says
 
 
 class StickSink:
