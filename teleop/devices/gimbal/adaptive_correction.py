@@ -8,6 +8,7 @@ and the estimator finds that (docs/explanation/closed-loop.md).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from teleop.core.axes import Axis, Limits, State
@@ -18,6 +19,8 @@ from teleop.devices.gimbal.pi_correction import FRESH, MAX_ERROR, Gains
 from teleop.identification.estimator import Ahead, ResponseEstimator
 
 GAIN = 0.75, 1.3  # what may be made up for
+LARGE, FIRMER = 0.15, 0.7  # deg; by that share more what is beyond counts
+FIRM = 0.03  # s of doubt of the delay at which that may be
 DRIFT = 1.5  # deg/s that may be made up for
 
 
@@ -66,4 +69,6 @@ class AdaptiveCorrection:
         planned = plan.at(float(ahead.weights @ ahead.dead_times)).position
         error = min(max(planned - float(ahead.weights @ ahead.places), -MAX_ERROR), MAX_ERROR)
         drift = min(max(float(ahead.weights @ ahead.drifts), -DRIFT), DRIFT) if self._gains.integral else 0.0
-        return self._gains.proportional * error - drift
+        firm = self._estimators[axis].response.delay_doubt < FIRM
+        large = math.copysign(max(0.0, abs(error) - LARGE), error)
+        return self._gains.proportional * (error + firm * FIRMER * large) - drift
