@@ -6,14 +6,16 @@ sequence that moves them cannot. Each is given as long to answer as the loop wou
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
+from types import MappingProxyType
 
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import MOVES
 from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError, LinkError, TeleopError
 from teleop.core.interfaces import Clock
+from teleop.core.response import Response
 from teleop.core.timing import FIRST_REPORT, PERIOD
 from teleop.devices.gimbal.position import Angles
 from teleop.devices.rig import DRONE_FIRST_REPORT, Device, Rig, open_rig
@@ -24,7 +26,9 @@ CURES = {
 }
 
 
-def open_present(stack: ExitStack, profile: Profile, clock: Clock) -> tuple[Rig, Sequence[Axis], Sequence[str]]:
+def open_present(
+    stack: ExitStack, profile: Profile, clock: Clock, priors: Mapping[Axis, Response] = MappingProxyType({})
+) -> tuple[Rig, Sequence[Axis], Sequence[str]]:
     """The rig, open until the stack is left, the axes that are there, and a line for each device that is not.
 
     Raises LinkError, DeviceError and DocumentError for what has to be there, or where nothing is left to be moved.
@@ -38,7 +42,7 @@ def open_present(stack: ExitStack, profile: Profile, clock: Clock) -> tuple[Rig,
         axes = [axis for axis in moved if axis in profile.axes]
         notes.append(_left_out(axes, reason) if axes else f"the camera is left out: {reason}")
 
-    rig = stack.enter_context(open_rig(profile, clock, absent))
+    rig = stack.enter_context(open_rig(profile, clock, absent, priors))
     axes = list(rig.axes)
     for device, reason in _silent(rig, clock):
         reasons.append(reason)

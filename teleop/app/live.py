@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from teleop.app.absent_devices import open_present
@@ -22,6 +22,7 @@ from teleop.config.presets import default_file, read_presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.interfaces import Clock, Observer, Sink
+from teleop.core.response import Response
 from teleop.core.run_status import RunStatus
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.connection import Connection
@@ -58,7 +59,7 @@ MakeReplayScreen = Callable[[Mapping[Axis, Limits], Callable[[float], RunStatus]
 class LiveRun:
     """`recorded` sticks drive beside the inputs, `recordings` are inputs; `keyboard` is None without a terminal.
 
-    In `virtual` time only what is recorded counts.
+    In `virtual` time only what is recorded counts. `priors` are the responses of the axes that were found before.
     """
 
     profile: Profile
@@ -71,6 +72,7 @@ class LiveRun:
     take: Path | None = None
     virtual: bool = False
     targets: Path | None = None
+    priors: Mapping[Axis, Response] = field(default_factory=dict)
 
     def by_hand(self, make_screen: Callable[[LiveParts], Screen], signals: Signals) -> RunReport:
         """Until the operator or what is recorded ends it. Raises TeleopError for what keeps it from beginning."""
@@ -120,7 +122,7 @@ class LiveRun:
             recorder = self._recorder(stack, limits, aboard.status if is_flown(axes) else None, patient=self.virtual)
             screen = make_screen(limits, lambda now: guard.over(shown(now)), recorder)
             guard.notify = screen.notify
-            rig = stack.enter_context(open_rig(self.profile, self.clock))
+            rig = stack.enter_context(open_rig(self.profile, self.clock, priors=self.priors))
             aboard.board(rig, axes, screen.notify, by_script=True)
             tracking = TrackingErrorMonitor(lambda: replay.begin)
             return run(*(rig, axes, [guard], tracking, screen, signals, recorder), stopped=lambda: guard.reason)
@@ -138,9 +140,9 @@ class LiveRun:
     def _opened(self, stack: ExitStack) -> tuple[Rig, Sequence[Axis], Sequence[str]]:
         """The rig, its axes, and a line for each that is absent; recorded sticks need all of theirs."""
         if self.recorded is None:
-            return open_present(stack, self.profile, self.clock)
+            return open_present(stack, self.profile, self.clock, self.priors)
         axes = list(self.profile.axes) if self.recordings else self.recorded.axes
-        return stack.enter_context(open_rig(self.profile, self.clock)), axes, ()
+        return stack.enter_context(open_rig(self.profile, self.clock, priors=self.priors)), axes, ()
 
     def _recorder(
         self, stack: ExitStack, limits: Mapping[Axis, Limits], status: Callable[[], object] | None, patient: bool

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Protocol, Self
 
@@ -13,6 +13,7 @@ from teleop.app.switch_interval import short_switch_interval
 from teleop.core.axes import Axis
 from teleop.core.events import DeviceCommand
 from teleop.core.interfaces import Observer, Sink, Source
+from teleop.core.response import Response
 from teleop.core.run_state import Result
 from teleop.devices.drone.state import DroneState
 from teleop.devices.gimbal.commands import CommandSink, Unheard
@@ -41,7 +42,10 @@ class Screen(Observer, Protocol):
 
 @dataclass(frozen=True)
 class RunReport:
-    """How a run ended. `tracking` has how well each axis followed; `links` counts by link; `take` what was recorded."""
+    """How a run ended. `tracking` has how well each axis followed; `links` counts by link; `take` what was recorded.
+
+    `responses` are what was identified of the axes that are sent speeds, of those that moved enough for it.
+    """
 
     result: Result
     reasons: Sequence[str]
@@ -49,6 +53,7 @@ class RunReport:
     links: Mapping[str, Mapping[str, int]]
     drone: DroneState | None = None
     take: Recorder | None = None
+    responses: Mapping[Axis, Response] = field(default_factory=dict)
 
 
 def run(
@@ -67,7 +72,7 @@ def run(
 
     `stopped` is asked at the end for a STOP that was not cleared, which then is among the reasons.
     """
-    watching = [tracking, *observers, *([] if take is None else [take]), screen]
+    watching = [tracking, *observers, rig.notes(screen.notify), *([] if take is None else [take]), screen]
     loop = rig.loop(axes, sources, watching, sinks)
     with undisturbed(), signals(loop.interrupt, loop.release_at_once, screen.notify), screen:
         ended = loop.run()
@@ -77,7 +82,7 @@ def run(
         take.finish(ended.result, ended.reasons, links)
     drone = rig.drone(axes)
     state = None if drone is None else drone.state(rig.clock.now())
-    return RunReport(ended.result, ended.reasons, tracking, links, state, take)
+    return RunReport(ended.result, ended.reasons, tracking, links, state, take, rig.responses)
 
 
 def commands(

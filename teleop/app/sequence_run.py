@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,6 +18,7 @@ from teleop.app.trim_writer import TrimWriter
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.interfaces import Clock
+from teleop.core.response import Response
 from teleop.core.run_status import RunStatus
 from teleop.devices.rig import open_rig
 from teleop.inputs.keyboard import Keyboard
@@ -56,6 +57,8 @@ class SequenceReport:
 class SequenceRun:
     """`share` is that of the rig's limits that the source keeps to: less than 1 leaves the rest to a trim.
 
+    `priors` are the responses of the axes that were found before.
+
     `notify` gets a line for what the gimbal answers and what the links report, `warn` for an input
     that is absent.
     """
@@ -72,6 +75,7 @@ class SequenceRun:
     take: Path | None = None
     patient: bool = False
     learner: PassLearner | None = None
+    priors: Mapping[Axis, Response] = field(default_factory=dict)
 
     @property
     def axes(self) -> list[Axis]:
@@ -89,7 +93,8 @@ class SequenceRun:
             recorder = stack.enter_context(self._recording(aboard))
             if source.cycle.trigger is not None:
                 source.cycle.trigger.open(stack)
-            rig = stack.enter_context(open_rig(self.profile, self.clock))
+            rig = stack.enter_context(open_rig(self.profile, self.clock, priors=self.priors))
+            rig.foresee(source.foreseen)
             planned = partial(as_planned, source, self.sequence.move)
             played = None if self.take is None or is_flown(axes) else PlayedStatus(source, self.sequence.move, rig)
             if recorder and played:

@@ -57,7 +57,7 @@ class Session:
         self._loop: ControlLoop | None = None
         try:
             self.rig: Rig = self._stack.enter_context(open_rig(profile.in_use(self.axes, [Action.RECORD]), self.clock))
-            observers = [self.program, self._camera()]
+            observers = [self.program, self._camera(), self.rig.notes(log.info)]
             self._loop = self.rig.loop(self.axes, [self.program], observers, command_sinks(self.rig, log.info))
             self._supervisor = self._loop.supervisor
             _sessions.add(self)

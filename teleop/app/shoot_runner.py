@@ -146,8 +146,8 @@ class Shooting:
         try:
             with open_rig(self._profile, self._clock) as rig:
                 shutter = ShutterSink(rig.connections[self._camera], source.on_shutter_result)
-                notes = LinkNotes(rig.connections.values(), self._notify)
-                self._loop = rig.loop(list(timelapse.limits), [guard], [notes, *self._observers], [shutter])
+                notes = LinkNotes(rig.connections.values(), self._notify), rig.notes(self._notify)
+                self._loop = rig.loop(list(timelapse.limits), [guard], [*notes, *self._observers], [shutter])
                 if self._interrupted:
                     self._loop.interrupt(self._interrupted)
                 supervisor = self._loop.run()

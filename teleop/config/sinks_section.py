@@ -61,8 +61,8 @@ class GimbalSection(Section):
     """The command stream: positions, speeds, or deflections of the gimbal's joystick."""
     rate: Rate
     """Commands per second (Hz)."""
-    delay: Annotated[float, Field(ge=0, le=0.5)] = 0.0
-    """How much later than commanded the gimbal moves, in s."""
+    delay: Annotated[float, Field(ge=0, le=0.5)] | None = None
+    """How much later than commanded the gimbal moves, in s; null: found out while it moves, 0 in mode position."""
     gains: GainsSection = GainsSection()
     """Gains of the correction from measured angles, for the modes speed and stick."""
     max_following_error: Annotated[float, Field(gt=0, le=180)] = 5.0

@@ -11,6 +11,7 @@ import secrets
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from teleop.config.credentials import APP_KEY, load_credentials
 from teleop.config.documents.document import DocumentError
@@ -22,12 +23,14 @@ from teleop.config.sinks_section import (
     FlightSection,
     FocusSection,
     GimbalSection,
+    SinkSection,
     VirtualRcSection,
 )
 from teleop.core.axes import Axis, Limits
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import LinkError, TeleopError
 from teleop.core.interfaces import Clock, Observer, Reporter, Sink, Source
+from teleop.core.response import Response
 from teleop.core.timing import LoopTiming
 from teleop.devices.camera import CameraSink
 from teleop.devices.connection import Connection
@@ -39,11 +42,14 @@ from teleop.devices.drone.sink import DroneSink
 from teleop.devices.drone.telemetry import Telemetry
 from teleop.devices.drone.virtual_rc import VirtualRcControl
 from teleop.devices.focus import FocusReporter, FocusSink
+from teleop.devices.gimbal.guard_notes import GuardNotes
+from teleop.devices.gimbal.outlook import Foreseen
 from teleop.devices.gimbal.pi_correction import Gains
 from teleop.devices.gimbal.position import Angles, PositionSink
 from teleop.devices.gimbal.profile_firmware import profile_firmware
 from teleop.devices.gimbal.profile_simulation import simulated_settings
 from teleop.devices.gimbal.speed import SpeedSink
+from teleop.devices.gimbal.speed_control import SpeedControl
 from teleop.devices.gimbal.stick import StickSink
 from teleop.dji.drone.encryption import Cipher
 from teleop.dji.drone.messages import Activate
@@ -58,6 +64,7 @@ from teleop.sim.drone.device import SimulatedDrone
 from teleop.sim.gimbal.device import SimulatedGimbal
 from teleop.sim.link import SimLink
 
+HOLDING = 0.04  # s between looks at a resting axis that may drift: what is sent speeds holds no place by itself
 DRONE_FIRST_REPORT = 8.0  # s: an activation may be asked for three times, a second each
 
 
@@ -76,6 +83,8 @@ class Device:
     delay: float = 0.0
     direction: DirectionGuard | None = None  # what notices that an axis goes the other way
     exchange: ExchangedAxesGuard | None = None  # and that one axis is reported in the place of another
+    control: SpeedControl | None = None  # what identifies the axes that are sent speeds
+    lines: list[str] | None = None  # what its guards have to say
 
 
 class Rig:
@@ -119,6 +128,26 @@ class Rig:
     def _used(self, axes: Sequence[Axis]) -> Sequence[Device]:
         return [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
 
+    @property
+    def responses(self) -> Mapping[Axis, Response]:
+        """How each axis answers that is sent speeds and has moved enough to be sure of it."""
+        found = [device.control.responses for device in self._devices if device.control is not None]
+        return {axis: response for of_device in found for axis, response in of_device.items()}
+
+    def _obeys(self, axis: Axis, since: float) -> bool | None:
+        controls = [device.control for device in self._devices if device.control and axis in device.moves]
+        return controls[0].estimators[axis].obeys(since) if controls else None
+
+    def foresee(self, foreseen: Foreseen) -> None:
+        """Have what is sent speeds led by a plan that is known ahead: where it will be at a time of the loop's."""
+        for device in self._devices:
+            if device.control is not None:
+                device.control.foresee(foreseen)
+
+    def notes(self, notify: Callable[[str], object]) -> GuardNotes:
+        """An observer that says when a soft limit holds an axis back, and when one answers otherwise than before."""
+        return GuardNotes([device.lines for device in self._devices if device.lines is not None], notify)
+
     def loop(
         self,
         axes: Sequence[Axis],
@@ -139,8 +168,9 @@ class Rig:
             {axis: device.follow for axis, device in measured if device.follow is not None},
             {axis: device.delay for axis, device in measured},
             [device.direction.found for device in used if device.direction],
+            self._obeys,
         )
-        timing = LoopTiming()
+        timing = LoopTiming(keep_alive=HOLDING) if any(device.control for device in used) else LoopTiming()
         if drone := self.drone(axes):
             timing = LoopTiming(keep_alive=drone.period, first_report=DRONE_FIRST_REPORT)
         directions = [guard for device in used for guard in (device.direction, device.exchange) if guard]
@@ -158,15 +188,19 @@ class Rig:
 
 @contextmanager
 def open_rig(
-    profile: Profile, clock: Clock, absent: Callable[[str, TeleopError], object] | None = None
+    profile: Profile,
+    clock: Clock,
+    absent: Callable[[str, TeleopError], object] | None = None,
+    priors: Mapping[Axis, Response] = MappingProxyType({}),
 ) -> Iterator[Rig]:
     """The rig with its links open; raises LinkError when one cannot be opened, and closes those that were.
 
     Raises DocumentError when a drone on a real link has no credentials. With `absent` the rig does without the devices
-    on an optional link that cannot be opened, and `absent` is called with the link's name and the reason.
+    on an optional link that cannot be opened, and `absent` is called with the link's name and the reason. `priors` are
+    the responses that were found before; each is verified in the first motion before it is fully used.
     """
     with ExitStack() as stack:
-        opening = _Opening(profile, clock, stack)
+        opening = _Opening(profile, clock, stack, priors)
         for name in profile.links:
             try:
                 opening.open(name)
@@ -180,7 +214,8 @@ def open_rig(
 class _Opening:
     """A rig while its links are opened, one after the other, until `stack` is left."""
 
-    def __init__(self, profile: Profile, clock: Clock, stack: ExitStack) -> None:
+    def __init__(self, profile: Profile, clock: Clock, stack: ExitStack, priors: Mapping[Axis, Response]) -> None:
+        self._priors = priors
         self._profile, self._clock, self._stack = profile, clock, stack
         self._devices: dict[int, Device] = {}  # by their places among the profile's sinks
         self._connections: dict[str, Connection] = {}
@@ -191,12 +226,17 @@ class _Opening:
         """Open a link and what is at its end. Raises LinkError and DocumentError."""
         with ExitStack() as stack:
             connection = self._connected(name, stack)
-            limits = self._profile.limits
             for place, section in enumerate(self._profile.sinks):
                 if section.link == name:
-                    self._devices[place] = BUILDERS[section.type](section, connection, limits)
+                    self._devices[place] = self._device(section, connection)
             self._connections[name] = connection
             self._stack.push(stack.pop_all())
+
+    def _device(self, section: SinkSection, connection: Connection) -> Device:
+        limits = self._profile.limits
+        if isinstance(section, GimbalSection):
+            return _gimbal(section, connection, limits, self._priors)
+        return BUILDERS[section.type](section, connection, limits)
 
     def rig(self) -> Rig:
         profile = self._profile.with_links(self._connections)
@@ -238,10 +278,13 @@ def _turns_for_ever(profile: Profile) -> bool:
     return Axis.PAN in profile.limits and profile.limits[Axis.PAN].continuous
 
 
-def _gimbal(section: GimbalSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:
+def _gimbal(
+    section: GimbalSection, connection: Connection, limits: Mapping[Axis, Limits], priors: Mapping[Axis, Response]
+) -> Device:
     wiring = section.wiring
     own = {axis: limits[axis] for axis in section.axes if axis is not None and axis in limits}
-    guard = DirectionGuard(section.sign_line, section.delay, speeds=section.mode != "position")
+    delay = section.delay or 0.0
+    guard = DirectionGuard(section.sign_line, delay, speeds=section.mode != "position")
     gains = Gains(section.gains.proportional, section.gains.integral)
     reporter = Angles(connection, wiring, section.legacy_angles)
     exchange = _exchange_guard(section, reporter, guard.found)
@@ -254,13 +297,15 @@ def _gimbal(section: GimbalSection, connection: Connection, limits: Mapping[Axis
     sink: Sink
     match section.mode:
         case "position":
-            sink = PositionSink(connection, section.rate, section.delay, wiring, own, guard.found)
+            sink = PositionSink(connection, section.rate, delay, wiring, own, guard.found)
         case "speed":
-            sink = SpeedSink(connection, section.rate, section.delay, wiring, own, gains, sent)
+            sink = SpeedSink(connection, section.rate, section.delay, wiring, own, gains, sent, priors)
         case "stick":
             full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
-            sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, sent)
-    return Device(list(own), sink, reporter, section.max_following_error, section.delay, guard, exchange)
+            sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, sent, priors)
+    control = None if isinstance(sink, PositionSink) else sink.control
+    lines = sink.guard.lines if isinstance(sink, PositionSink) else sink.control.lines
+    return Device(list(own), sink, reporter, section.max_following_error, delay, guard, exchange, control, lines)
 
 
 def _exchange_guard(section: GimbalSection, reporter: Angles, found: set[Axis]) -> ExchangedAxesGuard | None:
@@ -270,7 +315,9 @@ def _exchange_guard(section: GimbalSection, reporter: Angles, found: set[Axis]) 
         return None
     ratio = wiring.report_sign(pair[0]) * wiring.report_sign(pair[1])
     return ExchangedAxesGuard(
-        *(pair, ratio, lambda: section.order_line(reporter.bare), section.delay), section.mode != "position", found
+        *(pair, ratio, lambda: section.order_line(reporter.bare), section.delay or 0.0),
+        section.mode != "position",
+        found,
     )
 
 
@@ -314,7 +361,6 @@ def _cipher(encrypted: bool) -> Cipher | None:
 
 
 BUILDERS: Mapping[str, Callable[..., Device]] = {
-    "gimbal": _gimbal,
     "focus": _focus,
     "camera": _camera,
     "virtual-rc": _virtual_rc,

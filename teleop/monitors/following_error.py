@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 
 from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.errors import DeviceError
@@ -17,6 +17,7 @@ from teleop.core.events import Tick
 
 EXCESS_TIMEOUT = 0.5  # s for which an axis may be elsewhere
 TRAILING = 0.2  # s by which readings may trail the command, beyond the delay that is known
+GIVEN_UP = 5.0  # s for which an axis that goes where it is sent may be elsewhere: it does not come closer
 BLIND = 2.5  # s without a reading; a gimbal that only pushes may do so once a second (docs/protocol-facts.md)
 HISTORY = 300  # ticks of commanded motion: the lag, and the age of a reading
 
@@ -25,7 +26,8 @@ class FollowingErrorGuard:
     """An observer of the run.
 
     `tolerance` is how far from commanded each axis to be watched may be, in units; `delay` how much later than
-    commanded it moves, in s (0 where absent). Of an axis that is `excused` the reason is known already.
+    commanded it moves, in s (0 where absent). Of an axis that is `excused` the reason is known already. `obeys` says
+    whether an axis has gone where it was sent since a time (s), by what is known of its response; None: unknown.
     """
 
     def __init__(
@@ -34,8 +36,9 @@ class FollowingErrorGuard:
         tolerance: Mapping[Axis, float],
         delay: Mapping[Axis, float],
         excused: Sequence[Container[Axis]] = (),
+        obeys: Callable[[Axis, float], bool | None] = lambda _axis, _since: None,
     ) -> None:
-        self._excused = excused
+        self._excused, self._obeys = excused, obeys
         self._tolerance, self._delay = tolerance, delay
         self._turns = {axis for axis in tolerance if axis in limits and limits[axis].continuous}
         self._commanded: deque[tuple[float, Motion]] = deque(maxlen=HISTORY)
@@ -60,11 +63,20 @@ class FollowingErrorGuard:
         if abs(measured - nearest) <= self._tolerance[axis]:
             self._away.pop(axis, None)
         elif time - self._away.setdefault(axis, time) > EXCESS_TIMEOUT:
+            if self._obeys(axis, time - EXCESS_TIMEOUT):
+                self._wait_for(axis, measured, nearest, time)
+                return
             del self._away[axis]
             raise DeviceError(
                 f"{axis} does not follow: commanded {nearest:.1f}, measured {measured:.1f}:"
                 " is it blocked, or held by hand?"
             )
+
+    def _wait_for(self, axis: Axis, measured: float, nearest: float, time: float) -> None:
+        """It goes where it is sent, and that is elsewhere: held back at a soft limit, or slower than was thought."""
+        if time - self._away[axis] > GIVEN_UP:
+            del self._away[axis]
+            raise DeviceError(f"{axis} does not come closer: commanded {nearest:.1f}, measured {measured:.1f}")
 
     def _nearest(self, axis: Axis, measured: float, time: float) -> float:
         """Of everywhere the axis was commanded to be while a reading at `time` may lag, what is nearest to it."""

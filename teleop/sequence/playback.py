@@ -94,6 +94,11 @@ class Playback:
         self._read = now
         return self._pace.at(now)[0], state_at(self._move, self._pace, now)
 
+    def foreseen(self, time: float, begin: float | None = None) -> dict[Axis, State]:
+        """Where the axes will be at a `time` soon, if nothing is asked for; `begin` is when a pass will start."""
+        pace = self._pace if begin is None else replace(self._opened, start=begin)
+        return state_at(self._move, pace, time)
+
     def time(self, now: float) -> float:
         """The move's own time at `now`, in s."""
         return self._pace.at(now)[0]

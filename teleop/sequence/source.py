@@ -99,6 +99,17 @@ class SequenceSource:
         motion = self._follow(now) if on_path else self._ease.at(now - self._ease_begin)
         return {axis: StateTarget(*state) for axis, state in motion.items()}, self._events
 
+    def foreseen(self, time: float) -> Motion:
+        """Where the axes will be at a `time` soon, on the loop's clock, if nothing is asked for meanwhile."""
+        if self.phase in (SequencePhase.PLAYING, SequencePhase.OVER):
+            back = self.phase is SequencePhase.OVER and self.cycle.back_to_one
+            return self._ease.at(time - self._ease_begin) if back else self.playback.foreseen(time)
+        if self.phase in BEFORE_THE_MOVE and self.cycle.trigger is None:
+            begin = self.until if self.phase is SequencePhase.PREROLL else self._after_preroll(self.until)
+            if time > begin:
+                return self.playback.foreseen(time, begin)
+        return self._ease.at(time - self._ease_begin)
+
     def next_change(self, now: float) -> float:
         if self.phase is SequencePhase.OVER:
             return math.inf

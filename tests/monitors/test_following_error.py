@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
-from teleop.monitors.following_error import BLIND, EXCESS_TIMEOUT, TRAILING, FollowingErrorGuard
+from teleop.monitors.following_error import BLIND, EXCESS_TIMEOUT, GIVEN_UP, TRAILING, FollowingErrorGuard
 
 BOUNDED, ENDLESS = Limits(-180, 180, 120, 240, 1200), Limits(-math.inf, math.inf, 120, 240, 1200)
 
@@ -90,3 +90,27 @@ def test_axes_that_are_not_watched_or_not_in_use_are_left_alone() -> None:
     guard = FollowingErrorGuard({Axis.PAN: BOUNDED}, {Axis.PAN: 5.0}, {})
     for number in range(1000):
         guard.observe(Tick(number / 100, {Axis.FOCUS: State(1.0)}, {}, (), {Axis.FOCUS: Reading(0.0, number / 100)}))
+
+
+def test_an_axis_that_goes_where_it_is_sent_is_given_longer_and_is_not_said_to_be_held() -> None:
+    asked: list[float] = []
+
+    def obeys(_axis: Axis, since: float) -> bool:
+        asked.append(since)
+        return True
+
+    guard = FollowingErrorGuard({Axis.PAN: BOUNDED}, {Axis.PAN: 5.0}, {}, obeys=obeys)
+    ticks = [Tick(n / 100, {Axis.PAN: State(12.0)}, {}, (), {Axis.PAN: Reading(3.1, n / 100)}) for n in range(600)]
+    soon = round(100 * GIVEN_UP)
+    list(map(guard.observe, ticks[:soon]))
+    with pytest.raises(DeviceError, match=r"^pan does not come closer: commanded 12\.0, measured 3\.1$"):
+        list(map(guard.observe, ticks[soon : soon + 5]))
+    assert asked[0] == pytest.approx(0.01, abs=0.02)
+
+
+@pytest.mark.parametrize("obeyed", [False, None])
+def test_an_axis_that_does_not_or_is_unknown_is_stopped_as_soon_as_ever(obeyed: bool | None) -> None:
+    guard = FollowingErrorGuard({Axis.PAN: BOUNDED}, {Axis.PAN: 5.0}, {}, obeys=lambda _axis, _since: obeyed)
+    ticks = [Tick(n / 100, {Axis.PAN: State(12.0)}, {}, (), {Axis.PAN: Reading(3.1, n / 100)}) for n in range(60)]
+    with pytest.raises(DeviceError, match="does not follow"):
+        list(map(guard.observe, ticks))

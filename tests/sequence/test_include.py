@@ -73,7 +73,7 @@ def test_an_error_is_said_where_it_stands_and_where_that_was_included(tmp_path: 
 def test_what_only_the_rig_cannot_do_is_that_kind_of_error_from_within_too(tmp_path: Path) -> None:
     (tmp_path / "part.yaml").write_text("keyframes:\n  - {at: 0, pan: 0}\n  - {at: 1, pan: 60}\n")
     [found] = problems_of(tmp_path, "include:\n  - {move: part.yaml, at: 3, speed: 200%}\n", UnplayableError)
-    assert found.startswith("part.yaml:3:5: pan needs 1.256 s from include 1, key 1 to include 1, key 2, not 0.500 s ")
+    assert found.startswith("part.yaml:3:5: pan needs 1.261 s from include 1, key 1 to include 1, key 2, not 0.500 s ")
     assert found.endswith(" (included at shoot.yaml:2:5)")
     (tmp_path / "part.yaml").write_text("keyframes:\n  - {at: 0, roll: 0}\n")
     [found] = problems_of(tmp_path, "include:\n  - {move: part.yaml, at: 3}\n", UnplayableError)

@@ -57,3 +57,15 @@ def test_cues_are_given_once_and_keep_it_awake() -> None:
     assert source.next_change(source.begin + 110) == source.begin + 120
     assert source.read(source.begin + 120, NO_FEEDBACK)[1] == [Action.STOP]
     assert math.isinf(source.next_change(source.begin + 120))
+
+
+def test_what_it_foresees_is_what_it_demands_later_from_the_ease_to_the_end() -> None:
+    source = started(-5.0)
+    foreseen: dict[int, float] = {}
+    for number in range(1000):
+        now = 5.0 + number / 100
+        target = source.read(now, NO_FEEDBACK)[0][Axis.PAN]
+        assert isinstance(target, StateTarget)
+        assert target.position == pytest.approx(foreseen.get(number, target.position), abs=1e-9)
+        foreseen[number + 10] = source.foreseen(now + 0.1)[Axis.PAN].position
+    assert source.begin < 9.0

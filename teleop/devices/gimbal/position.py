@@ -18,6 +18,7 @@ from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
 from teleop.devices.connection import Answer, Connection
+from teleop.devices.gimbal.aim_guard import AimGuard
 from teleop.devices.rate_divider import RateDivider
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.enums import AngleKind
@@ -130,6 +131,7 @@ class PositionSink:
         self._misreported = misreported
         self._connection, self._delay, self._wiring, self._limits = connection, delay, wiring, limits
         self._pace = RateDivider(rate)
+        self.guard = AimGuard(limits)
         self._refusals = Refusals(connection, gimbal.Position)
         self._sent: Mapping[Axis, float] = {}
         self._sent_at = -math.inf
@@ -147,7 +149,11 @@ class PositionSink:
         self._refusals.check()
         if self._unreached or not self._pace.due(tick.time, tick.motion):
             return
-        aims = {axis: self._aim(axis, state) for axis, state in tick.motion.items() if axis in self._limits}
+        aims = {
+            axis: self.guard.aim(axis, self._aim(axis, state), tick)
+            for axis, state in tick.motion.items()
+            if axis in self._limits
+        }
         if aims != self._sent or tick.time - self._sent_at >= REPEAT:
             self._unreached = True
             self._connection.request(position_command(aims, self._wiring, TIME_FOR_ACTION), tick.time)

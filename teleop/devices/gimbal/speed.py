@@ -7,13 +7,16 @@ The gimbal forgets a speed after 0.5 s. Speed control is taken over with the fir
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from types import MappingProxyType
 
 from teleop.config.wiring import Wiring
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Tick
+from teleop.core.response import Response
 from teleop.devices.connection import Answer, Connection
-from teleop.devices.gimbal.pi_correction import Gains, PiCorrection
+from teleop.devices.gimbal.pi_correction import Gains
 from teleop.devices.gimbal.position import Refusals, position_command
+from teleop.devices.gimbal.speed_control import SpeedControl
 from teleop.devices.rate_divider import RateDivider
 from teleop.dji.gimbal import messages as gimbal
 
@@ -34,16 +37,17 @@ class SpeedSink:
         self,
         connection: Connection,
         rate: int,
-        delay: float,
+        delay: float | None,
         wiring: Wiring,
         limits: Mapping[Axis, Limits],
         gains: Gains = Gains(),  # noqa: B008 - immutable
         on_sent: Callable[[float, Mapping[Axis, float]], object] = lambda _now, _speeds: None,
+        priors: Mapping[Axis, Response] = MappingProxyType({}),
     ) -> None:
         self._on_sent = on_sent
         self._connection, self._wiring = connection, wiring
         self._pace = RateDivider(rate)
-        self._correction = PiCorrection(limits, delay + self._pace.period / 2, gains)
+        self.control = SpeedControl(limits, self._pace.period, delay, gains, priors)
         self._refusals = Refusals(connection, gimbal.Speed)
         self._last: Tick | None = None
         self._taken_over = False
@@ -54,10 +58,10 @@ class SpeedSink:
     def write(self, tick: Tick) -> None:
         self._refusals.check()
         self._last = tick
-        self._correction.note(tick)
+        self.control.note(tick)
         if self._pace.due(tick.time, tick.motion):
             self._taken_over = True  # before it is sent: what may have left must be given back
-            self._send(self._correction.speeds(tick), tick.time)
+            self._send(self.control.speeds(tick), tick.time)
 
     def release(self, now: float) -> float | None:
         """Zero speed three times, control given back, and a short position command that levels what drifted.
@@ -86,8 +90,10 @@ class SpeedSink:
         if answer.sequence == self._waiting and answer.reply is not None:
             self._waiting = -1
 
-    def _send(self, speeds: Mapping[Axis, float], now: float) -> None:
+    def _send(self, wanted: Mapping[Axis, float], now: float) -> None:
+        speeds = {axis: round(speed, 1) for axis, speed in wanted.items()}  # as the message has them
         self._on_sent(now, speeds)
+        self.control.sent(now, speeds)
         yaw, roll, pitch = self._wiring.speeds_to_gimbal(speeds)
         self._connection.request(gimbal.Speed(yaw, roll, pitch, take_over=True, ignore_focal_length=True), now)
 

@@ -92,3 +92,35 @@ def test_a_steady_disturbance_is_corrected_to_the_grid() -> None:
         command = speed(correction, now, State(5.0, 0, 0), Reading(round(position, 1), now))
         position += 0.02 * (command - 1.5)  # the head is heavy on one side
     assert position == pytest.approx(5.0, abs=0.2)
+
+
+def lagging(correction: PiCorrection, acceleration: float, place: float = 0.0, velocity: float = 10.0) -> float:
+    """What is left of a correction at once after 2 s in which the axis was a degree behind, 50 times a second."""
+    now = 1.0
+    while now < 3.0:
+        now += 0.02
+        each = tick(now, State(place, velocity, acceleration), Reading(place - 1.0, now))
+        correction.note(each)
+        correction.speeds(each)
+    return correction._integrals[Axis.PAN]
+
+
+def test_the_integral_rests_while_the_plan_accelerates() -> None:
+    assert lagging(PiCorrection(LIMITS, 0.0), 60.0) == 0.0
+    assert lagging(PiCorrection(LIMITS, 0.0), 0.0) > 3.0
+
+
+def test_the_integral_rests_where_the_soft_limit_is_near() -> None:
+    assert lagging(PiCorrection(LIMITS, 0.0), 0.0, place=179.5) == 0.0
+    assert lagging(PiCorrection(LIMITS, 0.0), 0.0, place=179.5, velocity=0.0) > 3.0  # it has to hold its place
+
+
+def test_the_integral_gives_up_what_was_not_sent() -> None:
+    correction, now = PiCorrection(LIMITS, 0.0), 1.0
+    lagging(correction, 0.0)
+    held = correction._integrals[Axis.PAN]
+    for _ in range(50):
+        now += 0.02
+        correction.sent(3.0 + now, {Axis.PAN: 0.0})
+    assert held > 3.0
+    assert correction._integrals[Axis.PAN] == 0.0

@@ -1,0 +1,74 @@
+"""What becomes of a plan before a gimbal is sent speeds: corrected by readings, held back at a soft limit, remembered.
+
+The response of each axis is identified on the way. A profile with a `delay` overrides what is found of it: the
+correction then takes the profile's word, and only the guard at the soft limits goes by what is measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from teleop.core.axes import Axis, Limits
+from teleop.core.events import Tick
+from teleop.core.response import Response
+from teleop.devices.gimbal.adaptive_correction import AdaptiveCorrection
+from teleop.devices.gimbal.limit_guard import LimitGuard
+from teleop.devices.gimbal.outlook import Foreseen
+from teleop.devices.gimbal.pi_correction import Gains, PiCorrection
+from teleop.identification.candidates import Start
+from teleop.identification.estimator import ResponseEstimator
+
+
+class SpeedControl:
+    """`period` is that of the commands, in s; `delay` how much later than commanded a speed is reached, None: unknown.
+
+    `priors` are what was found of the axes before, `start` what is thought of their gain without.
+    """
+
+    def __init__(
+        self,
+        limits: Mapping[Axis, Limits],
+        period: float,
+        delay: float | None,
+        gains: Gains,
+        priors: Mapping[Axis, Response],
+        start: Start = Start(),  # noqa: B008 - immutable
+    ) -> None:
+        self.estimators = {axis: ResponseEstimator(priors.get(axis), start) for axis in limits}
+        self._guard = LimitGuard(limits, period, self.estimators)
+        self.lines = self._guard.lines  # what there is to say: whoever says it empties the list
+        self._correction: PiCorrection | AdaptiveCorrection
+        if delay is None:
+            self._correction = AdaptiveCorrection(limits, period, self.estimators, gains)
+        else:
+            self._correction = PiCorrection(limits, delay + period / 2, gains)
+
+    def note(self, tick: Tick) -> None:
+        """Remember what this tick commands and reports; call it for every tick."""
+        self._correction.note(tick)
+        for axis, estimator in self.estimators.items():
+            if reading := tick.reported.get(axis):
+                estimator.read(reading)
+                if estimator.changed:
+                    estimator.changed = False
+                    self.lines.append(f"{axis} answers otherwise than before: it is identified anew")
+
+    def foresee(self, foreseen: Foreseen) -> None:
+        """Look ahead by `foreseen` from now on."""
+        if isinstance(self._correction, AdaptiveCorrection):
+            self._correction.foreseen = foreseen
+
+    def speeds(self, tick: Tick) -> dict[Axis, float]:
+        """The speed to send now for each axis, in deg/s."""
+        return self._guard.speeds(tick, self._correction.speeds(tick))
+
+    def sent(self, now: float, speeds: Mapping[Axis, float]) -> None:
+        """These speeds (deg/s) are sent now, 0 for an axis that is not among them."""
+        self._correction.sent(now, speeds)
+        for axis, estimator in self.estimators.items():
+            estimator.sent(now, speeds.get(axis, 0.0))
+
+    @property
+    def responses(self) -> Mapping[Axis, Response]:
+        """Of the axes that have moved enough to be sure of them."""
+        return {axis: estimator.response for axis, estimator in self.estimators.items() if estimator.sure}
