@@ -234,6 +234,8 @@ class SlowBook:
 class SlowNote:
     """A note that is safe once `over` says so."""
 
+    failed = False
+
     def __init__(self, over: Callable[[], bool]) -> None:
         self._over = over
 
