@@ -22,10 +22,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from teleop.config.documents.document import DocumentError
-from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, shown
 
 UNPLUGGED, PLUGGED = "unplugged", "plugged"
 AFTER = 1.0  # s from the last row to the end of the run
+LONGEST = 86_400  # s: later rows have another clock's times, and a run up to them would never end
+OPENING = 0.1  # s from the beginning of a run in which what is plugged in is opened
 MAX_PROBLEMS = 20
 
 
@@ -54,7 +56,7 @@ class Recording:
 def read_recording(file: Path, number: int = 1) -> Recording:
     """The recording in `file`, `number` of the run's. Raises DocumentError with a line for everything wrong."""
     try:
-        lines = file.read_text(encoding="utf-8-sig").splitlines()
+        lines = file.read_text(encoding="utf-8-sig").split("\n")
     except OSError as error:
         raise DocumentError([f"{file}: cannot be read: {error.strerror or error}"]) from None
     except UnicodeDecodeError:
@@ -124,7 +126,7 @@ def _infos(path: bytes, device: Any) -> Sequence[DeviceInfo]:
     interface = device.get("interface", 0)
     if not isinstance(interface, int):
         raise ValueError(f'device: "interface" must be a number, not {interface!r}')
-    serial, name, port, driver = (str(device.get(key) or "") for key in ("serial", "name", "port", "driver"))
+    serial, name, port, driver = (shown(str(device.get(key) or "")) for key in ("serial", "name", "port", "driver"))
     return [
         DeviceInfo(path, ids[0], ids[1], serial, name, page, usage, interface, port, driver)
         for page, usage in usages or [(0, 0)]
@@ -144,8 +146,10 @@ def _hexadecimal(record: Mapping[str, Any], key: str) -> bytes:
 
 def _row(record: Mapping[str, Any]) -> Row:
     time = record.get("time")
-    if isinstance(time, bool) or not isinstance(time, int | float) or not math.isfinite(time) or time < 0:
+    if isinstance(time, bool) or not isinstance(time, int | float) or not time >= 0:
         raise ValueError(f'"time" must be 0 s or later, not {time!r}')
+    if time > LONGEST:
+        raise ValueError(f'"time" must be {LONGEST} s at most; it counts from the beginning of the run')
     if record.get(UNPLUGGED) is True:
         return Row(time, gone=True)
     if record.get(PLUGGED) is True:
@@ -181,7 +185,8 @@ class RecordedDevices:
             if each.infos[0].path == path:
                 if not _is_plugged(each.rows, self._time()):
                     raise OSError("unplugged")
-                return RecordedDevice(each, self._now, self._begin, self._time())
+                time = self._time()
+                return RecordedDevice(each, self._now, self._begin, time if time > OPENING else -math.inf)
         if self._others is None:
             raise OSError("no such device")
         return self._others.open(path)
@@ -198,6 +203,8 @@ class RecordedDevice:
         self._next = bisect.bisect_left(recording.rows, time, key=lambda row: row.time)
         self._reports: dict[int, bytes] = {}  # the last one of each first byte
         self._last = b""
+        for row in recording.rows[: self._next]:
+            self._answer_with(row)
         self._waiting = threading.Event()
 
     @property
@@ -221,9 +228,15 @@ class RecordedDevice:
         if row.gone:
             raise OSError("unplugged")
         self._next += 1
+        self._answer_with(row)
+        return row.report
+
+    def _answer_with(self, row: Row) -> None:
+        """What the device reported is what it says when it is asked; one that was unplugged knows nothing any more."""
         if row.report:
             self._last = self._reports[row.report[0]] = row.report
-        return row.report
+        else:
+            self._reports, self._last = {}, b""
 
     def get_input_report(self, report_id: int, length: int) -> bytes:
         answer = self._reports.get(report_id) if report_id else self._last
