@@ -167,3 +167,8 @@ def test_a_hat_held_stores_a_preset_and_pressed_recalls_it_and_a_switchs_first_t
     assert played.at(Axis.PAN, 7.5) == pytest.approx(0, abs=1e-6)
     assert played.at(Axis.FOCUS, 7.9) == played.at(Axis.FOCUS, 0.0)
     assert played.last(Axis.FOCUS) == pytest.approx(1, abs=1e-3)
+
+
+def test_the_only_pad_may_be_plugged_in_in_the_middle_of_the_run(player: Player) -> None:
+    rows = [(1.0, b""), *held(REST, 1, 3), *held(RIGHT, 3, 3.5), *held(REST, 3.5, 4)]
+    assert player.play(player.device(STICK, rows)).moved == {Axis.PAN}
