@@ -23,12 +23,14 @@ from typing import Any, NamedTuple
 
 from teleop.config.documents.document import DocumentError
 from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, shown
+from teleop.inputs.hid.descriptor.parser import MAX_COLLECTIONS
 
 UNPLUGGED, PLUGGED = "unplugged", "plugged"
 AFTER = 1.0  # s from the last row to the end of the run
 LONGEST = 86_400  # s: later rows have another clock's times, and a run up to them would never end
 OPENING = 0.1  # s from the beginning of a run in which what is plugged in is opened
 MAX_PROBLEMS = 20
+LONGEST_VALUE = 60  # letters of a wrong value in a line about it
 
 
 class Row(NamedTuple):
@@ -118,19 +120,25 @@ def _infos(path: bytes, device: Any) -> Sequence[DeviceInfo]:
         except ValueError:
             number = -1
         if not 0 <= number <= 0xFFFF:
-            raise ValueError(f'device: "{key}" must be four hexadecimal digits, not {device.get(key)!r}')
+            raise ValueError(f'device: "{key}" must be four hexadecimal digits, not {_brief(device.get(key))}')
         ids.append(number)
     usages = device.get("usages", [])
-    if not isinstance(usages, list) or not all(_is_usage(each) for each in usages):
-        raise ValueError('device: "usages" must be a list of [page, usage]')
+    if not isinstance(usages, list) or len(usages) > MAX_COLLECTIONS or not all(_is_usage(each) for each in usages):
+        raise ValueError(f'device: "usages" must be a list of [page, usage], of {MAX_COLLECTIONS} at most')
     interface = device.get("interface", 0)
     if not isinstance(interface, int):
-        raise ValueError(f'device: "interface" must be a number, not {interface!r}')
+        raise ValueError(f'device: "interface" must be a number, not {_brief(interface)}')
     serial, name, port, driver = (shown(str(device.get(key) or "")) for key in ("serial", "name", "port", "driver"))
     return [
         DeviceInfo(path, ids[0], ids[1], serial, name, page, usage, interface, port, driver)
         for page, usage in usages or [(0, 0)]
     ]
+
+
+def _brief(value: Any) -> str:
+    """A wrong value in the line about it."""
+    text = repr(value)
+    return text if len(text) <= LONGEST_VALUE else f"{text[:LONGEST_VALUE]}..."
 
 
 def _is_usage(value: Any) -> bool:
@@ -141,13 +149,13 @@ def _hexadecimal(record: Mapping[str, Any], key: str) -> bytes:
     try:
         return bytes.fromhex(record[key])
     except (KeyError, TypeError, ValueError):
-        raise ValueError(f'"{key}" must be hexadecimal, not {record.get(key)!r}') from None
+        raise ValueError(f'"{key}" must be hexadecimal, not {_brief(record.get(key))}') from None
 
 
 def _row(record: Mapping[str, Any]) -> Row:
     time = record.get("time")
     if isinstance(time, bool) or not isinstance(time, int | float) or not time >= 0:
-        raise ValueError(f'"time" must be 0 s or later, not {time!r}')
+        raise ValueError(f'"time" must be 0 s or later, not {_brief(time)}')
     if time > LONGEST:
         raise ValueError(f'"time" must be {LONGEST} s at most; it counts from the beginning of the run')
     if record.get(UNPLUGGED) is True:

@@ -71,7 +71,7 @@ def test_a_file_full_of_mistakes_is_not_told_without_end(tmp_path: Path) -> None
     [
         ({"vendor": "46dx"}, "\"vendor\" must be four hexadecimal digits, not '46dx'"),
         ({"product": "1c216"}, "\"product\" must be four hexadecimal digits, not '1c216'"),
-        ({"usages": [[1, 4], [1]]}, '"usages" must be a list of [page, usage]'),
+        ({"usages": [[1, 4], [1]]}, '"usages" must be a list of [page, usage], of 256 at most'),
         ({"interface": "0"}, "\"interface\" must be a number, not '0'"),
     ],
 )
@@ -141,6 +141,11 @@ def test_a_time_that_no_run_comes_to_is_refused(tmp_path: Path, time: str, probl
     file.write_text(f'{file.read_text()}{{"time": {time}, "report": "00"}}\n')
     [line] = problems(file)
     assert line.startswith(f":2: {problem}")
+
+
+def test_a_line_about_a_wrong_value_is_short(tmp_path: Path) -> None:
+    wrong = [{"time": "9" * 10_000, "report": "00"}, {"time": 0, "report": ["x"] * 10_000}]
+    assert all(len(line) < 150 for line in problems(written(tmp_path, HEAD, *wrong)))
 
 
 def test_what_a_device_says_of_itself_is_no_command_for_the_terminal(tmp_path: Path) -> None:
