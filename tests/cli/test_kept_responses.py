@@ -13,6 +13,9 @@ import pytest
 
 import teleop
 from teleop.cli import run
+from teleop.cli.doctor.finding import State
+from teleop.cli.doctor.responses import responses
+from teleop.config.response_store import ResponseStore, default_folder
 from teleop.sim.gimbal.device import SimulatedGimbal
 
 PROFILE = """\
@@ -60,10 +63,9 @@ def kept_files() -> list[Path]:
     return sorted(Path(os.environ["XDG_STATE_HOME"]).rglob("*.json"))
 
 
-def doctor(capsys: pytest.CaptureFixture[str]) -> list[Any]:
-    capsys.readouterr()
-    run(["doctor", "--json"])
-    return json.loads(capsys.readouterr().out)["responses"]
+def kept_keys() -> list[tuple[str, ...]]:
+    """Each key with its axis."""
+    return [(*each.key, each.axis.value) for each in ResponseStore(default_folder()).read()]
 
 
 def test_the_second_run_is_better_than_the_first(play: Callable[..., Any]) -> None:
@@ -95,7 +97,7 @@ def test_another_payload_mode_or_rig_does_not_share(other: tuple[str, str], play
 
 
 def test_another_version_drops_what_was_kept_with_a_line(
-    play: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    play: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     play()
     monkeypatch.setattr("teleop.devices.rig.SimulatedGimbal", partial(SimulatedGimbal, version="03.00.00.01"))
@@ -103,7 +105,7 @@ def test_another_version_drops_what_was_kept_with_a_line(
     assert lines == [
         "teleop: gimbal: firmware 03.00.00.01, but how pan answers was found with firmware 02.02.00.07: dropped"
     ]
-    assert {each["version"] for each in doctor(capsys)} == {"02.02.00.07", "03.00.00.01"}
+    assert [version for _, version, *_ in kept_keys()] == ["02.02.00.07", "03.00.00.01"]
     assert "dropped" not in play(text=True).err
 
 
@@ -123,25 +125,26 @@ def test_the_delay_of_the_profile_overrides_what_is_found(play: Callable[..., An
 def test_doctor_shows_what_is_kept_and_forget_clears_it(
     play: Callable[..., Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert doctor(capsys) == []
     play(("rate: 50,", "rate: 50, payload: fx3-24mm,"))
-    (kept,) = doctor(capsys)
-    key = {name: kept[name] for name in ("rig", "version", "link", "mode", "payload", "axis")}
-    assert key == {
+    assert kept_keys() == [("Late", "02.02.00.07", "sim", "speed", "fx3-24mm", "pan")]
+    assert run(["doctor", "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    (kept,) = report["responses"]
+    assert {name: kept[name] for name in ("rig", "link", "mode", "payload", "axis")} == {
         "rig": "Late",
-        "version": "02.02.00.07",
         "link": "sim",
         "mode": "speed",
         "payload": "fx3-24mm",
         "axis": "pan",
     }
-    run(["doctor"])
-    assert "Late, mode speed on sim, fx3-24mm, firmware 02.02.00.07: pan 0.15 s late" in capsys.readouterr().out
+    assert kept["delay"] == pytest.approx(0.15, abs=0.015)
+    (line,) = [each["found"] for each in report["findings"] if each["about"] == "response"]
+    assert line.startswith("Late, mode speed on sim, fx3-24mm, firmware 02.02.00.07: pan 0.15 s late")
     assert run(["forget", "--rig", "sim"]) == 0
     assert capsys.readouterr().out == "nothing is kept of Simulated rig\n"
     assert run(["forget", "--rig", str(tmp_path / "rig.yaml")]) == 0
     assert capsys.readouterr().out == "cleared: Late, mode speed on sim, fx3-24mm, firmware 02.02.00.07: pan\n"
-    assert doctor(capsys) == []
+    assert kept_files() == []
     play()
     assert run(["forget", "--all", "--json"]) == 0
     assert [each["axis"] for each in json.loads(capsys.readouterr().out)["cleared"]] == ["pan"]
@@ -158,8 +161,12 @@ def test_a_damaged_file_is_a_warning_and_stays(play: Callable[..., Any], capsys:
         f"teleop: warning: {path}: damaged, not used and not replaced: clear it with teleop forget"
     ]
     assert path.read_text() == "{"
-    assert run(["doctor"]) == 0
-    assert f"!!  response   {path}: damaged" in capsys.readouterr().out
+    (finding,) = responses()
+    assert finding.state is State.PROBLEM
+    assert (finding.found, finding.todo) == (
+        f"{path}: damaged, not used and not replaced",
+        "clear it with teleop forget",
+    )
     assert run(["forget", "--rig", "Late"]) == 0
     assert capsys.readouterr().out == f"cleared: {path}, which was damaged\n"
     assert error(play()) == error(first)
