@@ -105,7 +105,7 @@ class ResponseStore:
             "version": VERSION,
             "key": key._asdict(),
             "axis": axis.value,
-            "found": datetime.now(UTC).isoformat(timespec="seconds"),
+            "found": datetime.now(UTC).isoformat(timespec="milliseconds"),
             "response": {name: _written(value) for name, value in response._asdict().items()},
         }
         try:
