@@ -39,7 +39,7 @@ class Trace(NamedTuple):
         of = self.response
         return (
             f"delay {of.delay:.3f} s ± {of.delay_doubt:.3f}, dead time {of.dead_time:.3f} s, lag {of.lag:.3f} s,"
-            f" gain {of.gain:.3f} ± {of.gain_doubt:.3f}, drift {of.drift + 0.0:.2f} deg/s ± {of.drift_doubt:.2f}"
+            f" gain {of.gain:.3f} ± {of.gain_doubt:.3f}, drift {round(of.drift, 2) + 0.0:.2f} deg/s ± {of.drift_doubt:.2f}"
         )
 
 

@@ -12,10 +12,16 @@ from typing import Any
 import pytest
 
 import teleop
+from teleop.app.kept_responses import KeptResponses
 from teleop.cli import run
 from teleop.cli.doctor.finding import State
 from teleop.cli.doctor.responses import responses
-from teleop.config.response_store import ResponseStore, default_folder
+from teleop.config.profile import load_profile
+from teleop.config.response_store import Key, ResponseStore, default_folder
+from teleop.core.axes import Axis
+from teleop.core.clock import VirtualClock
+from teleop.core.response import Response
+from teleop.devices.rig import open_rig
 from teleop.sim.gimbal.device import SimulatedGimbal
 
 PROFILE = """\
@@ -107,6 +113,45 @@ def test_another_version_drops_what_was_kept_with_a_line(
     ]
     assert [version for _, version, *_ in kept_keys()] == ["02.02.00.07", "03.00.00.01"]
     assert "dropped" not in play(text=True).err
+
+
+def test_a_gimbal_that_has_changed_is_noticed_and_identified_anew(play: Callable[..., Any]) -> None:
+    play()
+    other = ("lag: 0.1, dead_time: 0.05", "lag: 0.2, dead_time: 0.1")
+    assert "pan answers otherwise than before: it is identified anew" in play(other, text=True).err
+    (kept,) = ResponseStore(default_folder()).read()
+    assert kept.response.delay == pytest.approx(0.3, abs=0.015)
+
+
+def test_a_change_that_is_not_found_anew_clears_what_was_kept(tmp_path: Path) -> None:
+    """By a run that ends too early for it; what was not looked at stays."""
+    path = tmp_path / "rig.yaml"
+    path.write_text(PROFILE)
+    profile = load_profile(str(path))
+    store, key = ResponseStore(default_folder()), Key("Late", "", "sim", "speed", "")
+    for axis in (Axis.PAN, Axis.TILT):
+        store.keep(key, axis, Response(0.05, 0.1, 1.0, 0.0, 0.01, 0.01, 0.1))
+    kept = KeptResponses(profile, pytest.fail)
+    assert set(kept.priors) == {Axis.PAN, Axis.TILT}
+    with open_rig(profile, VirtualClock(), priors=kept.priors) as rig:
+        kept.begin(rig, pytest.fail)
+        (device,) = rig.devices
+        assert device.control is not None
+        device.control.changed.add(Axis.PAN)
+        assert kept.finish().kept == []
+    assert [each.axis for each in store.read()] == [Axis.TILT]
+
+
+def test_live_keeps_what_it_finds_and_a_run_that_moves_nothing_keeps_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "rig.yaml").write_text(PROFILE)
+    sticks = tmp_path / "sticks.csv"
+    for deflection, axes in ((0.0, []), (0.5, ["pan"])):
+        sticks.write_text(f"time,pan\n0,0\n0.5,{deflection}\n2,{-deflection}\n3,0\n4,0\n")
+        assert run(["live", "--sticks", str(sticks), "--rig", str(tmp_path / "rig.yaml"), "--fast", "--json"]) == 0
+        assert list(json.loads(capsys.readouterr().out)["responses"]) == axes
+        assert [axis for *_, axis in kept_keys()] == axes
 
 
 def test_the_end_of_a_run_has_a_line_for_each_axis_that_was_identified(play: Callable[..., Any]) -> None:

@@ -118,7 +118,7 @@ def _print(report: ResponseReport, kept: Sequence[Axis], output: Path | None, as
         of = each.response
         announce(
             f"{each.axis} answers {of.delay:.3f} s late (doubt {of.delay_doubt:.3f}), gain {of.gain:.3f} (doubt"
-            f" {of.gain_doubt:.3f}), drift {of.drift + 0.0:.2f} deg/s (doubt {of.drift_doubt:.2f});"
+            f" {of.gain_doubt:.3f}), drift {round(of.drift, 2) + 0.0:.2f} deg/s (doubt {of.drift_doubt:.2f});"
             f" {each.rms:.2f} deg rms unexplained{'; kept for the next run' if each.axis in kept else ''}",
             *written,
         )
