@@ -37,9 +37,10 @@ class Trace(NamedTuple):
     def figures(self) -> str:
         """The response in words, each value with its doubt."""
         of = self.response
+        drift = round(of.drift, 2) + 0.0  # no -0.0
         return (
             f"delay {of.delay:.3f} s ± {of.delay_doubt:.3f}, dead time {of.dead_time:.3f} s, lag {of.lag:.3f} s,"
-            f" gain {of.gain:.3f} ± {of.gain_doubt:.3f}, drift {round(of.drift, 2) + 0.0:.2f} deg/s ± {of.drift_doubt:.2f}"
+            f" gain {of.gain:.3f} ± {of.gain_doubt:.3f}, drift {drift:.2f} deg/s ± {of.drift_doubt:.2f}"
         )
 
 

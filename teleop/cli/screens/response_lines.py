@@ -14,7 +14,8 @@ from teleop.core.response import Response
 def response_words(response: Response) -> str:
     """`0.12 s late (doubt 0.01), gain 0.97, drift 0.2 deg/s`."""
     doubt = f" (doubt {response.delay_doubt:.1g})" if math.isfinite(response.delay_doubt) else ""
-    return f"{response.delay:.2f} s late{doubt}, gain {response.gain:.2f}, drift {round(response.drift, 1) + 0.0:.1f} deg/s"
+    drift = round(response.drift, 1) + 0.0  # no -0.0
+    return f"{response.delay:.2f} s late{doubt}, gain {response.gain:.2f}, drift {drift:.1f} deg/s"
 
 
 def response_facts(response: Response) -> Mapping[str, float | None]:
