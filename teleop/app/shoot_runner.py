@@ -13,6 +13,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Literal
 
+from teleop.app.kept_responses import KeptResponses
 from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import CameraSection
@@ -144,13 +145,17 @@ class Shooting:
         self.guard = guard
         self._runs += 1
         try:
-            with open_rig(self._profile, self._clock) as rig:
+            kept = KeptResponses(self._profile, self._notify)
+            with open_rig(self._profile, self._clock, priors=kept.priors) as rig:
+                kept.begin(rig, self._notify)
                 shutter = ShutterSink(rig.connections[self._camera], source.on_shutter_result)
                 notes = LinkNotes(rig.connections.values(), self._notify), rig.notes(self._notify)
-                self._loop = rig.loop(list(timelapse.limits), [guard], [*notes, *self._observers], [shutter])
+                self._loop = rig.loop(list(timelapse.limits), [guard], [*notes, kept, *self._observers], [shutter])
                 if self._interrupted:
                     self._loop.interrupt(self._interrupted)
                 supervisor = self._loop.run()
+                for line in kept.finish().problems:
+                    self._notify(line)
                 self.links = {name: connection.counts for name, connection in rig.connections.items()}
         except LinkError as error:
             if self._runs == 1:

@@ -76,6 +76,16 @@ class ResponseEstimator:
             self.changed |= self._prior is not None and not _agree(self._prior, self.response)
             self._prior = None
 
+    def suppose(self, prior: Response | None) -> None:
+        """Begin anew, from another prior or from none."""
+        of = self._candidates
+        self._candidates = Candidates(
+            of.dead_times, of.lags, _prior(prior, of.dead_times, of.lags), _start(prior, self._start)
+        )
+        if self._reading is not None:
+            self._candidates.reset(self._reading.position)
+        self._prior, self._known = prior, False
+
     def _begin_anew(self, place: float) -> None:
         """What was found no longer explains the readings."""
         self.changed |= self._known
