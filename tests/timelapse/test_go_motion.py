@@ -13,7 +13,7 @@ from teleop.timelapse.phases import TimelapsePhase
 
 
 def test_a_journal_that_fails_in_a_run_up_pauses_without_a_jump_and_the_frame_is_shot_later(tmp_path: Path) -> None:
-    shoot = Shoot(timelapse(tmp_path, "blur: 0.5"))
+    shoot = Shoot(timelapse(tmp_path, "blur: 0.2"))
     while shoot.progress.frame < 2 or shoot.source.phase is not TimelapsePhase.PREFOCUS:
         shoot.book.writes = shoot.progress.frame < 2
         shoot.tick()
