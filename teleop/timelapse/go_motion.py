@@ -17,7 +17,8 @@ from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
 from teleop.timelapse.budget import STEP_SHARE
 from teleop.timelapse.compile import Timelapse
-from teleop.timelapse.movers import GENTLE, GlideMover, Mover, StepMover, Way, approach
+from teleop.timelapse.movers import GlideMover, Mover, StepMover
+from teleop.timelapse.way import GENTLE, Way, approach
 
 
 class GoMotionMover:

@@ -13,20 +13,15 @@ from collections.abc import Mapping
 from concurrent.futures import Executor
 from typing import Protocol
 
-from teleop.core.axes import Axis, Limits, Motion, State
+from teleop.core.axes import Axis, Motion
 from teleop.core.timing import SAME_TIME
-from teleop.planner.polynomial import Array
 from teleop.planner.rest_to_rest import rest_to_rest
-from teleop.planner.trajectory import Move
 from teleop.sequence.playback import Playback
 from teleop.timelapse.budget import STEP_SHARE
 from teleop.timelapse.compile import Timelapse
+from teleop.timelapse.way import GENTLE, Way, approach
 
-GENTLE = 0.5  # of velocity, acceleration and jerk, where there is time
-BACKLASH = {Axis.FOCUS: 0.02}  # units, how far before its place an axis is approached from
-BACKLASH_ANGLE = 1.0  # deg
 FAR = 1000.0  # s: when any run-up is long over
-_GRID = 100  # Hz: what begins and ends on the loop's ticks
 
 
 class Mover(Protocol):
@@ -83,33 +78,6 @@ class Mover(Protocol):
     def resume(self, now: float, time: float, lead: float) -> None:
         """Go on: `time` is that of the frame that is next, and is `lead` s away or more."""
         ...
-
-
-class Way:
-    """Moves one after the other, each from rest to rest."""
-
-    def __init__(self, now: float, motion: Motion) -> None:
-        self._legs: list[tuple[float, Move]] = []
-        self.end = motion  # where it leads to
-        self.arrival = now
-
-    def along(self, begin: float, move: Move) -> None:
-        """A move that is under way, whose own time is 0 at `begin`."""
-        self._legs.append((begin, move))
-        self.end, self.arrival = move.end, begin + move.duration
-
-    def on(self, target: Mapping[Axis, float], limits: Mapping[Axis, Limits], share: float, least: float = 0.0) -> None:
-        """To `target` when the way so far is over."""
-        move = rest_to_rest(self.end, target, limits, share, least)
-        self._legs.append((self.arrival, move))
-        self.end = {axis: State(position) for axis, position in target.items()}
-        self.arrival += math.ceil(move.duration * _GRID - SAME_TIME) / _GRID
-
-    def at(self, now: float) -> Motion:
-        for begin, move in self._legs:
-            if now < begin + move.duration:
-                return move.at(now - begin)
-        return self.end
 
 
 class StepMover:
@@ -239,29 +207,3 @@ class GlideMover:
             self.begin(now + lead + self.run_up, time)
         else:
             self._playback.resume(now)
-
-
-def approach(
-    now: float,
-    motion: Motion,
-    place: Mapping[Axis, float],
-    positions: Mapping[Axis, Array],
-    frame: int,
-    limits: Mapping[Axis, Limits],
-) -> Way:
-    """To `place`, in the end from the side from which the move comes to `frame`."""
-    before = {axis: _before(axis, there, positions[axis], frame, limits[axis]) for axis, there in place.items()}
-    way = Way(now, {axis: motion[axis] for axis in place})
-    if before != place:
-        way.on(before, limits, GENTLE)
-    way.on(place, limits, GENTLE)
-    return way
-
-
-def _before(axis: Axis, place: float, positions: Array, frame: int, limits: Limits) -> float:
-    """A little before `place`: by the way there, or, where it begins there, by the way on."""
-    here = positions[frame]
-    way = next((here - there for there in positions[:frame][::-1] if there != here), 0.0)
-    way = way or next((there - here for there in positions[frame:] if there != here), 0.0)
-    back = math.copysign(BACKLASH.get(axis, BACKLASH_ANGLE), way) if way else 0.0
-    return min(max(place - back, limits.minimum), limits.maximum)

@@ -10,7 +10,8 @@ from at_once import AtOnce
 from timelapse_bench import LIMITS, timelapse
 
 from teleop.core.axes import Axis, State
-from teleop.timelapse.movers import GlideMover, StepMover, approach
+from teleop.timelapse.movers import GlideMover, StepMover
+from teleop.timelapse.way import approach
 
 REST = {Axis.PAN: State(0.0)}
 
