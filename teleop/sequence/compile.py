@@ -86,8 +86,7 @@ def load_sequence(
         raise UnplayableError(problems)
     if problems := list(_restless(cues, move)):
         raise DocumentError(problems)
-    remarks = [*move.overshoots, *move.long_ramps]
-    warnings = [*timeline.remarks, *(timeline.places[remark.last].line(str(remark)) for remark in remarks)]
+    warnings = [*timeline.remarks, *(timeline.places[remark.last].line(str(remark)) for remark in move.remarks)]
     if factor > 1:
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))
         if sticks := [axis for axis in move.tracks if axis.is_stick]:

@@ -18,12 +18,14 @@ from teleop.core.events import Action
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.keyframes.keys import Key
 from teleop.planner.keyframes.repeat import repeated
+from teleop.planner.keyframes.tension import Tension
 from teleop.planner.trajectory import Move
 from teleop.sequence.aim import MOST_MISSED, ON_THE_WAY, Scene, Tracked
 from teleop.sequence.cues import Cue, moved_rules
 from teleop.sequence.keys import SAME, Keys, KeysError, keys_of, recentered
 from teleop.sequence.model import SequenceModel
 from teleop.sequence.panorama import WHERE, shots
+from teleop.sequence.turns import long_ways, unwrapped
 
 MOST_KEYS = 10_000  # of an axis, every pass of a repeat counted: the planner takes some 10 s for them
 
@@ -122,11 +124,12 @@ class Timeline:
                 timeline.cues.append(Timed(Cue(at, Action.SHUTTER), False, place))
         return timeline
 
-    def own_blocks(self) -> dict[Axis, list[Block]]:
-        """The keyframes, each for itself, and a panorama as a whole."""
+    def own_blocks(self, limits: Mapping[Axis, Limits]) -> dict[Axis, list[Block]]:
+        """The keyframes, each for itself, and a panorama as a whole. Adds a remark for each long way round."""
+        keys = unwrapped(self.own, self.model, limits)
+        self.remarks += [self.document.line(("keyframes", frame), text) for frame, text in long_ways(keys, limits)]
         blocks = {
-            axis: [Block([key], key.where, self.places[key.where]) for key in of_axis]
-            for axis, of_axis in self.own.items()
+            axis: [Block([key], key.where, self.places[key.where]) for key in of_axis] for axis, of_axis in keys.items()
         }
         if self.model.panorama:
             for axis, of_axis in shots(self.model.panorama, self.model.fps).keys.items():
@@ -147,7 +150,7 @@ class Timeline:
         return replace(self, keys=keys, cues=cues, places=places, aims=aims)
 
 
-def _inserted(key: Key, at: float, rate: float, name: str, tension: float | None, stop: bool) -> Key:
+def _inserted(key: Key, at: float, rate: float, name: str, tension: Tension | None, stop: bool) -> Key:
     later = key.later(1 / rate)
     own = key.tension if key.tension is not None else tension
     return replace(later, at=at + later.at, stop=stop or key.stop, where=f"{name}, {key.where}", tension=own)
@@ -187,7 +190,8 @@ def expand(timeline: Timeline, limits: Mapping[Axis, Limits]) -> Iterator[str]:
             return
     if model.repeat:
         try:
-            timeline.keys = repeated(timeline.keys, times, model.repeat.mode)
+            endless = [axis for axis in timeline.keys if limits[axis].continuous]
+            timeline.keys = repeated(timeline.keys, times, model.repeat.mode, endless)
         except PlanError as error:
             yield document.problem(("repeat",), str(error))
     centers = [(index, cue) for index, cue in enumerate(model.cues) if cue.recenter is not None]

@@ -25,11 +25,12 @@ import numpy as np
 
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.findings import Finding
-from teleop.planner.keyframes.qp import HEADROOM, Rule, least_factors, solve
+from teleop.planner.keyframes.program import HEADROOM, Rule
+from teleop.planner.keyframes.qp import least_factors, solve
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import Array
 
-FINEST = Rule(pieces=8, directed=False)
+FINEST = Rule(pieces=8, directed=False, fine=True)
 BLAMED = 1 + 1e-3  # a factor above this is a limit that gives, not the solver's tolerance
 PRECISION = 0.005  # relative, of the shortest time
 ROOM = 0.95  # a time that can be cut to this share has been found too long: less time is not always harder for the mesh
