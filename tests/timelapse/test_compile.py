@@ -142,8 +142,8 @@ def test_an_interval_that_cannot_hold_a_frame_says_which_and_what_would_do(tmp_p
     assert "is tight: frame 80 of 720 takes" in tight
     assert load(tmp_path, interval="5s").warnings == []
     [ramped] = problems(tmp_path, interval="{from: 0.5s, to: 2s}")
-    assert "timelapse.interval is 0.57 s and must be at least 0.95 s: frame 35 of 720" in ramped
-    assert "(273 frames are too short)" in ramped
+    assert "timelapse.interval is 0.58 s and must be at least 1.03 s: frame 40 of 720" in ramped
+    assert "(250 frames are too short)" in ramped
 
 
 def test_settling_counts_with_the_longest_it_may_take(tmp_path: Path) -> None:
