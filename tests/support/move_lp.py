@@ -16,6 +16,7 @@ STEPS = 160  # of constant jerk, about
 FEWEST = 8  # of them between two keys
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
 Keys = Sequence[tuple[float, float]]
 
 
@@ -23,8 +24,8 @@ class _Motion(NamedTuple):
     """`states` (3, steps + 1, n): position, velocity, acceleration as rows over the jerks, one more unknown, and 1."""
 
     states: Array
-    knots: Array
-    way: Array  # of each step
+    knots: Indices
+    way: Indices  # of each step
 
 
 def _motion(keys: Keys) -> _Motion:

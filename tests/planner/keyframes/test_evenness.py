@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -20,7 +21,7 @@ PAN = Axis.PAN
 SIM = {PAN: Limits(-180, 180, 120, 240, 1200)}
 
 
-def keys(pairs: list[tuple[float, float]]) -> list[Key]:
+def keys(pairs: Sequence[tuple[float, float]]) -> list[Key]:
     return [Key(at, position, where=f"key {i}") for i, (at, position) in enumerate(pairs, 1)]
 
 
@@ -69,7 +70,7 @@ def one_way_moves(draw: st.DrawFn) -> list[tuple[float, float]]:
 @example([(0, 0), (5, 4), (10, 84), (15, 88)])
 @example([(0, 0), (8, 1), (9, 40), (17, 41)])
 @given(one_way_moves())
-def test_it_stops_nowhere_that_an_independent_programme_does_not(pairs: list[tuple[float, float]]) -> None:
+def test_it_stops_nowhere_that_an_independent_programme_does_not(pairs: Sequence[tuple[float, float]]) -> None:
     slowest = slowest_speed_lp(pairs, SIM[PAN], middle=1 - LONG)
     move = attempt({PAN: keys(pairs)}, SIM)
     if slowest is None or slowest < 0.25 or move is None:

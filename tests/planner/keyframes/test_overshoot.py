@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -21,7 +22,7 @@ SIM = Limits(-180, 180, 120, 240, 1200)
 SWING = [(0, 0), (5, -20), (6, 60), (16, 58)]
 TIGHT = [(0, 0), (5, 4), (10, 84), (15, 88), (15.1, 88.6), (15.2, 88.5), (20, 80)]
 
-Keys = list[tuple[float, float]]
+Keys = Sequence[tuple[float, float]]
 
 
 def named(keys: Keys, overshoot: float | None = None) -> list[Key]:
