@@ -46,7 +46,14 @@ def keys_of(model: SequenceModel) -> Keys:
                 of_axis.append(Key(at, position, stop, hold, numbered("keyframes", index), *eases))
     for axis, of_aim in Scene(model).keys().items():
         keys[axis] = sorted([*keys[axis], *of_aim], key=lambda key: key.at)
-    return keys
+    return {
+        axis: [replace(key, overshoot=model.overshoot_of(axis)) for key in of_axis] for axis, of_axis in keys.items()
+    }
+
+
+def frame_of(key: Key) -> int:
+    """The number (from 0) of the keyframe that a file's own key comes from."""
+    return int(key.where.rpartition(" ")[2]) - 1
 
 
 def line_at(document: Document, where: str, text: str) -> str:

@@ -33,6 +33,7 @@ from teleop.sequence.refusal import refusal
 from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import TimelapseSection, is_timelapse
 from teleop.sequence.timeline import Origin, aims_of
+from teleop.sequence.turns import long_ways, unwrapped
 from teleop.timelapse.budget import Phases, budget
 from teleop.timelapse.schedule import Schedule
 
@@ -149,7 +150,7 @@ def _compiled(
     phases = Phases.of(section, model.fps)
     in_frames = model.model_copy(update={"fps": 1.0})  # a frame for a second
     try:
-        keys, aims = keys_of(in_frames), aims_of(document, in_frames)
+        keys, aims = unwrapped(keys_of(in_frames), model, limits), aims_of(document, in_frames)
     except UnaimedError as error:
         raise DocumentError([document.problem(error.place, f": {error}")]) from None
     step = slots.at(slots.frames - 1) / (slots.frames - 1) if slots.frames > 1 else slots.first
@@ -166,7 +167,8 @@ def _compiled(
     problems, warnings = budget(phases, slots, path, limits, continuous)
     if problems:
         raise UnplayableError([document.problem(("timelapse", "interval"), text) for text in problems])
-    remarks = [line_at(document, remark.last, str(remark)) for remark in [*move.overshoots, *move.long_ramps]]
+    remarks = [line_at(document, remark.last, str(remark)) for remark in move.remarks]
+    remarks += [document.line(("keyframes", frame), text) for frame, text in long_ways(keys, limits)]
     remarks += [document.problem(("timelapse", "interval"), text) for text in warnings]
     return Timelapse(
         model.called(document.name),

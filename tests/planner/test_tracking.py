@@ -23,10 +23,10 @@ DT = 0.01
 
 @pytest.fixture(scope="module")
 def move():
-    """Three axes with segments close to their limits, a dwell and a day's slowness on focus."""
+    """Three axes with segments close to their limits, an overshoot, a dwell and a day's slowness on focus."""
     return plan(
         {
-            PAN: [Key(0, 0), Key(1.3, 40), Key(2.6, 60), Key(4.2, -10, hold=0.5), Key(8, 3)],
+            PAN: [Key(0, 0), Key(1.3, 40, overshoot=9), Key(2.6, 60, overshoot=9), Key(4.2, -10, hold=0.5), Key(8, 3)],
             TILT: [Key(0.4, -20), Key(2, 15), Key(4, 14.9), Key(7, -29.9)],
             FOCUS: [Key(0, 0.2), Key(5, 0.2001), Key(8, 1.0)],
         },

@@ -19,7 +19,7 @@ import numpy as np
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.fit import SampledSegment, Style, turning_points, worst_places
 from teleop.planner.keyframes.minimum_jerk import minimum_jerk
-from teleop.planner.keyframes.qp import HEADROOM
+from teleop.planner.keyframes.program import HEADROOM
 from teleop.planner.keyframes.smoothing import smoothest
 from teleop.planner.polynomial import Array
 

@@ -14,6 +14,7 @@ from teleop.planner.keyframes.bounds import factors_needed, rest_to_rest
 from teleop.planner.keyframes.budget import SINGLE, Budget, searching, trying
 from teleop.planner.keyframes.least_times import Window, least_durations
 from teleop.planner.keyframes.legs import Points, at_durations, durations, pairs, segment_of, shortened
+from teleop.planner.keyframes.overshoot import tolerated
 from teleop.planner.keyframes.windows import windows
 from teleop.planner.polynomial import Array
 
@@ -56,7 +57,9 @@ class LegTimes:
             numbers: dict[object, int] = {}
             twins = np.array([numbers.setdefault(pair, len(numbers)) for pair in between[first:last]])
             part = segment_of(points[first : last + 1])
-            window = Window(part, self.limits, twins, (first > 0, last < len(between)))
+            allowed = [point.overshoot for point in points[first:last]]
+            stray = tolerated(self.axis, part, allowed)
+            window = Window(part, self.limits, twins, (first > 0, last < len(between)), stray)
             found = least_durations(window, guess[first:last])
             found = guess[first:last] if found is None else found
             seconds[first:last] = np.where(found > part.durations * (1 + LONGER), ROOM * found, part.durations)
