@@ -15,6 +15,7 @@ import numpy as np
 
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.evenness import stills, urged
+from teleop.planner.keyframes.mesh import Indices
 from teleop.planner.keyframes.overshoot import NONE, least_overshoot, with_overshoot
 from teleop.planner.keyframes.program import HEADROOM, Rule
 from teleop.planner.keyframes.qp import solve
@@ -31,6 +32,17 @@ class Pieces(NamedTuple):
 
     widths: Array
     coefficients: Array
+
+    def begin(self, times: Array) -> Array:
+        """When each begins (m,); those at keys of `times` (n + 1,) exactly then, however many widths were added up."""
+        starts = times[0] + np.concatenate([[0.0], np.cumsum(self.widths[:-1])])
+        starts[self.at(times)] = times[:-1]
+        return starts
+
+    def at(self, times: Array) -> Indices:
+        """The piece (n,) that begins at each key of `times` (n + 1,) but the last."""
+        middles = times[0] + np.cumsum(self.widths) - self.widths / 2
+        return np.searchsorted(middles, times[:-1])
 
 
 class Overshot(NamedTuple):
@@ -93,21 +105,17 @@ def _windows(intervals: Sequence[int], count: int) -> Iterator[tuple[int, int]]:
     yield first, last
 
 
-def _starts(segment: Segment, pieces: Pieces) -> Array:
-    return segment.times[0] + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])])
-
-
 def _states(segment: Segment, pieces: Pieces) -> Array:
     """Velocity and acceleration (n + 1, 2) at each key; its rest at the last."""
-    at = np.abs(_starts(segment, pieces)[:, None] - segment.times[None, :-1]).argmin(axis=0)
-    return np.concatenate([pieces.coefficients[at, 1:3] * (1, 2), segment.ends[1:]])
+    return np.concatenate([pieces.coefficients[pieces.at(segment.times), 1:3] * (1, 2), segment.ends[1:]])
 
 
 def _spliced(segment: Segment, pieces: Pieces, window: Pieces, first: int, last: int) -> Pieces:
     """The pieces with those from key `first` to key `last` replaced."""
-    middles = _starts(segment, pieces) + pieces.widths / 2
-    before, after = middles < segment.times[first], middles > segment.times[last]
-    return Pieces(*(np.concatenate([old[before], new, old[after]]) for old, new in zip(pieces, window, strict=True)))
+    begun = np.append(pieces.at(segment.times), len(pieces.widths))
+    before, after = begun[first], begun[last]
+    parts = ([old[:before], new, old[after:]] for old, new in zip(pieces, window, strict=True))
+    return Pieces(*map(np.concatenate, parts))
 
 
 def _standing(segment: Segment, interval: int) -> Pieces:

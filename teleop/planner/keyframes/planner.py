@@ -167,7 +167,7 @@ def _plan_axis(axis: Axis, keys: Sequence[Key], limits: Limits, tension: Tension
             outcome.refused.append(points)
             outcome.overshot += trial.overshot
         else:
-            breaks.append(points[0].time + np.concatenate([[0.0], np.cumsum(pieces.widths[:-1])]))
+            breaks.append(pieces.begin(np.array([point.time for point in points])))
             coefficients.append(pieces.coefficients)
     if not outcome.refused:
         end = waypoints(axis, keys)[-1]
