@@ -43,12 +43,11 @@ def keys_of(model: SequenceModel) -> Keys:
             position = getattr(frame, axis.value)
             if position is not None:
                 stop = frame.pass_ == "stop"
-                of_axis.append(Key(at, position, stop, hold, numbered("keyframes", index), *eases))
+                where, overshoot = numbered("keyframes", index), model.overshoot_of(axis)
+                of_axis.append(Key(at, position, stop, hold, where, *eases, overshoot=overshoot))
     for axis, of_aim in Scene(model).keys().items():
         keys[axis] = sorted([*keys[axis], *of_aim], key=lambda key: key.at)
-    return {
-        axis: [replace(key, overshoot=model.overshoot_of(axis)) for key in of_axis] for axis, of_axis in keys.items()
-    }
+    return keys
 
 
 def frame_of(key: Key) -> int:

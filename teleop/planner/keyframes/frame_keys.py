@@ -115,7 +115,7 @@ class Frames:
         """The keys on `smooth`; None where the planner cannot follow them."""
         targets = self._targets(runs)
         allowances = np.where(np.isnan(targets), np.inf, self.tolerance - np.abs(smooth - np.nan_to_num(targets)))
-        style = Style(self.axis, self.limits, self.tolerance, DIGITS, 0.0, 1 / step, 1)
+        style = Style(self.axis, self.limits, self.tolerance, DIGITS, 0.0, 1 / step, 1, np.inf)
         segment = SampledSegment(-runs.up, smooth, style, allowances)
         if np.ptp(smooth) <= TURN * self.tolerance:
             return {-runs.up: segment.position(-runs.up)}

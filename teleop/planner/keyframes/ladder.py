@@ -81,7 +81,7 @@ def _moving(part: Segment, limits: Limits, rule: Rule, solved: Pieces) -> Pieces
     Only the intervals around are planned again, more finely, from and to how the axis moves there anyway.
     """
     still = stills(part, *solved)
-    if part.ramps is not None or not np.any(still):
+    if part.ramps is not None or part.is_loose or not np.any(still):
         return solved
     finer = replace(rule, pieces=max(rule.pieces, PIECES[1]), fine=True)
     for first, last in _windows(np.flatnonzero(still).tolist(), len(still)):
@@ -126,6 +126,9 @@ def _standing(segment: Segment, interval: int) -> Pieces:
 
 def overshooting(segment: Segment, limits: Limits, tension: Tension) -> Pieces | Overshot | None:
     """With the least overshoot: the pieces, or the overshoot if it is more than tolerated; None where limits forbid."""
+    if segment.is_loose:
+        smoothest = solve(segment, limits, Rule(PIECES[-1], False, tension))
+        return None if smoothest is None else Pieces(*smoothest)
     least = least_overshoot(segment, limits)
     if least is None:
         return None

@@ -33,7 +33,9 @@ FINEST = Rule(pieces=8, directed=False, fine=True)
 def tolerated(axis: Axis, segment: Segment, asked: Sequence[float | None]) -> Array:
     """Per interval the overshoot (n,) that is no error, in units: as `asked`, or what is usual where that is None."""
     usual = np.maximum(SHARE * np.abs(segment.steps), LEAST if axis.unit else LEAST / 100)
-    return np.array([each if own is None else own for own, each in zip(asked, usual.tolist(), strict=True)], float)
+    own = np.array([np.nan if each is None else each for each in asked], float)
+    is_loose = bool(np.isinf(own).all())
+    return own if is_loose else np.where(np.isfinite(own), own, usual)
 
 
 def least_overshoot(segment: Segment, limits: Limits) -> Array | None:

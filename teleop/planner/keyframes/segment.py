@@ -49,6 +49,11 @@ class Segment:
             return np.zeros(len(self.steps))
         return np.full(len(self.steps), np.inf) if self.stray is None else self.stray
 
+    @property
+    def is_loose(self) -> bool:
+        """Whether every interval may leave its range by any distance: its keys are samples of a curve."""
+        return self.stray is not None and bool(np.isinf(self.stray).all())
+
     def part(self, first: int, last: int) -> Segment:
         """From one key to a later one, both rests, with as much of the ramps as there is time for."""
         times = self.times[first : last + 1]

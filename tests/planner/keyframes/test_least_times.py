@@ -13,7 +13,7 @@ from teleop.planner.keyframes.qp import solve
 from teleop.planner.keyframes.segment import Segment
 
 LIMITS = Limits(-170, 170, 60, 120, 600)
-FINEST = Rule(8, directed=False)
+FINEST = Rule(8, directed=False, fine=True)
 
 
 def segment(durations, positions) -> Segment:
