@@ -21,7 +21,6 @@ from teleop.core.axes import Axis
 from teleop.core.events import Action
 from teleop.planner.keyframes.fit import SampledSegment, Style, fit
 from teleop.planner.keyframes.program import HEADROOM
-from teleop.planner.keyframes.tension import EVEN, Tension
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
 from teleop.recording.replay import cues
@@ -32,9 +31,9 @@ from teleop.sequence.compile import load_sequence
 
 SLACK = 4  # places by which rests may give way
 STICK = ((1.0, 0), (0.5, 0)), ((1.0, SLACK),), ((0.0, 0),)
-PLANNED = ((EVEN, 0), (0.0, 0), (0.5, 0)), ((1.0, 0),), ((1.0, SLACK),)
-"""Tension and slack to be tried, the likeliest first: where a stick was held the speed was even, a planned move is
-even from key to key, or as smooth as can be. Of the first that do the sparsest is taken."""
+PLANNED = ((0.0, 0), (0.5, 0)), ((1.0, 0),), ((1.0, SLACK),)
+"""Tension and slack to be tried, the likeliest first: where a stick was held the speed was even, a planned move is as
+smooth as can be. Of the first that do the sparsest is taken."""
 TIGHTER = (1.0, 0.9, 0.7)  # of the tolerance, for the fit, should the whole file be further off than its parts were
 HELD = 0.15  # of the time in motion at an even speed, from which on it was a stick
 NEAREST = 3  # places between two keys
@@ -108,7 +107,7 @@ def _best(take: Take, refs: Mapping[Axis, Reference], tolerance: float) -> _Atte
 
 @dataclass(frozen=True)
 class _Attempt:
-    tension: Tension
+    tension: float
     frames: Sequence[MergedKey]
     problems: Sequence[str]
 
@@ -121,7 +120,7 @@ def _held(refs: Mapping[Axis, Reference]) -> float:
     return even / max(whole - still, 1)
 
 
-def _fitted(take: Take, refs: Mapping[Axis, Reference], tolerance: float, tension: Tension, slack: int) -> _Attempt:
+def _fitted(take: Take, refs: Mapping[Axis, Reference], tolerance: float, tension: float, slack: int) -> _Attempt:
     """Every axis in turn, each with its keys where those before it have some, if that is as good."""
     keys: dict[Axis, Sequence[AxisKey]] = {}
     problems: list[str] = []
