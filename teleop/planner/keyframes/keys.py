@@ -27,7 +27,8 @@ class Key:
     `arrive` and `leave` are the ramps to rest there and away from it; where neither end of a way between rests has
     one, all of that way is used to be as smooth as can be, and where one end has one, so has the other. `tension` is
     that of the way from this key to the next rest, where it differs from the plan's. The way to the next key may leave
-    the range of the two by `overshoot` units, None for what is usual; inf on a whole way from rest to rest: as smoothest.
+    the range of the two by `overshoot` units, None for what is usual, inf for any distance (on all of
+    a way from rest to rest: its keys are samples of a curve).
     """
 
     at: float

@@ -78,10 +78,11 @@ def _part(part: Segment, limits: Limits, tension: Tension) -> Pieces | None:
 def _moving(part: Segment, limits: Limits, rule: Rule, solved: Pieces) -> Pieces:
     """What was solved, or better: where it is almost at rest between two keys, it is urged on.
 
-    Only the intervals around are planned again, more finely, from and to how the axis moves there anyway.
+    Only the intervals around are planned again, more finely, from and to how the axis moves there anyway. Tension 0 is
+    as smooth as can be, stops and all.
     """
     still = stills(part, *solved)
-    if part.ramps is not None or part.is_loose or not np.any(still):
+    if part.ramps is not None or rule.tension == 0 or not np.any(still):
         return solved
     finer = replace(rule, pieces=max(rule.pieces, PIECES[1]), fine=True)
     for first, last in _windows(np.flatnonzero(still).tolist(), len(still)):
