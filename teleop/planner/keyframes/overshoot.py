@@ -23,6 +23,7 @@ from teleop.planner.polynomial import Array
 SHARE = 0.01  # of the range between two keys: an overshoot tolerated where the file does not say
 LEAST = 0.2  # deg, and 1 % of that for an axis without a unit: tolerated however near the keys
 SMALLEST = 1e-3  # units: the least that an overshoot is weighed by
+MOST = 0.1  # of the range of all keys: the most
 LOOSER = 1.1  # times the least overshoot: what the smoothest way may use
 ROOM = 0.02  # of what is tolerated, beside that
 NONE = 1e-3  # of what is tolerated: less is the solver's tolerance
@@ -65,13 +66,15 @@ def least_overshoot(segment: Segment, limits: Limits) -> Array | None:
 
 
 def _weight(segment: Segment) -> Array:
-    return np.maximum(segment.strays(directed=False), SMALLEST)
+    """What is tolerated, as the measure of the least: a file that allows any distance asks for no more of it."""
+    most = max(MOST * float(np.ptp(segment.positions)), SMALLEST)
+    return np.clip(segment.strays(directed=False), SMALLEST, most)
 
 
 def with_overshoot(segment: Segment, limits: Limits, least: Array, tension: Tension) -> tuple[Array, Array] | None:
     """Widths and coefficients of the smoothest way that overshoots about as little as the `least` (n,)."""
-    weight = _weight(segment)
-    strays = np.maximum(np.minimum(LOOSER * least + ROOM * weight, weight), least + NONE * weight)
+    weight, most = _weight(segment), np.maximum(segment.strays(directed=False), SMALLEST)
+    strays = np.maximum(np.minimum(LOOSER * least + ROOM * weight, most), least + NONE * weight)
     flat = segment.steps == 0
     beyond = (least > NONE * weight) | flat
     around = beyond | np.concatenate([beyond[1:], [False]]) | np.concatenate([[False], beyond[:-1]])

@@ -51,6 +51,11 @@ def test_one_tight_place_does_not_make_the_whole_leg_swing() -> None:
     assert excess(TIGHT) < 0.06
 
 
+@pytest.mark.parametrize("allowed", [3, 20, 360])
+def test_what_is_allowed_is_not_used_where_less_will_do(allowed: float) -> None:
+    assert excess(SWING, allowed) < 2.2
+
+
 def test_more_than_is_tolerated_is_an_error_with_the_time_that_avoids_it() -> None:
     with pytest.raises(Infeasible) as refusal:
         plan({PAN: named(SWING)}, {PAN: SIM})
@@ -83,6 +88,17 @@ def test_what_is_tolerated_is_a_share_of_the_way_or_what_the_file_says() -> None
     assert tolerated(PAN, segment, [None, None, 3.0]).tolist() == pytest.approx([80 * SHARE, LEAST, 3.0])
     assert tolerated(FOCUS, segment, [None] * 3)[1] == pytest.approx(0.05)
     assert tolerated(FOCUS, Segment(np.array([0.0, 1]), np.array([0.0, 0.1])), [None]).tolist() == [0.002]
+    assert tolerated(PAN, segment, [np.inf] * 3).tolist() == [np.inf] * 3
+    assert tolerated(PAN, segment, [np.inf, None, np.inf]).tolist() == tolerated(PAN, segment, [None] * 3).tolist()
+
+
+def test_samples_of_a_curve_are_met_by_it_although_it_leaves_their_range() -> None:
+    """Seven samples of an arc, none of them where it turns."""
+    times = np.arange(7) * 0.7
+    keys = [Key(float(at), float(40 * np.sin(at)), overshoot=np.inf) for at in times]
+    track = plan({PAN: keys}, {PAN: SIM}, 0.0).tracks[PAN]
+    inside = np.linspace(0.7, 3.5, 200)
+    assert np.abs(track.sample(inside)[0] - 40 * np.sin(inside)).max() < 1.0
 
 
 @st.composite
