@@ -92,15 +92,6 @@ def test_what_is_tolerated_is_a_share_of_the_way_or_what_the_file_says() -> None
     assert tolerated(PAN, segment, [np.inf, None, np.inf]).tolist() == tolerated(PAN, segment, [None] * 3).tolist()
 
 
-def test_samples_of_a_curve_are_met_by_it_although_it_leaves_their_range() -> None:
-    """Seven samples of an arc, none of them where it turns."""
-    times = np.arange(7) * 0.7
-    keys = [Key(float(at), float(40 * np.sin(at)), overshoot=np.inf) for at in times]
-    track = plan({PAN: keys}, {PAN: SIM}, 0.0).tracks[PAN]
-    inside = np.linspace(0.7, 3.5, 200)
-    assert np.abs(track.sample(inside)[0] - 40 * np.sin(inside)).max() < 1.0
-
-
 @st.composite
 def whole_number_moves(draw: st.DrawFn) -> Keys:
     gaps = draw(st.lists(st.integers(1, 8), min_size=2, max_size=4))
