@@ -114,7 +114,7 @@ def keys() -> str:
     """The keys of the terminal, from the keymaps. Raises KeyError for a key's command that has no words below."""
     from teleop.core.operator_input import Command, Press
     from teleop.inputs.keymaps import HELP
-    from teleop.inputs.playback_keymap import KEYS, TRIM_KEYS
+    from teleop.inputs.playback_keymap import BY_HAND_KEYS, KEYS, TRIM_KEYS
 
     words = {
         Command.STOP: "STOP all axes (motors stay on)",
@@ -131,16 +131,24 @@ def keys() -> str:
         Command.KEEP: "write the sequence with the trim in its keys",
     }
 
-    def rows(keymap: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    def rows(keymap: Mapping[str, Any], words: Mapping[Command, str] = words) -> Iterator[tuple[str, str]]:
         of: dict[Command, list[str]] = {}
         for key, press in keymap.items():
             if isinstance(press, Press) and not key.startswith("\x1b"):
                 of.setdefault(press.command, []).append(KEY_NAMES.get(key, key))
         return ((" ".join(dict.fromkeys(names)), words[command]) for command, names in of.items())
 
+    frames = {
+        Command.NEXT: "next frame",
+        Command.PREVIOUS: "frame back",
+        Command.GO: "shoot the frame; continue after a STOP",
+        Command.PAUSE: "halt, then continue",
+    }
     trim = {key: press for key, press in TRIM_KEYS.items() if key not in KEYS}
     parts = ["# Keys", "", "## teleop live", "", *_key_table(HELP)]
     parts += ["## teleop play", "", *_key_table(rows(KEYS)), "The arrows right and left are `>` and `<`.", ""]
+    parts += ["## teleop play --by-hand", "", *_key_table(rows(BY_HAND_KEYS, {**words, **frames}))]
+    parts += ["The arrows right and left are `.` and `,`.", ""]
     parts += ["## teleop play --trim", "", "These, and the keys of `teleop live` that move an axis.", ""]
     return "\n".join([*parts, *_key_table(rows(trim))])
 

@@ -32,6 +32,7 @@ from teleop.config.profile import Profile, load_profile
 from teleop.core.axes import STICKS, Axis, State
 from teleop.core.errors import DeviceError, LinkError, TeleopError, UsageError
 from teleop.core.events import Action
+from teleop.core.response import Response
 from teleop.recording.reader import Take
 
 __all__ = [
@@ -42,6 +43,7 @@ __all__ = [
     "LinkError",
     "Move",
     "Report",
+    "Response",
     "Rig",
     "Samples",
     "State",
@@ -133,6 +135,14 @@ class Rig:
             return {}
         reported = tick.reported
         return {axis.value: reported[axis].position for axis in self._session.axes if axis in reported}
+
+    def responses(self) -> dict[str, Response]:
+        """How each axis answers its commands, by its name: delay (s), gain, drift (deg/s), each with its doubt.
+
+        Only of axes in the modes speed and stick, once they have moved enough. It is kept for later runs, except on the
+        virtual clock.
+        """
+        return {axis.value: response for axis, response in self._session.rig.responses.items()}
 
     def move(self, *, seconds: float | None = None, **axes: float) -> None:
         """Move to positions (degrees; focus 0..1) and wait until the rig is there.

@@ -14,9 +14,10 @@ the processes of the tests close stderr as the last thing they do. pytest's own 
 """
 
 import atexit
+import itertools
 import os
 import signal
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -48,3 +49,18 @@ def pytest_collection_modifyitems(items: Sequence[pytest.Item]) -> None:
 def _signals_as_on_a_terminal() -> None:
     for number in (signal.SIGHUP, signal.SIGQUIT):
         signal.signal(number, signal.SIG_DFL)
+
+
+_numbers = itertools.count()
+
+
+@pytest.fixture(autouse=True)
+def _state_of_its_own(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """No test learns from another one, or from runs of the user's, how an axis answers. The folder is not made."""
+    before = os.environ.get("XDG_STATE_HOME")
+    os.environ["XDG_STATE_HOME"] = str(tmp_path_factory.getbasetemp() / "state" / str(next(_numbers)))
+    yield
+    if before is None:
+        os.environ.pop("XDG_STATE_HOME", None)
+    else:
+        os.environ["XDG_STATE_HOME"] = before

@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from teleop.app.absent_devices import open_present
 from teleop.app.drone_flight import Aboard, is_flown
+from teleop.app.kept_responses import KeptResponses
 from teleop.app.operator_inputs import open_devices
 from teleop.app.run import RunReport, Screen, Signals, commands, run
 from teleop.app.stop_inputs import open_stop_inputs
@@ -22,7 +23,6 @@ from teleop.config.presets import default_file, read_presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.interfaces import Clock, Observer, Sink
-from teleop.core.response import Response
 from teleop.core.run_status import RunStatus
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.connection import Connection
@@ -59,7 +59,7 @@ MakeReplayScreen = Callable[[Mapping[Axis, Limits], Callable[[float], RunStatus]
 class LiveRun:
     """`recorded` sticks drive beside the inputs, `recordings` are inputs; `keyboard` is None without a terminal.
 
-    In `virtual` time only what is recorded counts. `priors` are the responses of the axes that were found before.
+    In `virtual` time only what is recorded counts.
     """
 
     profile: Profile
@@ -72,7 +72,6 @@ class LiveRun:
     take: Path | None = None
     virtual: bool = False
     targets: Path | None = None
-    priors: Mapping[Axis, Response] = field(default_factory=dict)
 
     def by_hand(self, make_screen: Callable[[LiveParts], Screen], signals: Signals) -> RunReport:
         """Until the operator or what is recorded ends it. Raises TeleopError for what keeps it from beginning."""
@@ -84,7 +83,9 @@ class LiveRun:
             inputs, note = open_devices(
                 *(stack, profile, self.clock, keyboard is not None, NO_INPUT, self.recordings, begin, self.virtual)
             )
-            rig, axes, left_out = self._opened(stack)
+            damage: list[str] = []
+            kept = KeptResponses(profile, damage.append)
+            rig, axes, left_out = self._opened(stack, kept)
             limits = {axis: profile.limits[axis] for axis in axes}
             shelf = read_presets(self.presets or default_file(profile.name), limits, profile.name)
             stack.callback(shelf.close)
@@ -95,7 +96,7 @@ class LiveRun:
             if targets is not None:
                 targets.notify = operator.notify
                 stack.callback(targets.close)
-            for line in (*left_out, *([note] if note else [])):
+            for line in (*damage, *left_out, *([note] if note else [])):
                 operator.notify(line)
             recorder = self._recorder(stack, limits, lambda: aboard.status(operator.status), patient=self.virtual)
             aboard.board(rig, axes, operator.notify, by_script=False)
@@ -103,7 +104,7 @@ class LiveRun:
             observers, sinks = self._watched(rig, axes, operator, lenient=replay is None)
             observers = [*observers, *([] if targets is None else [targets])]
             tracking, stopped = TrackingErrorMonitor(lambda: operator.begin), (lambda: operator.reason)
-            return run(rig, axes, [operator], tracking, screen, signals, recorder, observers, sinks, stopped)
+            return run(rig, axes, [operator], tracking, screen, signals, recorder, observers, sinks, stopped, kept)
 
     def unattended(
         self,
@@ -122,10 +123,13 @@ class LiveRun:
             recorder = self._recorder(stack, limits, aboard.status if is_flown(axes) else None, patient=self.virtual)
             screen = make_screen(limits, lambda now: guard.over(shown(now)), recorder)
             guard.notify = screen.notify
-            rig = stack.enter_context(open_rig(self.profile, self.clock, priors=self.priors))
+            kept = KeptResponses(self.profile, warn)
+            rig = stack.enter_context(open_rig(self.profile, self.clock, priors=kept.priors))
             aboard.board(rig, axes, screen.notify, by_script=True)
             tracking = TrackingErrorMonitor(lambda: replay.begin)
-            return run(*(rig, axes, [guard], tracking, screen, signals, recorder), stopped=lambda: guard.reason)
+            return run(
+                *(rig, axes, [guard], tracking, screen, signals, recorder), stopped=lambda: guard.reason, kept=kept
+            )
 
     def replay(self, recorded: Sticks) -> SticksSource:
         """Recorded sticks, with the dead zone and expo of the profile where it has them."""
@@ -137,12 +141,12 @@ class LiveRun:
 
         return SticksSource(recorded, velocity)
 
-    def _opened(self, stack: ExitStack) -> tuple[Rig, Sequence[Axis], Sequence[str]]:
+    def _opened(self, stack: ExitStack, kept: KeptResponses) -> tuple[Rig, Sequence[Axis], Sequence[str]]:
         """The rig, its axes, and a line for each that is absent; recorded sticks need all of theirs."""
         if self.recorded is None:
-            return open_present(stack, self.profile, self.clock, self.priors)
+            return open_present(stack, self.profile, self.clock, kept.priors)
         axes = list(self.profile.axes) if self.recordings else self.recorded.axes
-        return stack.enter_context(open_rig(self.profile, self.clock, priors=self.priors)), axes, ()
+        return stack.enter_context(open_rig(self.profile, self.clock, priors=kept.priors)), axes, ()
 
     def _recorder(
         self, stack: ExitStack, limits: Mapping[Axis, Limits], status: Callable[[], object] | None, patient: bool

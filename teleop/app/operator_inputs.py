@@ -43,7 +43,8 @@ def open_devices(
         if not keys:
             raise
         return [], str(error)
-    if not keys and not profile.inputs and not wanted(DeviceSection(), backend.enumerate(), None):
+    there = [*(info for each in recordings for info in each.infos), *backend.enumerate()]  # plugged in later ones too
+    if not keys and not profile.inputs and not wanted(DeviceSection(), there, None):
         raise UsageError(_NO_JOYSTICK if recordings else without)
     shaping = profile.sticks
     opened = open_inputs(

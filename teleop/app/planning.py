@@ -45,13 +45,14 @@ class Plan:
         return self.sequence.warnings if self.timelapse is None else self.timelapse.warnings
 
 
-def plan_file(file: str, profile: Profile, share: float = 1.0) -> Plan:
+def plan_file(file: str, profile: Profile, share: float = 1.0, by_hand: bool = False) -> Plan:
     """The sequence or take called `file`, which may use `share` of the rig's velocity, acceleration and jerk.
 
+    `by_hand`: an operator shoots each frame of a timelapse, in no interval.
     Raises DocumentError with a line for each mistake in the file; UnplayableError when only the rig is in the way.
     """
     try:
-        return _planned(file, profile, share)
+        return _planned(file, profile, share, by_hand)
     except UnplayableError as error:
         if share == 1:
             raise
@@ -87,7 +88,7 @@ def is_take(file: str) -> bool:
     return Path(file).suffix.lower() == ENDING
 
 
-def _planned(file: str, profile: Profile, share: float) -> Plan:
+def _planned(file: str, profile: Profile, share: float, by_hand: bool) -> Plan:
     limits = {axis: of_axis.scaled(share) for axis, of_axis in profile.limits.items()}
     if is_take(file):
         from teleop.recording.replay import take_performance
@@ -95,7 +96,7 @@ def _planned(file: str, profile: Profile, share: float) -> Plan:
         return Plan(profile, take_performance(Path(file), limits, profile.name))
     from teleop.timelapse.compile import load_timelapse
 
-    if timelapse := load_timelapse(file, limits, profile.name):
+    if timelapse := load_timelapse(file, limits, profile.name, by_hand):
         return Plan(profile, timelapse.rehearsal(), timelapse)
     devices = [sink.type for sink in profile.sinks]
     return Plan(profile, load_sequence(file, limits, profile.name, devices))

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Protocol, Self
 
+from teleop.app.kept_responses import KeptReport, KeptResponses
 from teleop.app.switch_interval import short_switch_interval
 from teleop.core.axes import Axis
 from teleop.core.events import DeviceCommand
@@ -44,7 +45,8 @@ class Screen(Observer, Protocol):
 class RunReport:
     """How a run ended. `tracking` has how well each axis followed; `links` counts by link; `take` what was recorded.
 
-    `responses` are what was identified of the axes that are sent speeds, of those that moved enough for it.
+    `responses` are what was identified of the axes that are sent speeds, of those that moved enough for it; `kept` is
+    what became of them.
     """
 
     result: Result
@@ -54,6 +56,7 @@ class RunReport:
     drone: DroneState | None = None
     take: Recorder | None = None
     responses: Mapping[Axis, Response] = field(default_factory=dict)
+    kept: KeptReport = field(default_factory=KeptReport)
 
 
 def run(
@@ -67,11 +70,16 @@ def run(
     observers: Sequence[Observer] = (),
     sinks: Sequence[Sink] = (),
     stopped: Callable[[], str] = lambda: "",
+    kept: KeptResponses | None = None,
 ) -> RunReport:
     """Run the sources on the rig until they end, a device fails or a signal comes.
 
-    `stopped` is asked at the end for a STOP that was not cleared, which then is among the reasons.
+    `stopped` is asked at the end for a STOP that was not cleared, which then is among the reasons. `kept` learns from
+    the run, and keeps what is sure by its end.
     """
+    if kept is not None:
+        kept.begin(rig, screen.notify)
+        observers = [*observers, kept]
     watching = [tracking, *observers, rig.notes(screen.notify), *([] if take is None else [take]), screen]
     loop = rig.loop(axes, sources, watching, sinks)
     with undisturbed(), signals(loop.interrupt, loop.release_at_once, screen.notify), screen:
@@ -82,7 +90,8 @@ def run(
         take.finish(ended.result, ended.reasons, links)
     drone = rig.drone(axes)
     state = None if drone is None else drone.state(rig.clock.now())
-    return RunReport(ended.result, ended.reasons, tracking, links, state, take, rig.responses)
+    keeping = KeptReport() if kept is None else kept.finish()
+    return RunReport(ended.result, ended.reasons, tracking, links, state, take, rig.responses, keeping)
 
 
 def commands(

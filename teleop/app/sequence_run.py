@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from teleop.app.drone_flight import Aboard, is_flown
+from teleop.app.kept_responses import KeptResponses
 from teleop.app.operator_inputs import open_devices
 from teleop.app.played_status import PlayedStatus, as_planned, facts_of
 from teleop.app.run import RunReport, Screen, Signals, commands, run
@@ -18,7 +19,6 @@ from teleop.app.trim_writer import TrimWriter
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.interfaces import Clock
-from teleop.core.response import Response
 from teleop.core.run_status import RunStatus
 from teleop.devices.rig import open_rig
 from teleop.inputs.keyboard import Keyboard
@@ -57,10 +57,8 @@ class SequenceReport:
 class SequenceRun:
     """`share` is that of the rig's limits that the source keeps to: less than 1 leaves the rest to a trim.
 
-    `priors` are the responses of the axes that were found before.
-
     `notify` gets a line for what the gimbal answers and what the links report, `warn` for an input
-    that is absent.
+    that is absent. What it finds of how the axes answer is kept for the next run.
     """
 
     profile: Profile
@@ -75,7 +73,6 @@ class SequenceRun:
     take: Path | None = None
     patient: bool = False
     learner: PassLearner | None = None
-    priors: Mapping[Axis, Response] = field(default_factory=dict)
 
     @property
     def axes(self) -> list[Axis]:
@@ -93,7 +90,8 @@ class SequenceRun:
             recorder = stack.enter_context(self._recording(aboard))
             if source.cycle.trigger is not None:
                 source.cycle.trigger.open(stack)
-            rig = stack.enter_context(open_rig(self.profile, self.clock, priors=self.priors))
+            kept = KeptResponses(self.profile, self.warn)
+            rig = stack.enter_context(open_rig(self.profile, self.clock, priors=kept.priors))
             rig.foresee(source.foreseen)
             planned = partial(as_planned, source, self.sequence.move)
             played = None if self.take is None or is_flown(axes) else PlayedStatus(source, self.sequence.move, rig)
@@ -114,7 +112,7 @@ class SequenceRun:
             if self.learner:
                 self.learner.notify = screen.notify
             sources = [guard or source]
-            report = run(rig, axes, sources, tracking, screen, signals, recorder, observers, sinks, stopped)
+            report = run(rig, axes, sources, tracking, screen, signals, recorder, observers, sinks, stopped, kept)
             if self.learner:
                 self.learner.notify = self.notify  # the screen is gone
                 self.learner.finish()

@@ -15,6 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 
 from teleop.app.clocks import clock_for
+from teleop.app.kept_responses import KeptResponses
 from teleop.app.program import Job, ProgramSource
 from teleop.app.run import command_sinks
 from teleop.app.switch_interval import short_switch_interval
@@ -56,8 +57,15 @@ class Session:
         self._closed = self._interrupted = False
         self._loop: ControlLoop | None = None
         try:
-            self.rig: Rig = self._stack.enter_context(open_rig(profile.in_use(self.axes, [Action.RECORD]), self.clock))
-            observers = [self.program, self._camera(), self.rig.notes(log.info)]
+            used = profile.in_use(self.axes, [Action.RECORD])
+            kept = None if virtual else KeptResponses(used, log.warning)  # virtual: the same motion every time
+            priors = {} if kept is None else kept.priors
+            self.rig: Rig = self._stack.enter_context(open_rig(used, self.clock, priors=priors))
+            observers: list[Observer] = [self.program, self._camera(), self.rig.notes(log.info)]
+            if kept is not None:
+                kept.begin(self.rig, log.info)
+                observers.append(kept)
+                self._stack.callback(lambda: [log.warning(line) for line in kept.finish().problems])
             self._loop = self.rig.loop(self.axes, [self.program], observers, command_sinks(self.rig, log.info))
             self._supervisor = self._loop.supervisor
             _sessions.add(self)

@@ -47,6 +47,7 @@ class ShootRun:
     in_doubt: InDoubt = "shoot"
     take: Path | None = None
     virtual: bool = False
+    by_hand: bool = False
 
     def perform(
         self, make_screen: MakeScreen, signals: Signals, begun: Callable[[Path], object], warn: Callable[[str], object]
@@ -93,4 +94,5 @@ class ShootRun:
         return Shooting(
             *(self.timelapse, self.profile, self.clock, journal, notify, observers, self.keys, self.in_doubt),
             inputs=inputs,
+            by_hand=self.by_hand,
         )

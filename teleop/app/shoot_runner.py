@@ -13,6 +13,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Literal
 
+from teleop.app.kept_responses import KeptResponses
 from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import CameraSection
@@ -27,9 +28,11 @@ from teleop.devices.rig import open_rig
 from teleop.devices.shutter import ShutterSink
 from teleop.inputs.keyboard import CLOSED
 from teleop.manual.stop_guard import Relay, StopGuard, Together
+from teleop.timelapse.by_hand import ByHandSource
 from teleop.timelapse.compile import Timelapse
+from teleop.timelapse.go_motion import mover_of
 from teleop.timelapse.journal import FrameState, Journal
-from teleop.timelapse.movers import GlideMover, StepMover
+from teleop.timelapse.movers import Mover
 from teleop.timelapse.progress import Progress
 from teleop.timelapse.source import TimelapseSource
 
@@ -37,6 +40,7 @@ LOOK = 0.1  # s between looks for a signal while waiting, and at the inputs whil
 RETRY = 2.0  # s between two tries to reach a rig that was lost
 LONGEST_WAIT = 24 * 3600.0  # s of such pauses in a row, after which the shoot ends
 STALLS = 5  # runs in a row that a stalled computer may end without a frame
+COUNTED = (FrameState.DONE, FrameState.DOUBTFUL)  # as shot
 InDoubt = Literal["shoot", "skip"]
 
 
@@ -74,6 +78,7 @@ class Shooting:
         in_doubt: InDoubt = "shoot",
         executor: Executor | None = None,
         inputs: Sequence[Input] = (),
+        by_hand: bool = False,
     ) -> None:
         self._timelapse, self._profile, self._clock, self._journal = timelapse, profile, clock, journal
         self._notify, self._observers, self._in_doubt = notify, observers, in_doubt
@@ -82,11 +87,11 @@ class Shooting:
         self.guard: StopGuard | None = None
         self._camera = camera_link(profile)
         shot = sum(state is FrameState.DONE for state in journal.frames.values())
-        self.progress = Progress(timelapse.slots, timelapse.fps, shot, frame=journal.next)
+        self.progress = Progress(timelapse.slots, timelapse.fps, shot, frame=journal.next, by_hand=by_hand)
         self.progress.doubtful += [each for each, state in journal.frames.items() if state is FrameState.DOUBTFUL]
         self.progress.lost += [each for each, state in journal.frames.items() if state is FrameState.MISSED]
         self._begin = math.inf  # when the first frame of the first run was due
-        self._source: TimelapseSource | None = None
+        self._source: TimelapseSource | ByHandSource | None = None
         self.links: Mapping[str, Mapping[str, int]] = {}
         self._slot = -math.inf  # when the frame that is next is due
         self._interrupted = ""
@@ -135,22 +140,26 @@ class Shooting:
     def _one_run(self) -> tuple[Ended, Sequence[BaseException], bool]:
         """How it ended, what was raised in it, and whether the rig was reached."""
         timelapse, first = self._timelapse, self._journal.next
-        mover = GlideMover(timelapse, self._executor) if timelapse.continuous else StepMover(timelapse)
+        mover = mover_of(timelapse, self._executor)
         relays = [Relay(each) for each in self._inputs]
         keys = Together(relays) if relays else None
-        source = TimelapseSource(timelapse, mover, self._journal, first, self.progress, self._slot, keys)
+        source = self._source_of(mover, first, keys)
         self._source = source
         guard = StopGuard(source, relays, self._notify, LOOK, self.guard.stopped_by if self.guard else "")
         self.guard = guard
         self._runs += 1
         try:
-            with open_rig(self._profile, self._clock) as rig:
+            kept = KeptResponses(self._profile, self._notify)
+            with open_rig(self._profile, self._clock, priors=kept.priors) as rig:
+                kept.begin(rig, self._notify)
                 shutter = ShutterSink(rig.connections[self._camera], source.on_shutter_result)
                 notes = LinkNotes(rig.connections.values(), self._notify), rig.notes(self._notify)
-                self._loop = rig.loop(list(timelapse.limits), [guard], [*notes, *self._observers], [shutter])
+                self._loop = rig.loop(list(timelapse.limits), [guard], [*notes, kept, *self._observers], [shutter])
                 if self._interrupted:
                     self._loop.interrupt(self._interrupted)
                 supervisor = self._loop.run()
+                for line in kept.finish().problems:
+                    self._notify(line)
                 self.links = {name: connection.counts for name, connection in rig.connections.items()}
         except LinkError as error:
             if self._runs == 1:
@@ -165,6 +174,14 @@ class Shooting:
             self._slot = -math.inf if halted else source.due_at(self._journal.next, self._clock.now())
         supervisor.reasons += [guard.reason] if guard.reason else []
         return Ended(supervisor.result, supervisor.reasons), self._loop.faults, reached
+
+    def _source_of(self, mover: Mover, first: int, keys: Input | None) -> TimelapseSource | ByHandSource:
+        timelapse, journal, progress = self._timelapse, self._journal, self.progress
+        if not progress.by_hand:
+            return TimelapseSource(timelapse, mover, journal, first, progress, self._slot, keys)
+        first = progress.frame if self._runs else first  # where the operator was
+        shot = {frame for frame, state in journal.frames.items() if state in COUNTED}
+        return ByHandSource(timelapse, mover, journal, first, progress, keys, shot)
 
     def _may_go_on(self, faults: Sequence[BaseException], reached: bool, waiting: bool, fruitless: int) -> bool:
         """Whether what ended a run passes by itself: a link's loss where the profile says so, a stall of the computer.

@@ -21,7 +21,7 @@ from cyclopts import Parameter
 
 from teleop.inputs.evdev.backend import INSTALL, has_package, is_read_here
 from teleop.inputs.evdev.nodes import DEV, SYS, event_nodes
-from teleop.inputs.hid.backend import usb_port
+from teleop.inputs.hid.backend import shown, usb_port
 from teleop.links.url import CAN_INTERFACES, R_SDK_BITRATE
 
 _ARPHRD_CAN = "280"  # Linux's if_arp.h: what /sys/class/net/*/type says of a CAN interface
@@ -181,7 +181,7 @@ def _unreadable(path: bytes) -> list[str]:
 
 
 def _described(text: str | None) -> str:
-    return "" if text is None or text == "n/a" else text
+    return "" if text is None or text == "n/a" else shown(text)
 
 
 def _read(path: Path) -> str:

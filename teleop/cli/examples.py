@@ -38,7 +38,11 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "teleop take certificate pass1.mcap pass2.mcap -o shot.html --fps 25",
     ],
     "take recover": ["teleop take recover run.mcap"],
-    "calibrate": ["teleop calibrate delay --rig rs2 --link gimbal=socketcan:can0"],
+    "calibrate": [
+        "teleop calibrate --dry-run --rig rs2",
+        "teleop calibrate --rig rs2 --link gimbal=socketcan:can0 -o response.html",
+    ],
+    "calibrate response": ["teleop calibrate response --axis pan --rig rs2"],
     "calibrate delay": ["teleop calibrate delay --axis tilt --rig rs2"],
     "calibrate signs": ["teleop calibrate signs --rig rs5 --link gimbal=socketcan:can0"],
     "devices": ["teleop devices", "teleop devices --json"],
@@ -47,6 +51,7 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "teleop devices record 046d:c216 -o pad.jsonl --seconds 20",
     ],
     "doctor": ["teleop doctor"],
+    "forget": ["teleop forget", "teleop forget --rig rs2"],
     "send": [
         "teleop send recenter",
         "teleop send gimbal position yaw=10 --rig rs2 --link gimbal=socketcan:can0",

@@ -61,7 +61,7 @@ class Options:
             links[name] = url
         return load_profile(self.rig, links, "--link ")
 
-    def plan(self, file: str, share: float = 1.0) -> Plan:
+    def plan(self, file: str, share: float = 1.0, by_hand: bool = False) -> Plan:
         """The sequence or take called `file`, planned for the rig with `share` of its limits; its warnings are printed.
 
         Raises DocumentError, and with --json prints it.
@@ -69,7 +69,7 @@ class Options:
         try:
             profile = self.profile()
             with busy("Planning"):
-                plan = plan_file(file, profile, share)
+                plan = plan_file(file, profile, share, by_hand)
         except DocumentError as error:
             if self.json:
                 more = {"more": error.more} if error.more else {}

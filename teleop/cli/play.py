@@ -83,7 +83,7 @@ def play(
     A timelapse is shot, frame by frame; its journal in this folder has the frames that were shot.
     """
     file = named("play", file, options.json)
-    plan = options.plan(file, trim.left)
+    plan = options.plan(file, trim.left, shooting.by_hand)
     shooting.check(file, plan.timelapse is not None)
     if plan.timelapse is not None and plan.is_flown:
         raise DocumentError([f"{file}: a timelapse cannot fly a drone: leave out the stick axes"])

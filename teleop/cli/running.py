@@ -8,6 +8,7 @@ from typing import Protocol
 
 from teleop.app.run import RunReport
 from teleop.cli.screens.folded import complain, tell
+from teleop.cli.screens.response_lines import run_facts, run_lines
 from teleop.cli.screens.run_view import error_table
 from teleop.core.run_state import Result
 from teleop.monitors.tracking_error import TrackingErrorMonitor
@@ -36,6 +37,10 @@ def print_report(report: RunReport, as_json: bool, extras: Sequence[Extra] = ())
     print_reasons(report.reasons)
     if report.tracking.scores:
         error_table(report.tracking)
+    for line in run_lines(report):
+        tell(line)
+    for problem in report.kept.problems:
+        complain(f"teleop: {problem}")
     for extra in extras:
         extra.print()
     print_links(report.links)
@@ -94,6 +99,7 @@ def _facts(report: RunReport, extras: Sequence[Extra]) -> Mapping[str, object]:
         "reasons": report.reasons,
         "seconds": round(report.tracking.seconds, 3),
         "axes": axes_facts(report.tracking),
+        "responses": run_facts(report),
         "links": report.links,
         **{name: value for extra in extras for name, value in extra.facts()},
         **drone,

@@ -63,6 +63,8 @@ class GimbalSection(Section):
     """Commands per second (Hz)."""
     delay: Annotated[float, Field(ge=0, le=0.5)] | None = None
     """How much later than commanded the gimbal moves, in s; null: found out while it moves, 0 in mode position."""
+    payload: Annotated[str, Field(max_length=40)] = ""
+    """What is on the gimbal, as `fx3-24mm`: what is found of how its axes answer is kept for each payload by itself."""
     gains: GainsSection = GainsSection()
     """Gains of the correction from measured angles, for the modes speed and stick."""
     max_following_error: Annotated[float, Field(gt=0, le=180)] = 5.0

@@ -8,7 +8,7 @@ Whether a link ends at a gimbal or at a drone follows from the sinks that use it
 from __future__ import annotations
 
 import secrets
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -133,6 +133,18 @@ class Rig:
         """How each axis answers that is sent speeds and has moved enough to be sure of it."""
         found = [device.control.responses for device in self._devices if device.control is not None]
         return {axis: response for of_device in found for axis, response in of_device.items()}
+
+    @property
+    def changed(self) -> Collection[Axis]:
+        """The axes that have answered otherwise than was known of them before."""
+        return {axis for device in self._devices if device.control is not None for axis in device.control.changed}
+
+    def suppose(self, priors: Mapping[Axis, Response | None]) -> None:
+        """Take other priors for these axes, which are identified anew from them; None is no prior."""
+        for device in self._devices:
+            estimators = {} if device.control is None else device.control.estimators
+            for axis in estimators.keys() & priors.keys():
+                estimators[axis].suppose(priors[axis])
 
     def _obeys(self, axis: Axis, since: float) -> bool | None:
         controls = [device.control for device in self._devices if device.control and axis in device.moves]

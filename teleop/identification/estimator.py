@@ -22,6 +22,7 @@ PRIOR_SHARE = 0.9  # how far a prior is believed before the first motion
 PRIOR_DOUBT = 0.01  # s, at least
 TRACK = 32  # readings that it is remembered for where they led
 OFF, OFF_SHARE = 0.5, 0.3  # deg, and of the way: so far from where it was sent an axis still obeys
+LEAST_GAIN = 0.5  # an axis that goes less far does not obey, however well that explains the readings
 UNVERIFIED = 0.5  # of a drift that counts before an axis has moved
 DRIFT = 1.0  # deg/s that a prior is believed of
 SURE = 0.012  # s of doubt of the delay
@@ -76,6 +77,16 @@ class ResponseEstimator:
             self.changed |= self._prior is not None and not _agree(self._prior, self.response)
             self._prior = None
 
+    def suppose(self, prior: Response | None) -> None:
+        """Begin anew, from another prior or from none."""
+        of = self._candidates
+        self._candidates = Candidates(
+            of.dead_times, of.lags, _prior(prior, of.dead_times, of.lags), _start(prior, self._start)
+        )
+        if self._reading is not None:
+            self._candidates.reset(self._reading.position)
+        self._prior, self._known = prior, False
+
     def _begin_anew(self, place: float) -> None:
         """What was found no longer explains the readings."""
         self.changed |= self._known
@@ -124,7 +135,8 @@ class ResponseEstimator:
             return None
         (first, then), (last, now), of = seen[0], seen[-1], self._candidates
         likely = of.plausible
-        ways = of.gains[likely] * (now - then)[likely] + of.drifts[likely] * (last.time - first.time)
+        gains = np.maximum(of.gains[likely], LEAST_GAIN)
+        ways = gains * (now - then)[likely] + of.drifts[likely] * (last.time - first.time)
         off = np.abs(last.position - first.position - ways)
         return bool((off <= OFF + OFF_SHARE * np.abs(ways)).any())
 

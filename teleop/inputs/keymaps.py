@@ -100,7 +100,7 @@ HELP: Sequence[tuple[str, str]] = (
     ("r", "record on or off"),
     (".", "shutter"),
     ("e", "manual on or off"),
-    ("t word", "mark a target to aim at"),
+    ("t word", "mark a target"),
     ("d word", "drone: engage, arm"),
     ("b", "release the drone"),
     ("q", "quit"),

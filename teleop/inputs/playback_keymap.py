@@ -45,6 +45,12 @@ _RUN = (Command.STOP, Command.CLEAR, Command.PAUSE, Command.GO, Command.QUIT)
 RUN_KEYS = {key: act for key, act in KEYS.items() if isinstance(act, Press) and act.command in _RUN}
 FLOWN_KEYS = {key: act for key, act in KEYS.items() if key in (STOP, "p", "q")}  # a drone's move has one speed
 
+BY_HAND_KEYS: Mapping[str, Act] = {
+    **RUN_KEYS,
+    **dict.fromkeys((".", *RIGHT), Press(Command.NEXT)),
+    **dict.fromkeys((",", *LEFT), Press(Command.PREVIOUS)),
+}
+
 
 class PlayKeys:
     """From what a terminal sends to what is asked of a sequence; the shape that `Keyboard` wants of its reader."""

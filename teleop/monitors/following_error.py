@@ -16,6 +16,7 @@ from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
 
 EXCESS_TIMEOUT = 0.5  # s for which an axis may be elsewhere
+OBEYS_FOR = 1.3  # s of its way that show whether it obeys: longer than it takes to turn round, where nothing shows
 TRAILING = 0.2  # s by which readings may trail the command, beyond the delay that is known
 GIVEN_UP = 5.0  # s for which an axis that goes where it is sent may be elsewhere: it does not come closer
 BLIND = 2.5  # s without a reading; a gimbal that only pushes may do so once a second (docs/protocol-facts.md)
@@ -63,7 +64,7 @@ class FollowingErrorGuard:
         if abs(measured - nearest) <= self._tolerance[axis]:
             self._away.pop(axis, None)
         elif time - self._away.setdefault(axis, time) > EXCESS_TIMEOUT:
-            if self._obeys(axis, time - EXCESS_TIMEOUT):
+            if self._obeys(axis, time - OBEYS_FOR):
                 self._wait_for(axis, measured, nearest, time)
                 return
             del self._away[axis]

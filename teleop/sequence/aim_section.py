@@ -46,7 +46,7 @@ Aim = Annotated[
 ]
 
 
-class MountSection(Section):
+class CameraMountSection(Section):
     """Where the camera is on its tripod."""
 
     height: Finite = 0.0
@@ -54,8 +54,8 @@ class MountSection(Section):
 
 
 Mount = Annotated[
-    MountSection,
-    BeforeValidator(_mount, json_schema_input_type=float | MountSection),
+    CameraMountSection,
+    BeforeValidator(_mount, json_schema_input_type=float | CameraMountSection),
 ]
 
 

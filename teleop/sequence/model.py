@@ -13,7 +13,7 @@ from teleop.config.frame_rates import exact_rate
 from teleop.core.axes import Axis
 from teleop.planner.keyframes.repeat import Repeat
 from teleop.planner.keyframes.tension import EVEN
-from teleop.sequence.aim_section import Aim, Mount, MountSection, OffsetSection, Place
+from teleop.sequence.aim_section import Aim, CameraMountSection, Mount, OffsetSection, Place
 from teleop.sequence.cues import CueSection
 from teleop.sequence.panorama import PanoramaSection
 from teleop.sequence.tables.section import SourceSection
@@ -110,7 +110,7 @@ class SequenceModel(Section):
     """Play the keyframes several times."""
     targets: dict[str, Place] = Field(default_factory=dict)
     """Points to aim at by name: `door: [4.0, 1.2, 1.6]`, m from the mount: x right, y forward, z up."""
-    mount: Mount = MountSection()
+    mount: Mount = CameraMountSection()
     """Height of the camera in m above the point that targets are measured from."""
     timelapse: TimelapseSection | None = None
     """Shoot frame by frame; the times of keyframes are then output frames."""

@@ -53,6 +53,8 @@ class TimelapseSection(Section):
     """Rest while the camera exposes, or keep moving."""
     exposure: Time
     """Exposure time of the camera."""
+    blur: Annotated[float, Field(ge=0, le=1)] = 0
+    """Share of the way to the next frame that the camera moves on each side of mid exposure (go-motion)."""
     prefocus: Time = 0
     """Time for focusing before the shutter."""
     post: Time = 0
@@ -85,6 +87,7 @@ def timelapse_rules(data: Any) -> Iterator[Wrong]:
     section, fps = mapping(data, "timelapse"), frame_rate(mapping(data).get("fps"))
     for name in ("exposure", "prefocus", "post", "delay"):
         yield from _duration(section, fps, name)
+    yield from _blur_rules(section, fps)
     interval = section.get("interval")
     if isinstance(interval, Mapping):
         yield from _mapping_rules(section, fps, "interval", {"from": True, "to": True})
@@ -100,6 +103,19 @@ def timelapse_rules(data: Any) -> Iterator[Wrong]:
         if at is not None and count is not None and 1 <= count <= at:
             last = f"{count - 1:g}, the last of {count:g} frames counted from 0"
             yield ("keyframes", index, "at"), f"must be at most {last}, not {at:g}"
+
+
+def _blur_rules(section: Mapping[str, Any], fps: float | None) -> Iterator[Wrong]:
+    if not number(section.get("blur")):
+        return
+    if section.get("mode") == "continuous":
+        yield ("timelapse", "blur"), "cannot be used with mode: continuous: there the camera moves all the time"
+    try:
+        exposed = seconds(section.get("exposure"), fps)
+    except ValueError:
+        return
+    if exposed == 0:
+        yield ("timelapse", "exposure"), "must be more than 0 s with blur: the camera moves through the exposure"
 
 
 def _eases(data: Any) -> Iterator[tuple[Location, Any]]:

@@ -15,6 +15,7 @@ import numpy as np
 from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
 from teleop.core.timing import SAME_TIME
+from teleop.planner.go_motion import RAMP, ExposureRuns
 from teleop.planner.polynomial import Array, extremes
 from teleop.planner.rest_to_rest import shortest
 from teleop.planner.time_scaling import at_most
@@ -47,8 +48,11 @@ class Phases(NamedTuple):
 
     def text(self, **more: float) -> str:
         """Those that take any time: `exposure 0.5 s + settle 0.3 s`."""
-        parts = {"prefocus": self.prefocus, "exposure": self.exposure, "post": self.post, **more}
-        return " + ".join(f"{name} {value:.3g} s" for name, value in parts.items() if value > 0) or "nothing"
+        return _sum({"prefocus": self.prefocus, "exposure": self.exposure, "post": self.post, **more})
+
+
+def _sum(parts: Mapping[str, float]) -> str:
+    return " + ".join(f"{name} {value:.3g} s" for name, value in parts.items() if value > 0) or "nothing"
 
 
 class FramePath(Protocol):
@@ -58,9 +62,17 @@ class FramePath(Protocol):
 
 
 def budget(
-    phases: Phases, slots: Schedule, path: FramePath, limits: Mapping[Axis, Limits], continuous: bool
+    phases: Phases,
+    slots: Schedule,
+    path: FramePath,
+    limits: Mapping[Axis, Limits],
+    continuous: bool,
+    runs: Mapping[Axis, ExposureRuns] | None = None,
 ) -> tuple[list[str], list[str]]:
-    """What the interval cannot hold, and what it can hardly hold; both are to stand after `interval`."""
+    """What the interval cannot hold, and what it can hardly hold; both are to stand after `interval`.
+
+    `runs` are those through the exposures, None where the axes rest.
+    """
     if slots.frames < 2:
         return [], []
     if 2 * min(slots.first, slots.last) <= abs(slots.change):
@@ -70,16 +82,37 @@ def budget(
         problems, warnings = _held(np.full(slots.frames - 1, fixed), slots, lambda _frame: phases.text())
         fast, nearly = _speed(path.on(slots), slots, limits)
         return problems + fast, warnings + nearly
-    moves = _moves(path, slots.frames, limits)
+    if runs is not None:
+        return _with_runs(phases, slots, limits, runs)
+    moves = _moves(path.positions(slots.frames), limits)
     needs = fixed + phases.settle + moves
     return _held(needs, slots, lambda frame: phases.text(move=moves[frame], settle=phases.settle))
 
 
-def _moves(path: FramePath, count: int, limits: Mapping[Axis, Limits]) -> Array:
-    """Seconds for each step between two frames (count - 1,), whole ticks and what they round."""
-    steps = {axis: np.abs(np.diff(positions)) for axis, positions in path.positions(count).items()}
-    times = [shortest(step, limits[axis].scaled(STEP_SHARE)) for axis, step in steps.items()]
-    longest = np.max(times, axis=0)
+def _with_runs(
+    phases: Phases, slots: Schedule, limits: Mapping[Axis, Limits], runs: Mapping[Axis, ExposureRuns]
+) -> tuple[list[str], list[str]]:
+    """The axes move before, in and after the exposure, and then to where the next run begins."""
+    before, after = max(RAMP, phases.prefocus), max(RAMP, phases.post)
+    ways = {axis: np.abs(of.starts[1:] - of.ends[:-1]) for axis, of in runs.items()}
+    moves = _times(ways, limits)
+    needs = before + phases.exposure + after + phases.settle + moves
+
+    def text(frame: int) -> str:
+        parts = {"run-up": before, "exposure": phases.exposure, "run-out": after, "move": moves[frame]}
+        return _sum({**parts, "settle": phases.settle})
+
+    return _held(needs, slots, text)
+
+
+def _moves(positions: Mapping[Axis, Array], limits: Mapping[Axis, Limits]) -> Array:
+    """Seconds for each step between two frames (count - 1,)."""
+    return _times({axis: np.abs(np.diff(of_axis)) for axis, of_axis in positions.items()}, limits)
+
+
+def _times(ways: Mapping[Axis, Array], limits: Mapping[Axis, Limits]) -> Array:
+    """Seconds for each way, whole ticks and what they round; the axes go together."""
+    longest = np.max([shortest(way, limits[axis].scaled(STEP_SHARE)) for axis, way in ways.items()], axis=0)
     return np.where(longest > 0, longest + TICKS, 0.0)
 
 

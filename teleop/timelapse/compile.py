@@ -20,6 +20,7 @@ from teleop.config.frame_rates import shown_rate
 from teleop.config.quantities import seconds
 from teleop.config.resources import find
 from teleop.core.axes import Axis, Limits
+from teleop.planner.go_motion import ExposureRuns
 from teleop.planner.keyframes.findings import Infeasible
 from teleop.planner.keyframes.planner import Key, stretch
 from teleop.planner.polynomial import Array
@@ -34,6 +35,7 @@ from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import TimelapseSection, is_timelapse
 from teleop.sequence.timeline import Origin, aims_of
 from teleop.sequence.turns import long_ways, unwrapped
+from teleop.timelapse.blur_rules import blur_problem
 from teleop.timelapse.budget import Phases, budget
 from teleop.timelapse.schedule import Schedule
 
@@ -82,7 +84,8 @@ class Timelapse:
     """A timelapse compiled for a rig. `moving` are its frames without the still ones, `delay` is in s.
 
     `go_on` is whether a camera that does not shoot is only counted. `warnings` are lines for the user. `identity` is
-    the same for files that say the same, includes and all, whatever their comments are.
+    the same for files that say the same, includes and all, whatever their comments are. `runs` are those through the
+    exposures (go-motion), None where there is no blur.
     """
 
     title: str
@@ -98,6 +101,7 @@ class Timelapse:
     keys: Mapping[Axis, Sequence[Key]]
     warnings: Sequence[str]
     identity: str
+    runs: Mapping[Axis, ExposureRuns] | None = None
 
     @property
     def frames(self) -> int:
@@ -126,10 +130,11 @@ class Timelapse:
         return CompiledSequence(self.title, self.path.on(slots), [], warnings, keys)
 
 
-def load_timelapse(name: str, limits: Mapping[Axis, Limits], rig: str) -> Timelapse | None:
+def load_timelapse(name: str, limits: Mapping[Axis, Limits], rig: str, by_hand: bool = False) -> Timelapse | None:
     """The timelapse in the sequence file called `name`; None for a file without one.
 
-    Raises DocumentError with a line for everything wrong with it; UnplayableError when only the rig is in the way.
+    `by_hand` is whether an operator shoots each frame: then no interval has to hold it. Raises DocumentError with a
+    line for everything wrong with it; UnplayableError when only the rig is in the way.
     """
     document = read_document(*find(name, "sequences", "sequence"))
     if not is_timelapse(document.data):
@@ -140,11 +145,11 @@ def load_timelapse(name: str, limits: Mapping[Axis, Limits], rig: str) -> Timela
     except DocumentError as error:
         raise (UnplayableError(error.problems) if len(error.problems) == len(beyond_rig) else error) from None
     assert model.timelapse is not None
-    return _compiled(document, model, model.timelapse, {axis: limits[axis] for axis in axes_of(model)})
+    return _compiled(document, model, model.timelapse, {axis: limits[axis] for axis in axes_of(model)}, by_hand)
 
 
 def _compiled(
-    document: Document, model: SequenceModel, section: TimelapseSection, limits: Mapping[Axis, Limits]
+    document: Document, model: SequenceModel, section: TimelapseSection, limits: Mapping[Axis, Limits], by_hand: bool
 ) -> Timelapse:
     slots = _slots(section, model.fps)
     phases = Phases.of(section, model.fps)
@@ -164,7 +169,8 @@ def _compiled(
         raise UnplayableError(problems)
     path = FramePath(move, step * factor, section.lead_in)
     continuous = section.mode == "continuous"
-    problems, warnings = budget(phases, slots, path, limits, continuous)
+    runs = _runs(document, section, path.positions(slots.frames), phases.exposure, limits)
+    problems, warnings = ([], []) if by_hand else budget(phases, slots, path, limits, continuous, runs)
     if problems:
         raise UnplayableError([document.problem(("timelapse", "interval"), text) for text in problems])
     remarks = [line_at(document, remark.last, str(remark)) for remark in move.remarks]
@@ -184,7 +190,26 @@ def _compiled(
         keys,
         remarks,
         _identity(model, section, keys),
+        runs,
     )
+
+
+def _runs(
+    document: Document,
+    section: TimelapseSection,
+    positions: Mapping[Axis, Array],
+    exposure: float,
+    limits: Mapping[Axis, Limits],
+) -> Mapping[Axis, ExposureRuns] | None:
+    """Those through the exposures. Raises UnplayableError where one breaks a limit."""
+    if not section.blur:
+        return None
+    runs = {
+        axis: ExposureRuns.along(places, section.blur, exposure, limits[axis]) for axis, places in positions.items()
+    }
+    if problem := blur_problem(runs):
+        raise UnplayableError([document.problem(("timelapse", "blur"), problem)])
+    return runs
 
 
 def _slots(section: TimelapseSection, fps: float | None) -> Schedule:

@@ -38,7 +38,8 @@ class FrameCycle:
         self.log = FrameLog(book, progress, timelapse.go_on)
         self.shutter = FrameShutter(timelapse.phases, self.log)
         self.settle_detector = SettleDetector(self._phases.below)
-        self.lead = max(LEAD, self._phases.prefocus)
+        self._focus_lead = max(LEAD, self._phases.prefocus)
+        self.lead = max(self._focus_lead, LEAD + mover.ramp)
         self.asked_to_pause = progress.pausing  # an earlier run may have been paused
         self.halted = False
         self._end_note: Note | None = None
@@ -70,6 +71,9 @@ class FrameCycle:
 
     @property
     def _grace(self) -> float:
+        """By how much a frame may be late, in s: where the axes move through it, its place does not wait."""
+        if self._mover.ramp:
+            return PERIOD + SAME_TIME
         return max(2 * PERIOD, LATE_SHARE * self._schedule.interval(self.frame))
 
     def handle(self, event: PhaseEvent, now: float) -> None:
@@ -83,7 +87,7 @@ class FrameCycle:
         waiting = {
             TimelapsePhase.SETTLE: now if phases.below is not None else self.since + phases.settle,
             TimelapsePhase.WAIT: self._mover.when(self.due - self.lead, now),
-            TimelapsePhase.PREFOCUS: self._mover.when(self.due, now) if shutter.noted else now,
+            TimelapsePhase.PREFOCUS: min(self._mover.when(self.due, now), shutter.focus_at) if shutter.noted else now,
             TimelapsePhase.EXPOSE: shutter.exposed_at,
             TimelapsePhase.POST: max(now, shutter.done_at) if shutter.answered else now,
             TimelapsePhase.FINISH: now,
@@ -107,10 +111,11 @@ class FrameCycle:
         if self.asked_to_pause:
             self._mover.pause(now)
             self.handle(PhaseEvent.PAUSE, now)
-        elif time > self.due + self._grace:
+        elif time > self.due + self._grace or not self._mover.meets_slot:
             self._miss(now)
         elif time >= self.due - self.lead - SAME_TIME:
-            self.shutter.begin(self.frame, now)
+            later = self._mover.when(self.due - self._focus_lead, now) if self._mover.ramp else now
+            self.shutter.begin(self.frame, now, later)
             self.handle(PhaseEvent.DUE, now)
 
     def _continue(self, now: float) -> None:
@@ -179,8 +184,9 @@ class FrameCycle:
 
     def _miss(self, now: float) -> None:
         """The slot has passed without a picture."""
-        self.progress.missed += 1
-        if not self._mover.skip(self._schedule.interval(self.frame)):
+        slots = self._mover.skip(now, self._schedule.interval(self.frame))
+        self.progress.missed += max(1, slots)
+        if not slots:
             self.log.lost(self.frame)
             if self._was_last(now):
                 return

@@ -25,7 +25,7 @@ class FrameShutter:
         self._events: list[TickEvent] = []
         self.pressed = math.inf  # s: when the shutter was
         self._frame = -1
-        self._focus_end = math.inf
+        self.focus_at, self._focus_end = math.inf, math.inf  # s: inf: not asked for, or asked for already
         self._note: Note | None = None
         self._result: ShutterResult | None = None
 
@@ -34,12 +34,15 @@ class FrameShutter:
         events, self._events = self._events, []
         return events
 
-    def begin(self, frame: int, now: float) -> None:
-        """Write the frame down and let the camera focus. Raises TeleopError when nothing can be written down."""
-        self._frame, self._focus_end = frame, now + self._phases.prefocus
+    def begin(self, frame: int, now: float, focus_at: float = -math.inf) -> None:
+        """Write the frame down, and let the camera focus, at once or from `focus_at` on, in s.
+
+        Raises TeleopError when nothing can be written down.
+        """
+        self._frame, self._focus_end = frame, max(now, focus_at) + self._phases.prefocus
         self._note = self._log.begin(frame)
-        if self._phases.prefocus:
-            self._events.append(Exposure(frame, ShutterStep.FOCUS))
+        self.focus_at = focus_at if self._phases.prefocus else math.inf
+        self._focus(now)
 
     @property
     def noted(self) -> bool:
@@ -55,7 +58,13 @@ class FrameShutter:
     def ready(self, now: float) -> bool:
         """Whether the shutter may be pressed. Raises TeleopError when nothing can be written down."""
         self._log.check(self._frame)
+        self._focus(now)
         return self.noted and now >= self._focus_end - SAME_TIME
+
+    def _focus(self, now: float) -> None:
+        if now >= self.focus_at - SAME_TIME:
+            self._events.append(Exposure(self._frame, ShutterStep.FOCUS))
+            self.focus_at = math.inf
 
     def press(self, now: float) -> None:
         self._events.append(Exposure(self._frame, ShutterStep.PRESS))
@@ -67,8 +76,9 @@ class FrameShutter:
     def give_up(self) -> None:
         """The frame was begun, and its shutter is not pressed: it counts as not begun, and its focus is released."""
         self._log.unshot(self._frame)
-        if self._phases.prefocus:
+        if self._phases.prefocus and math.isinf(self.focus_at):
             self.release()
+        self.focus_at = math.inf
 
     def on_result(self, result: ShutterResult) -> None:
         """Keep the camera's answer to the press; a picture is written down at once."""

@@ -1,31 +1,27 @@
 """What takes the camera from frame to frame of a timelapse: in steps between the shots, or gliding through them.
 
-Both keep the shoot's own time, in which frame N is due at a time that a formula gives: for steps it is the clock's,
-shifted; for a glide it is the move's, because there the place of a frame is a moment of the move. Both begin by coming
-from the side that the move comes from, so that play in the gears is taken up the same way after a pause or a power cut.
+`go_motion` has the third, which rests between the shots and moves through each. All keep the shoot's own time, in which
+frame N is due at a time that a formula gives: for steps it is the clock's, shifted; for a glide it is the move's,
+because there the place of a frame is a moment of the move. All begin by coming from the side that the move comes from,
+so that play in the gears is taken up the same way after a pause or a power cut.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from concurrent.futures import Executor
 from typing import Protocol
 
-from teleop.core.axes import Axis, Limits, Motion, State
+from teleop.core.axes import Axis, Motion
 from teleop.core.timing import SAME_TIME
-from teleop.planner.polynomial import Array
 from teleop.planner.rest_to_rest import rest_to_rest
-from teleop.planner.trajectory import Move
 from teleop.sequence.playback import Playback
 from teleop.timelapse.budget import STEP_SHARE
 from teleop.timelapse.compile import Timelapse
+from teleop.timelapse.way import GENTLE, Way, approach
 
-GENTLE = 0.5  # of velocity, acceleration and jerk, where there is time
-BACKLASH = {Axis.FOCUS: 0.02}  # units, how far before its place an axis is approached from
-BACKLASH_ANGLE = 1.0  # deg
 FAR = 1000.0  # s: when any run-up is long over
-_GRID = 100  # Hz: what begins and ends on the loop's ticks
 
 
 class Mover(Protocol):
@@ -39,6 +35,16 @@ class Mover(Protocol):
     @property
     def run_up(self) -> float:
         """How long it moves, once begun, before it is at the frame that it approached, in s."""
+        ...
+
+    @property
+    def ramp(self) -> float:
+        """How long before each frame is due it leaves the place where it waits for it, in s."""
+        ...
+
+    @property
+    def meets_slot(self) -> bool:
+        """Whether it is on its way, or will be, so that the present frame can be shot when it is due."""
         ...
 
     def approach(self, now: float, motion: Motion, frame: int) -> None:
@@ -63,8 +69,8 @@ class Mover(Protocol):
 
     def when(self, time: float, now: float) -> float: ...
 
-    def skip(self, seconds: float) -> bool:
-        """Wait so much longer for the present frame; False where its place has been passed."""
+    def skip(self, now: float, seconds: float) -> int:
+        """Wait so much longer for the present frame, as often as it takes: how often. 0: its place has been passed."""
         ...
 
     def pause(self, now: float) -> None: ...
@@ -74,36 +80,15 @@ class Mover(Protocol):
         ...
 
 
-class Way:
-    """Moves one after the other, each from rest to rest."""
-
-    def __init__(self, now: float, motion: Motion) -> None:
-        self._legs: list[tuple[float, Move]] = []
-        self._motion = motion
-        self.arrival = now
-
-    def on(self, target: Mapping[Axis, float], limits: Mapping[Axis, Limits], share: float, least: float = 0.0) -> None:
-        """To `target` when the way so far is over."""
-        move = rest_to_rest(self._motion, target, limits, share, least)
-        self._legs.append((self.arrival, move))
-        self._motion = {axis: State(position) for axis, position in target.items()}
-        self.arrival += math.ceil(move.duration * _GRID - SAME_TIME) / _GRID
-
-    def at(self, now: float) -> Motion:
-        for begin, move in self._legs:
-            if now < begin + move.duration:
-                return move.at(now - begin)
-        return self._motion
-
-
 class StepMover:
     """Shoot-move-shoot: rests at each frame, and moves only between two shots."""
+
+    run_up, ramp, meets_slot = 0.0, 0.0, True
 
     def __init__(self, timelapse: Timelapse) -> None:
         self._limits, self._positions = timelapse.limits, timelapse.path.positions(timelapse.frames)
         self._way = Way(0.0, {})
         self._base = math.inf  # when the shoot's own time is 0
-        self.run_up = 0.0
 
     @property
     def arrival(self) -> float:
@@ -138,9 +123,9 @@ class StepMover:
     def when(self, time: float, now: float) -> float:  # noqa: ARG002 - it keeps the clock's pace
         return self._base + time
 
-    def skip(self, seconds: float) -> bool:
+    def skip(self, now: float, seconds: float) -> int:  # noqa: ARG002 - it rests at its place
         self._base += seconds
-        return True
+        return 1
 
     def pause(self, now: float) -> None: ...
 
@@ -156,6 +141,8 @@ class GlideMover:
 
     Changes of speed are searched for by `executor`, a thread unless given.
     """
+
+    ramp, meets_slot = 0.0, True
 
     def __init__(self, timelapse: Timelapse, executor: Executor | None = None) -> None:
         self._limits, self._slots, self._executor = timelapse.limits, timelapse.slots, executor
@@ -206,8 +193,8 @@ class GlideMover:
             return self._begin - (self._playback.opening - time)
         return self._playback.when(time, max(now, self._begin))
 
-    def skip(self, seconds: float) -> bool:  # noqa: ARG002 - the place of the frame is behind
-        return False
+    def skip(self, now: float, seconds: float) -> int:  # noqa: ARG002 - the place of the frame is behind
+        return 0
 
     def pause(self, now: float) -> None:
         if now < self._begin - SAME_TIME:
@@ -220,28 +207,3 @@ class GlideMover:
             self.begin(now + lead + self.run_up, time)
         else:
             self._playback.resume(now)
-
-
-def approach(
-    now: float,
-    motion: Motion,
-    place: Mapping[Axis, float],
-    positions: Mapping[Axis, Array],
-    frame: int,
-    limits: Mapping[Axis, Limits],
-) -> Way:
-    """To `place`, in the end from the side from which the move comes to `frame`."""
-    before = {axis: _before(axis, position, positions[axis], frame, limits[axis]) for axis, position in place.items()}
-    way = Way(now, {axis: motion[axis] for axis in place})
-    if before != place:
-        way.on(before, limits, GENTLE)
-    way.on(place, limits, GENTLE)
-    return way
-
-
-def _before(axis: Axis, place: float, positions: Sequence[float] | Array, frame: int, limits: Limits) -> float:
-    """A little before `place`: by the way there, or, where it begins there, by the way on."""
-    way = next((place - there for there in positions[:frame][::-1] if there != place), 0.0)
-    way = way or next((there - place for there in positions[frame:] if there != place), 0.0)
-    back = math.copysign(BACKLASH.get(axis, BACKLASH_ANGLE), way) if way else 0.0
-    return min(max(place - back, limits.minimum), limits.maximum)

@@ -35,6 +35,7 @@ class Progress:
     phase: str = "approach"
     pausing: bool = False
     problem: str = ""  # why it is paused, where nobody asked for it
+    by_hand: bool = False  # an operator shoots each frame: nothing is due
 
     def left(self, now: float) -> float:
         """Seconds until the last frame."""

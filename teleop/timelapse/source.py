@@ -91,7 +91,7 @@ class TimelapseSource:
         self.progress.due = math.inf
         if self.phase is TimelapsePhase.PREFOCUS:
             cycle.shutter.give_up()
-        if self.phase is TimelapsePhase.EXPOSE and self._mover.next_motion(now) <= now:
+        if self.phase is TimelapsePhase.EXPOSE and self._mover.next_motion(now) < cycle.shutter.exposed_at:
             self.progress.stopped.append(cycle.frame)
         if (self.phase, PhaseEvent.STOP) in TRANSITIONS and self.phase is not TimelapsePhase.POST:
             cycle.handle(PhaseEvent.STOP, now)

@@ -98,6 +98,12 @@ def test_a_pad_that_both_backends_see_is_listed_once(monkeypatch: pytest.MonkeyP
     assert listing.notes == []
 
 
+def test_the_name_of_a_device_is_no_command_for_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    evil = pad(b"1-2:1.3") | {"product_string": "P\x1b[2Jad\n"}
+    monkeypatch.setitem(sys.modules, "hid", types.SimpleNamespace(enumerate=lambda: [evil]))
+    assert hid_devices(["hid"]).devices[0].description == "P[2Jad (hid, port 1-2)"
+
+
 def test_pads_of_one_model_are_told_apart_by_their_ports(monkeypatch: pytest.MonkeyPatch) -> None:
     found = [pad(path) for path in (b"1-2:1.3", b"1-2:1.0", b"1-4.1:1.3")]
     monkeypatch.setitem(sys.modules, "hid", types.SimpleNamespace(enumerate=lambda: found))

@@ -34,6 +34,7 @@ def two(left: str, right: str) -> str:
     [
         ({"port": "1-2"}, {"port": "1-3"}, "add port: 1-2 or port: 1-3 to the device of each input"),
         ({"serial": "A"}, {"serial": "B"}, "add serial: A or serial: B to the device of each input"),
+        ({"serial": "0123"}, {"serial": "0124"}, 'add serial: "0123" or serial: "0124" to the device of each input'),
         ({"serial": "A", "port": "1-2"}, {"serial": "A", "port": "1-3"}, "add port: 1-2 or port: 1-3 to the device"),
         ({}, {}, "unplug one"),
     ],
@@ -87,6 +88,13 @@ def test_an_interface_of_a_receiver_is_chosen_by_its_number(player: Player) -> N
     profile = f"inputs:\n  - {{device: {{{MODEL}, interface: 1}}, controls: {{X: {{axis: tilt}}}}}}\n"
     assert player.play(devices[0], profile=profile).moved == set()
     assert player.play(*devices, profile=profile).moved == {Axis.TILT}
+
+
+def test_of_a_receiver_without_a_serial_number_and_a_port_to_be_seen_the_interface_that_speaks_is_found(
+    player: Player,
+) -> None:
+    silent, speaking = (player.device(STICK, rows, interface=number) for number, rows in enumerate(([], PUSHED)))
+    assert player.play(silent, speaking).moved == {Axis.PAN}
 
 
 def test_of_a_receiver_the_second_interface_speaks_and_the_first_one_later_changes_nothing(player: Player) -> None:
@@ -159,3 +167,8 @@ def test_a_hat_held_stores_a_preset_and_pressed_recalls_it_and_a_switchs_first_t
     assert played.at(Axis.PAN, 7.5) == pytest.approx(0, abs=1e-6)
     assert played.at(Axis.FOCUS, 7.9) == played.at(Axis.FOCUS, 0.0)
     assert played.last(Axis.FOCUS) == pytest.approx(1, abs=1e-3)
+
+
+def test_the_only_pad_may_be_plugged_in_in_the_middle_of_the_run(player: Player) -> None:
+    rows = [(1.0, b""), *held(REST, 1, 3), *held(RIGHT, 3, 3.5), *held(REST, 3.5, 4)]
+    assert player.play(player.device(STICK, rows)).moved == {Axis.PAN}

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
-from teleop.monitors.following_error import BLIND, EXCESS_TIMEOUT, GIVEN_UP, TRAILING, FollowingErrorGuard
+from teleop.monitors.following_error import BLIND, EXCESS_TIMEOUT, GIVEN_UP, OBEYS_FOR, TRAILING, FollowingErrorGuard
 
 BOUNDED, ENDLESS = Limits(-180, 180, 120, 240, 1200), Limits(-math.inf, math.inf, 120, 240, 1200)
 
@@ -105,7 +105,7 @@ def test_an_axis_that_goes_where_it_is_sent_is_given_longer_and_is_not_said_to_b
     list(map(guard.observe, ticks[:soon]))
     with pytest.raises(DeviceError, match=r"^pan does not come closer: commanded 12\.0, measured 3\.1$"):
         list(map(guard.observe, ticks[soon : soon + 5]))
-    assert asked[0] == pytest.approx(0.01, abs=0.02)
+    assert asked[0] == pytest.approx(EXCESS_TIMEOUT - OBEYS_FOR, abs=0.02)
 
 
 @pytest.mark.parametrize("obeyed", [False, None])

@@ -38,7 +38,7 @@ keyframes:
 timelapse:
   frames: COUNT
   interval: INTERVAL
-  exposure: 0.2s
+  exposure: EXPOSURE
 """
 
 
@@ -159,10 +159,12 @@ class Stage:
     def _stood(self) -> tuple[float, float, float]:
         return self.gimbals[-1].angles if self.gimbals else (0.0, 0.0, 0.0)
 
-    def write(self, count: int, interval: str, more: str = "") -> Timelapse:
+    def write(
+        self, count: int, interval: str, more: str = "", exposure: str = "0.2s", by_hand: bool = False
+    ) -> Timelapse:
         text = FILE.replace("COUNT", str(count)).replace("LAST", str(count - 1)).replace("INTERVAL", interval)
-        (self.folder / "dusk.yaml").write_text(text + more)
-        found = load_timelapse(str(self.folder / "dusk.yaml"), self.profile.limits, "the rig")
+        (self.folder / "dusk.yaml").write_text(text.replace("EXPOSURE", exposure) + more)
+        found = load_timelapse(str(self.folder / "dusk.yaml"), self.profile.limits, "the rig", by_hand)
         assert found is not None
         self.timelapse = found
         return found
@@ -177,8 +179,9 @@ class Stage:
         """The whole shoot, or what is left of it."""
         if journal is None:
             in_doubt = how.pop("in_doubt", "shoot")
+            by_hand = how.pop("by_hand", False)
             with self.journal(**how) as opened:
-                return self.shoot(opened, in_doubt=in_doubt)
+                return self.shoot(opened, in_doubt=in_doubt, by_hand=by_hand)
         self.shooting = Shooting(
             self.timelapse,
             self.profile,
@@ -233,6 +236,8 @@ class SlowBook:
 
 class SlowNote:
     """A note that is safe once `over` says so."""
+
+    failed = False
 
     def __init__(self, over: Callable[[], bool]) -> None:
         self._over = over

@@ -14,8 +14,8 @@ from teleop.core.interfaces import Feedback
 from teleop.core.timing import PERIOD
 from teleop.planner.live import Live
 from teleop.timelapse.compile import Timelapse, load_timelapse
+from teleop.timelapse.go_motion import mover_of
 from teleop.timelapse.journal import FrameState, Note
-from teleop.timelapse.movers import GlideMover, Mover, StepMover
 from teleop.timelapse.progress import Progress
 from teleop.timelapse.source import TimelapseSource
 
@@ -61,7 +61,7 @@ class Shoot:
 
     def __init__(self, timelapse: Timelapse, answers: Mapping[int, int | None] | None = None, first: int = 0) -> None:
         self.timelapse, self.answers = timelapse, answers or {}
-        self.mover: Mover = GlideMover(timelapse, AtOnce()) if timelapse.continuous else StepMover(timelapse)
+        self.mover = mover_of(timelapse, AtOnce())
         self.book = Book()
         self.progress = Progress(timelapse.slots, timelapse.fps, frame=first)
         self.source = TimelapseSource(timelapse, self.mover, self.book, first, self.progress)

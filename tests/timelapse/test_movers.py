@@ -10,7 +10,8 @@ from at_once import AtOnce
 from timelapse_bench import LIMITS, timelapse
 
 from teleop.core.axes import Axis, State
-from teleop.timelapse.movers import GlideMover, StepMover, approach
+from teleop.timelapse.movers import GlideMover, StepMover
+from teleop.timelapse.way import approach
 
 REST = {Axis.PAN: State(0.0)}
 
@@ -36,7 +37,7 @@ def test_in_steps_it_rests_at_each_frame_and_keeps_the_clock(tmp_path: Path) -> 
     assert mover.step(20.0, 2, 3.0)
     assert mover.next_motion(20.0) == 20.0
     assert math.isinf(mover.next_motion(mover.arrival))
-    assert mover.skip(4.0), "it can wait for the next slot"
+    assert mover.skip(20.0, 4.0), "it can wait for the next slot"
     assert mover.when(found.slots.at(2), 0.0) == 28.0
 
 
@@ -52,7 +53,7 @@ def test_a_glide_is_at_each_frame_in_its_slot(tmp_path: Path, frame: int) -> Non
         at = slot + found.slots.at(later) - found.slots.at(frame)
         assert mover.time(at) == pytest.approx(found.slots.at(later))
         assert mover.at(at)[Axis.PAN].position == pytest.approx(float(positions[later]), abs=1e-6)
-    assert not mover.skip(4.0), "the place of a frame is passed"
+    assert not mover.skip(20.0, 4.0), "the place of a frame is passed"
 
 
 def test_before_a_glide_moves_its_time_runs_as_the_clock_does(tmp_path: Path) -> None:

@@ -26,14 +26,15 @@ REST = 1.0  # s at rest before and after, so that what is late is seen to its en
 class CalibrationMove:
     """A source of `swings` swings of `reach` units. `begin` is when the first starts, inf until the run has started.
 
-    Raises UsageError when the axis is too slow for it; `start` raises DeviceError when there is no room for it.
+    A swing takes `seconds`, or longer where the limits ask for it. Raises UsageError when the axis is too slow for it;
+    `start` raises DeviceError when there is no room for it.
     """
 
-    def __init__(self, axis: Axis, limits: Limits, reach: float, swings: int) -> None:
+    def __init__(self, axis: Axis, limits: Limits, reach: float, swings: int, seconds: float = SWING_SECONDS) -> None:
         self.begin = math.inf
         self._axis, self._limits, self._reach, self._swings = axis, limits, reach, swings
         self._rest, self._side = 0.0, 1.0
-        self.period = SWING_SECONDS
+        self.period = seconds
         while not self._legal():
             self.period *= 1.25
             if self.period > LONGEST:
@@ -42,6 +43,11 @@ class CalibrationMove:
     @property
     def duration(self) -> float:
         return self.period * self._swings
+
+    @property
+    def fastest(self) -> float:
+        """The highest speed on the way, in units/s."""
+        return max(abs(self._at(self.duration * k / 2000)[1]) for k in range(2000))
 
     def start(self, now: float, motion: Motion) -> None:
         self._rest = motion[self._axis].position

@@ -9,6 +9,7 @@ from dataclasses import replace
 from cyclopts import App
 
 from teleop.app.calibration.measure_delay import DelayReport, measure_delay
+from teleop.cli.calibration.response import response
 from teleop.cli.calibration.signs import signs
 from teleop.cli.examples import examples
 from teleop.cli.key_terminal import key_terminal
@@ -27,9 +28,11 @@ HINTS = (Hint("space", "STOP"), Hint("p", "pause"), Hint("q", "end"))
 
 app = App(
     name="calibrate",
-    help="Measure the delay and the signs of a gimbal for its profile.",
+    help="Measure how the axes of a gimbal answer, or its delay, or its signs.",
     help_epilogue=examples("calibrate"),
 )
+app.default(response)
+app.command(response, name="response", help_epilogue=examples("calibrate response"))
 app.command(signs, help_epilogue=examples("calibrate signs"))
 
 

@@ -18,15 +18,17 @@ from teleop.cli.doctor.devices import can_adapters, hid, serial
 from teleop.cli.doctor.event_pads import event_pads
 from teleop.cli.doctor.finding import Finding, Findings, State
 from teleop.cli.doctor.machine import disk, packages, python, terminal
+from teleop.cli.doctor.responses import kept_responses, responses
 from teleop.cli.doctor.timing import lateness, scheduling
+from teleop.cli.screens.response_lines import kept_facts
 
 CHECKS: Sequence[Callable[[], Findings]] = (
-    python, packages, hid, event_pads, serial, can_adapters, scheduling, lateness, disk, terminal
+    python, packages, hid, event_pads, serial, can_adapters, scheduling, lateness, disk, terminal, responses
 )  # fmt: skip
 
 
 def doctor(*, as_json: Annotated[bool, Parameter(name="--json", negative="", show_default=False)] = False) -> int:
-    """Check what this machine can do: packages, permissions, adapters, timing, room for takes.
+    """Check what this machine can do: packages, permissions, adapters, timing, room for takes; show what is kept.
 
     Parameters
     ----------
@@ -35,7 +37,8 @@ def doctor(*, as_json: Annotated[bool, Parameter(name="--json", negative="", sho
     """
     findings = [finding for check in CHECKS for finding in check()]
     if as_json:
-        print(json.dumps({"ok": not _fatal(findings), "findings": [asdict(each) for each in findings]}))
+        found = {"ok": not _fatal(findings), "findings": [asdict(each) for each in findings]}
+        print(json.dumps({**found, "responses": [*map(kept_facts, kept_responses()[0])]}))
     else:
         _print(findings)
     return 1 if _fatal(findings) else 0

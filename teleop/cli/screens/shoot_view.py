@@ -25,6 +25,8 @@ ENDS = Hint("Ctrl-C", "end; continue with --resume")
 HINTS = (Hint("space", "STOP"), Hint("p", "pause between frames"), Hint("q", "end"), ENDS)
 RESUMES = (Hint("space", "STOP"), Hint("p", "continue"), Hint("q", "end"), ENDS)
 
+BY_HAND = (Hint("Enter", "shoot"), Hint(". ,", "next, previous frame"), Hint("space", "STOP"), Hint("q", "end"))
+
 
 class ShootView(RunView):
     """A sink that only shows. `folder` is where the journal is written, `progress` how far the shoot is.
@@ -77,8 +79,14 @@ def shoot_status(progress: Progress, now: float, keys: bool) -> RunStatus:
         paused=progress.phase == "paused",
         total=f"{progress.shot} of {progress.slots.frames} frames",
         done=progress.shot / progress.slots.frames,
-        hints=((RESUMES if progress.pausing else HINTS) if keys else (ENDS,)),
+        hints=_hints(progress) if keys else (ENDS,),
     )
+
+
+def _hints(progress: Progress) -> tuple[Hint, ...]:
+    if progress.by_hand:
+        return BY_HAND
+    return RESUMES if progress.pausing else HINTS
 
 
 def _parts(progress: Progress, now: float) -> list[str]:
@@ -91,10 +99,10 @@ def _parts(progress: Progress, now: float) -> list[str]:
 
 def _counted(progress: Progress) -> list[str]:
     """The clip so far, and what went wrong."""
-    clip = []
+    clip, always = [], "" if progress.by_hand else "missed slots"
     if progress.clip is not None and progress.fps:
         clip.append(f"clip {progress.clip:.2f} of {progress.slots.frames / progress.fps:.2f} s")
-    return [*clip, *(f"{n} {name}" for name, n in progress.troubles.items() if n or name == "missed slots")]
+    return [*clip, *(f"{n} {name}" for name, n in progress.troubles.items() if n or name == always)]
 
 
 def _doing(progress: Progress, now: float) -> str:

@@ -18,12 +18,14 @@ from teleop.cli.screens.take_summary import take_words
 from teleop.cli.shooting.options import ShootOptions
 from teleop.cli.shooting.timelapse_summary import clock, summary
 from teleop.cli.signals import signals_to
+from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.core.clock import VirtualClock
+from teleop.core.errors import UsageError
 from teleop.core.interfaces import Clock
 from teleop.core.run_state import Result
 from teleop.inputs.keyboard import Keyboard
-from teleop.inputs.playback_keymap import RUN_KEYS, PlayKeys
+from teleop.inputs.playback_keymap import BY_HAND_KEYS, RUN_KEYS, PlayKeys
 from teleop.recording.writer import Recorder
 from teleop.timelapse.compile import Timelapse
 
@@ -40,7 +42,9 @@ def shoot(
     """Shoot it on the rig, from the first frame or from where it stopped; the exit code."""
     virtual = isinstance(time, VirtualClock)
     descriptor = None if virtual else key_terminal()
-    keys = None if descriptor is None else Keyboard(descriptor, PlayKeys(RUN_KEYS))
+    if asked.by_hand:
+        _check_by_hand(file, timelapse, virtual, descriptor is not None)
+    keys = None if descriptor is None else Keyboard(descriptor, PlayKeys(BY_HAND_KEYS if asked.by_hand else RUN_KEYS))
 
     def view(shooting: Shooting, journal: Path, recorder: Recorder | None) -> ShootView:
         folder, title = journal.absolute().parent, timelapse.title
@@ -49,10 +53,10 @@ def shoot(
 
     def begun(journal: Path) -> None:
         if not options.json:
-            complain(f"{summary(timelapse)}; journal {journal}")
+            complain(f"{summary(timelapse, asked.by_hand)}; journal {journal}")
 
     choices = (asked.resume, asked.restart, asked.in_doubt)
-    run = ShootRun(file, timelapse, profile, time, keys, *choices, take, virtual)
+    run = ShootRun(file, timelapse, profile, time, keys, *choices, take, virtual, asked.by_hand)
     report = run.perform(view, signals_to, begun, warn)
     if options.json:
         print(json.dumps({**_facts(report), **({} if report.take is None else {"take": report.take.facts})}))
@@ -61,6 +65,16 @@ def shoot(
         print_links(report.shooting.links)
         print_take(report.take)
     return EXIT_CODES[report.ended.result]
+
+
+def _check_by_hand(file: str, timelapse: Timelapse, virtual: bool, has_keys: bool) -> None:
+    """Raises UsageError, or DocumentError for what the file says, where no operator can shoot it frame by frame."""
+    if timelapse.continuous:
+        raise DocumentError([f"--by-hand: {file} has mode: continuous; leave it out"])
+    if virtual:
+        raise UsageError("--by-hand: an operator works in real time; leave out --fast")
+    if not has_keys:
+        raise UsageError("--by-hand needs a terminal, for its keys")
 
 
 def _print(report: ShootReport) -> None:
@@ -76,6 +90,9 @@ def _print(report: ShootReport) -> None:
         if journal.in_doubt is not None:
             tell(f"Frame {journal.in_doubt} may be missing: the shoot stopped at its shutter.")
         left = clock(max(0.0, progress.slots.at(progress.slots.frames - 1) - progress.slots.at(journal.next)))
+        if progress.by_hand:
+            tell(f"Continue with --by-hand --resume: frame {journal.next} is next ({journal.path})")
+            return
         tell(f"Continue with --resume: frame {journal.next} is next, {left} of shooting left ({journal.path})")
 
 

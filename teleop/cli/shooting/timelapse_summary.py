@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from teleop.timelapse.compile import Timelapse
 
 
-def summary(timelapse: Timelapse) -> str:
-    """`720 frames, 5 s apart: 59 min 55 s of shooting, 30.00 s of clip at 24 fps`."""
+def summary(timelapse: Timelapse, by_hand: bool = False) -> str:
+    """`720 frames, 5 s apart: 59 min 55 s of shooting, 30.00 s of clip at 24 fps`; by hand without the times."""
     slots = timelapse.slots
     apart = f"{slots.first:g} s" if not slots.change else f"{slots.first:g} to {slots.last:g} s"
     clip = (
@@ -22,6 +22,8 @@ def summary(timelapse: Timelapse) -> str:
     )
     lead = timelapse.path.lead, slots.frames - timelapse.path.lead - timelapse.moving
     still = f" ({lead[0]} still, {timelapse.moving} moving, {lead[1]} still)" if any(lead) else ""
+    if by_hand:
+        return f"{slots.frames} frames{still}, each shot with Enter{clip}"
     return f"{slots.frames} frames{still}, {apart} apart: {clock(slots.at(slots.frames - 1))} of shooting{clip}"
 
 

@@ -35,6 +35,8 @@ class SpeedControl:
         start: Start = Start(),  # noqa: B008 - immutable
     ) -> None:
         self.estimators = {axis: ResponseEstimator(priors.get(axis), start) for axis in limits}
+        self.changed: set[Axis] = set()  # what was known of these no longer held at some time
+        self.latest: dict[Axis, tuple[float, float]] = {}  # when a speed was last sent (s), and which (deg/s)
         self._guard = LimitGuard(limits, period, self.estimators)
         self.lines = self._guard.lines  # what there is to say: whoever says it empties the list
         self._correction: PiCorrection | AdaptiveCorrection
@@ -51,6 +53,7 @@ class SpeedControl:
                 estimator.read(reading)
                 if estimator.changed:
                     estimator.changed = False
+                    self.changed.add(axis)
                     self.lines.append(f"{axis} answers otherwise than before: it is identified anew")
 
     def foresee(self, foreseen: Foreseen) -> None:
@@ -66,7 +69,8 @@ class SpeedControl:
         """These speeds (deg/s) are sent now, 0 for an axis that is not among them."""
         self._correction.sent(now, speeds)
         for axis, estimator in self.estimators.items():
-            estimator.sent(now, speeds.get(axis, 0.0))
+            self.latest[axis] = now, speeds.get(axis, 0.0)
+            estimator.sent(*self.latest[axis])
 
     @property
     def responses(self) -> Mapping[Axis, Response]:

@@ -7,11 +7,11 @@ from teleop.dji.gimbal.messages import Version, VersionReply
 
 
 class VersionQuestion:
-    """`version` is "" until the gimbal has answered; not each firmware does."""
+    """`version` is "" until the gimbal has answered; not each firmware does. `over` is set once no answer is due."""
 
     def __init__(self, connection: Connection) -> None:
         self._connection, self._asked = connection, False
-        self.version = ""
+        self.version, self.over = "", False
         connection.on_answer(Version, self._answered)
 
     def ask(self, now: float) -> None:
@@ -21,5 +21,6 @@ class VersionQuestion:
             self._connection.request(Version(), now)
 
     def _answered(self, answer: Answer) -> None:
+        self.over = True
         if isinstance(answer.reply, VersionReply) and not answer.reply.return_code:
             self.version = answer.reply.version

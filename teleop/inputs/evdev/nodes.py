@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from teleop.inputs.hid.backend import DeviceInfo, usb_port
+from teleop.inputs.hid.backend import DeviceInfo, shown, usb_port
 
 SYS, DEV = Path("/sys"), Path("/dev")
 VIRTUAL = "uinput"  # the driver of a device that a program made
@@ -111,10 +111,10 @@ def _node(entry: Path, dev: Path) -> EventNode | None:
     driver = VIRTUAL if parent is None else (parent / "driver").resolve().name
     return EventNode(
         path=dev / "input" / entry.name,
-        name=_text(device / "name"),
+        name=shown(_text(device / "name")),
         vendor=_number(device / "id/vendor"),
         product=_number(device / "id/product"),
-        serial=_text(device / "uniq"),
+        serial=shown(_text(device / "uniq")),
         bus=_number(device / "id/bustype"),
         driver=driver,
         is_hid=parent is not None and bool(_HID.fullmatch(parent.name)),

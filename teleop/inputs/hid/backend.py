@@ -21,6 +21,7 @@ _BACKENDS = ("hidraw", "hid")
 _LONGEST = 4096  # bytes of one report: more than any transport here carries
 _PORT = re.compile(r"(?:^|/)(\d+-[\d.]+):\d+\.\d+(?=/|$)")  # of a USB interface in sysfs, or libusb's path of it
 _NAMELESS = frozenset({"", "n/a"})
+_LONGEST_NAME = 256  # letters; USB has 126 of them, the kernel's names 255
 
 
 class DeviceInfo(NamedTuple):
@@ -116,18 +117,23 @@ def _first(names: Sequence[str]) -> Any:
 
 
 def _info(each: Mapping[str, Any]) -> DeviceInfo:
-    name = each["product_string"] or ""
+    name = shown(each["product_string"] or "")
     return DeviceInfo(
         path=each["path"],
         vendor_id=each["vendor_id"],
         product_id=each["product_id"],
-        serial=each["serial_number"] or "",
+        serial=shown(each["serial_number"] or ""),
         name="" if name in _NAMELESS else name,
         usage_page=each["usage_page"],
         usage=each["usage"],
         interface=each["interface_number"],
         port=usb_port(each["path"]),
     )
+
+
+def shown(text: str) -> str:
+    """What a device says of itself, without what a terminal would take for a command."""
+    return "".join(filter(str.isprintable, text[:_LONGEST_NAME]))
 
 
 def usb_port(path: bytes, sysfs: Path = Path("/sys/class/hidraw")) -> str:

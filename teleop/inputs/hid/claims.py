@@ -7,6 +7,8 @@ would depend on the order in which the system lists them. One such device alone 
 
 from __future__ import annotations
 
+import json
+import re
 import threading
 from collections.abc import Collection, Sequence
 
@@ -14,6 +16,8 @@ from teleop.config.inputs_section import InputSection
 from teleop.inputs.hid.backend import DeviceInfo, described, same_device, same_model, unit
 from teleop.inputs.hid.descriptor.identity import NOT_STICKS, STICKS
 from teleop.inputs.hid.pads import fits
+
+_PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9-]*|\d+-[\d.]+")  # what YAML takes for text without quotes: A1B2, port 1-2.3
 
 
 class Claims:
@@ -98,6 +102,11 @@ def _are_two(one: DeviceInfo, two: DeviceInfo) -> bool:
     return not same_device(one, two) or all(usage in STICKS for usage in usages)
 
 
+def _written(value: str | int) -> str:
+    """A value as a profile has it: a serial number of digits is in quotes, or it would be read as a number."""
+    return str(value) if isinstance(value, int) or _PLAIN.fullmatch(value) else json.dumps(value)
+
+
 def _in_doubt(section: InputSection, other: InputSection, devices: Sequence[DeviceInfo]) -> str:
     paths = {info.path: info for info in devices}
     name = other.name or f"another input for {other.device}"
@@ -106,6 +115,6 @@ def _in_doubt(section: InputSection, other: InputSection, devices: Sequence[Devi
     for key in ("serial", "port", "interface"):
         values = [getattr(info, key) for info in paths.values()]
         if all(value not in ("", -1) for value in values) and len(set(values)) == len(values):
-            each = " or ".join(f"{key}: {value}" for value in sorted(values))
+            each = " or ".join(f"{key}: {_written(value)}" for value in sorted(values))
             return f"{text}; add {each} to the device of each input"
     return f"{text}; unplug one" if not section.device.any else f"{text}; unplug one, or name each by its device"

@@ -22,11 +22,15 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from teleop.config.documents.document import DocumentError
-from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice
+from teleop.inputs.hid.backend import DeviceInfo, HidBackend, HidDevice, shown
+from teleop.inputs.hid.descriptor.parser import MAX_COLLECTIONS
 
 UNPLUGGED, PLUGGED = "unplugged", "plugged"
 AFTER = 1.0  # s from the last row to the end of the run
+LONGEST = 86_400  # s: later rows have another clock's times, and a run up to them would never end
+OPENING = 0.1  # s from the beginning of a run in which what is plugged in is opened
 MAX_PROBLEMS = 20
+LONGEST_VALUE = 60  # letters of a wrong value in a line about it
 
 
 class Row(NamedTuple):
@@ -54,7 +58,7 @@ class Recording:
 def read_recording(file: Path, number: int = 1) -> Recording:
     """The recording in `file`, `number` of the run's. Raises DocumentError with a line for everything wrong."""
     try:
-        lines = file.read_text(encoding="utf-8-sig").splitlines()
+        lines = file.read_text(encoding="utf-8-sig").split("\n")
     except OSError as error:
         raise DocumentError([f"{file}: cannot be read: {error.strerror or error}"]) from None
     except UnicodeDecodeError:
@@ -116,19 +120,25 @@ def _infos(path: bytes, device: Any) -> Sequence[DeviceInfo]:
         except ValueError:
             number = -1
         if not 0 <= number <= 0xFFFF:
-            raise ValueError(f'device: "{key}" must be four hexadecimal digits, not {device.get(key)!r}')
+            raise ValueError(f'device: "{key}" must be four hexadecimal digits, not {_brief(device.get(key))}')
         ids.append(number)
     usages = device.get("usages", [])
-    if not isinstance(usages, list) or not all(_is_usage(each) for each in usages):
-        raise ValueError('device: "usages" must be a list of [page, usage]')
+    if not isinstance(usages, list) or len(usages) > MAX_COLLECTIONS or not all(_is_usage(each) for each in usages):
+        raise ValueError(f'device: "usages" must be a list of [page, usage], of {MAX_COLLECTIONS} at most')
     interface = device.get("interface", 0)
     if not isinstance(interface, int):
-        raise ValueError(f'device: "interface" must be a number, not {interface!r}')
-    serial, name, port, driver = (str(device.get(key) or "") for key in ("serial", "name", "port", "driver"))
+        raise ValueError(f'device: "interface" must be a number, not {_brief(interface)}')
+    serial, name, port, driver = (shown(str(device.get(key) or "")) for key in ("serial", "name", "port", "driver"))
     return [
         DeviceInfo(path, ids[0], ids[1], serial, name, page, usage, interface, port, driver)
         for page, usage in usages or [(0, 0)]
     ]
+
+
+def _brief(value: Any) -> str:
+    """A wrong value in the line about it."""
+    text = repr(value)
+    return text if len(text) <= LONGEST_VALUE else f"{text[:LONGEST_VALUE]}..."
 
 
 def _is_usage(value: Any) -> bool:
@@ -139,13 +149,15 @@ def _hexadecimal(record: Mapping[str, Any], key: str) -> bytes:
     try:
         return bytes.fromhex(record[key])
     except (KeyError, TypeError, ValueError):
-        raise ValueError(f'"{key}" must be hexadecimal, not {record.get(key)!r}') from None
+        raise ValueError(f'"{key}" must be hexadecimal, not {_brief(record.get(key))}') from None
 
 
 def _row(record: Mapping[str, Any]) -> Row:
     time = record.get("time")
-    if isinstance(time, bool) or not isinstance(time, int | float) or not math.isfinite(time) or time < 0:
-        raise ValueError(f'"time" must be 0 s or later, not {time!r}')
+    if isinstance(time, bool) or not isinstance(time, int | float) or not time >= 0:
+        raise ValueError(f'"time" must be 0 s or later, not {_brief(time)}')
+    if time > LONGEST:
+        raise ValueError(f'"time" must be {LONGEST} s at most; it counts from the beginning of the run')
     if record.get(UNPLUGGED) is True:
         return Row(time, gone=True)
     if record.get(PLUGGED) is True:
@@ -181,7 +193,8 @@ class RecordedDevices:
             if each.infos[0].path == path:
                 if not _is_plugged(each.rows, self._time()):
                     raise OSError("unplugged")
-                return RecordedDevice(each, self._now, self._begin, self._time())
+                time = self._time()
+                return RecordedDevice(each, self._now, self._begin, time if time > OPENING else -math.inf)
         if self._others is None:
             raise OSError("no such device")
         return self._others.open(path)
@@ -198,6 +211,8 @@ class RecordedDevice:
         self._next = bisect.bisect_left(recording.rows, time, key=lambda row: row.time)
         self._reports: dict[int, bytes] = {}  # the last one of each first byte
         self._last = b""
+        for row in recording.rows[: self._next]:
+            self._answer_with(row)
         self._waiting = threading.Event()
 
     @property
@@ -221,9 +236,15 @@ class RecordedDevice:
         if row.gone:
             raise OSError("unplugged")
         self._next += 1
+        self._answer_with(row)
+        return row.report
+
+    def _answer_with(self, row: Row) -> None:
+        """What the device reported is what it says when it is asked; one that was unplugged knows nothing any more."""
         if row.report:
             self._last = self._reports[row.report[0]] = row.report
-        return row.report
+        else:
+            self._reports, self._last = {}, b""
 
     def get_input_report(self, report_id: int, length: int) -> bytes:
         answer = self._reports.get(report_id) if report_id else self._last

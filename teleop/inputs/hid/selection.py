@@ -13,12 +13,17 @@ _OTHER_HANDS = frozenset({(0x01, 0x02), (0x01, 0x06), (0x01, 0x07)})  # mouse, k
 
 
 def together(infos: Sequence[DeviceInfo]) -> list[list[DeviceInfo]]:
-    """The devices, each with its other interfaces behind the one that comes first."""
+    """The devices, each with its other interfaces behind the one that comes first.
+
+    Two devices of a model have each of their numbers twice, so that with no serial number and no port to be seen two
+    numbers are two interfaces of one.
+    """
     groups: list[list[DeviceInfo]] = []
     for info in infos:
         for group in groups:
             first = group[0]
-            one_device = same_model(info, first) and (info.serial, info.port) == (first.serial, first.port) != ("", "")
+            placed = (info.serial, info.port) != ("", "") or min(info.interface, first.interface) >= 0
+            one_device = placed and same_model(info, first) and (info.serial, info.port) == (first.serial, first.port)
             if info.path in [each.path for each in group]:
                 break  # the system lists an interface once for each of its usages
             if one_device and info.interface not in [each.interface for each in group]:

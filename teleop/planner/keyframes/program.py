@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import sparse
 
 from teleop.core.axes import Limits
@@ -57,7 +58,7 @@ class Rows(NamedTuple):
     columns: Indices
     bounds: Array
 
-    def where(self, keep: Array) -> Rows:
+    def where(self, keep: NDArray[np.bool_]) -> Rows:
         """Only those rows, without those that have no unknown."""
         keep = keep & (self.columns >= 0).any(axis=1)
         return Rows(self.values[keep], self.columns[keep], self.bounds[keep])
@@ -139,7 +140,7 @@ class QuadraticProgram:
         blocks *= self.local[:, :, None] * self.local[:, None, :]
         forces = np.einsum("kij,kj->ki", blocks, self.given[self.index])
         free = self.columns >= 0
-        linear = np.bincount(self.columns[free], forces[free], minlength=self.unknowns)
+        linear = np.bincount(self.columns[free], forces[free], minlength=self.unknowns).astype(float)
         rows = np.broadcast_to(self.columns[:, :, None], blocks.shape)
         columns = np.broadcast_to(self.columns[:, None, :], blocks.shape)
         kept = (rows >= 0) & (columns >= rows)

@@ -14,7 +14,12 @@ def test_they_go_with_a_timelapse(options):
 
 
 @pytest.mark.parametrize(
-    ("options", "name"), [(ShootOptions(resume=True), "--resume"), (ShootOptions(in_doubt="skip"), "--in-doubt")]
+    ("options", "name"),
+    [
+        (ShootOptions(resume=True), "--resume"),
+        (ShootOptions(in_doubt="skip"), "--in-doubt"),
+        (ShootOptions(by_hand=True), "--by-hand"),
+    ],
 )
 def test_they_go_with_nothing_else(options, name):
     with pytest.raises(DocumentError, match=f"{name}: a.yaml is not a timelapse"):
@@ -24,3 +29,5 @@ def test_they_go_with_nothing_else(options, name):
 def test_one_way_to_begin_at_a_time():
     with pytest.raises(DocumentError, match="--resume and --restart do not go together"):
         ShootOptions(resume=True, restart=True).check("a.yaml", timelapse=True)
+    with pytest.raises(DocumentError, match="--rehearse and --by-hand do not go together"):
+        ShootOptions(rehearse=True, by_hand=True).check("a.yaml", timelapse=True)

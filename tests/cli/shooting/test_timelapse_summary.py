@@ -23,3 +23,4 @@ def test_the_line_has_frames_interval_time_and_clip():
     assert line.startswith(f"{found['frames']} frames")
     assert "of shooting" in line
     assert f"{timelapse.clip:.2f} s of clip" in line
+    assert "each shot with Enter" in summary(timelapse, by_hand=True)

@@ -71,7 +71,7 @@ def test_a_file_full_of_mistakes_is_not_told_without_end(tmp_path: Path) -> None
     [
         ({"vendor": "46dx"}, "\"vendor\" must be four hexadecimal digits, not '46dx'"),
         ({"product": "1c216"}, "\"product\" must be four hexadecimal digits, not '1c216'"),
-        ({"usages": [[1, 4], [1]]}, '"usages" must be a list of [page, usage]'),
+        ({"usages": [[1, 4], [1]]}, '"usages" must be a list of [page, usage], of 256 at most'),
         ({"interface": "0"}, "\"interface\" must be a number, not '0'"),
     ],
 )
@@ -111,6 +111,54 @@ def test_it_answers_with_the_last_report_of_the_id_that_is_asked_for() -> None:
 def test_one_that_is_opened_in_the_middle_has_missed_what_came_before() -> None:
     device = opened(Time(BEGIN + 2), Row(1.0, b"\x01"), Row(3.0, b"\x02"))
     assert device.next_report == BEGIN + 3
+
+
+def test_when_asked_it_answers_with_what_it_reported_since_it_was_plugged_in() -> None:
+    rows = [Row(1.0, b"\x01"), Row(2.0, gone=True), Row(3.0), Row(3.1, b"\x02\x03")]
+    devices = RecordedDevices([Recording([PAD], b"\x05", rows)], (time := Time(3.05)), lambda: 0.0)
+    with pytest.raises(OSError, match="no answer"):
+        devices.open(PAD.path).get_input_report(0, 8)
+    time.now = 4.0
+    assert devices.open(PAD.path).get_input_report(0, 8) == b"\x02\x03"
+
+
+def test_a_device_that_is_there_from_the_beginning_is_opened_before_its_first_report() -> None:
+    devices = RecordedDevices([Recording([PAD], b"\x05", [Row(0.0, b"\x01")])], Time(BEGIN + 0.008), lambda: BEGIN)
+    assert devices.open(PAD.path).read(0) == b"\x01"
+
+
+@pytest.mark.parametrize(
+    ("time", "problem"),
+    [
+        ("9" * 400, '"time" must be 86400 s at most'),
+        ("1.7e9", '"time" must be 86400 s at most'),
+        ("1e999", '"time" must be 86400 s at most'),
+        ("NaN", '"time" must be 0 s or later, not nan'),
+    ],
+)
+def test_a_time_that_no_run_comes_to_is_refused(tmp_path: Path, time: str, problem: str) -> None:
+    file = written(tmp_path, HEAD)
+    file.write_text(f'{file.read_text()}{{"time": {time}, "report": "00"}}\n')
+    [line] = problems(file)
+    assert line.startswith(f":2: {problem}")
+
+
+def test_a_line_about_a_wrong_value_is_short(tmp_path: Path) -> None:
+    wrong = [{"time": "9" * 10_000, "report": "00"}, {"time": 0, "report": ["x"] * 10_000}]
+    assert all(len(line) < 150 for line in problems(written(tmp_path, HEAD, *wrong)))
+
+
+def test_what_a_device_says_of_itself_is_no_command_for_the_terminal(tmp_path: Path) -> None:
+    device = HEAD["device"] | {"name": "P\x1b[2Ja\nd\ud800", "serial": "1\r2"}
+    [info] = read_recording(written(tmp_path, HEAD | {"device": device})).infos
+    assert (info.name, info.serial) == ("P[2Jad", "12")
+
+
+def test_a_line_ends_only_at_its_end(tmp_path: Path) -> None:
+    file = tmp_path / "pad.jsonl"
+    text = json.dumps(HEAD | {"device": HEAD["device"] | {"name": "A\u2028B"}}, ensure_ascii=False)
+    file.write_text(text, encoding="utf-8")
+    assert read_recording(file).infos[0].name == "AB"
 
 
 @pytest.mark.parametrize(

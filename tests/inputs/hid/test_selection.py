@@ -15,8 +15,14 @@ MOUSE = PAD._replace(path=b"/dev/hidraw9", product_id=1, usage_page=0x01, usage=
 def test_the_interfaces_of_a_device_go_together_and_devices_of_one_model_do_not() -> None:
     other, second = PAD._replace(path=b"1", port="1-3"), PAD._replace(path=b"2", interface=1)
     assert together([PAD, other, second]) == [[PAD, second], [other]]
+
+
+def test_with_no_port_and_no_serial_number_two_interfaces_are_one_device_and_two_of_one_number_are_not() -> None:
     unplaced = [PAD._replace(path=b"%d" % index, port="", interface=index) for index in (0, 1)]
-    assert together(unplaced) == [[each] for each in unplaced], "nothing says that they are one"
+    assert together(unplaced) == [unplaced]
+    for number in (0, -1):
+        alike = [each._replace(interface=number) for each in unplaced]
+        assert together(alike) == [[each] for each in alike], "nothing says that they are one"
 
 
 def test_a_device_is_there_once_however_many_usages_its_interfaces_have() -> None:

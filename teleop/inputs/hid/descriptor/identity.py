@@ -22,7 +22,7 @@ NOT_STICKS: frozenset[Usage] = frozenset({(0x01, 0x01), (0x01, 0x02), (0x01, 0x0
 """Pointer, mouse, keyboard, keypad: a mapping for these is never guessed."""
 
 LONGEST_ARRAY = 1024  # usages of an array that get a name of their own
-MAX_NAMES = 131_072  # of a device; the fullest seen has some thousands
+MAX_NAMES = 131_072  # of a device, once for each array that has it; the fullest seen has some thousands
 
 
 def primary(collections: Sequence[Usage]) -> int | None:
@@ -44,9 +44,10 @@ def named(fields: Sequence[Field], collections: Sequence[Usage]) -> list[Field]:
         field = fields[index]
         if field.usage_page >= VENDOR_PAGES:
             continue
-        if len(naming.taken) >= MAX_NAMES:
+        if naming.given >= MAX_NAMES:
             kept = min(kept, index)
         elif field.usages is None:
+            naming.given += 1
             name = naming.unique(field.collection, (field.usage_page, field.usage))
             if name != field.name:
                 result[index] = replace(field, label=name)
@@ -58,6 +59,7 @@ def named(fields: Sequence[Field], collections: Sequence[Usage]) -> list[Field]:
 class _Naming:
     def __init__(self, collections: Sequence[Usage], first: int | None) -> None:
         self.taken: set[str] = set()
+        self.given = 0  # names, also those that arrays share
         self._prefixes: list[str] = []
         self._again: list[bool] = []  # whether it is one more of its kind
         self._next: Counter[str] = Counter()
@@ -88,6 +90,7 @@ class _Naming:
         names: dict[Usage, str] = {}
         usages = field.usages
         for usage in usages.of(min(len(usages), LONGEST_ARRAY)) if usages is not None else ():
+            self.given += 1
             key = (field.collection, field.report_id, *usage)
             name = self._arrays.get(key) or self._arrays.setdefault(key, self.unique(field.collection, usage))
             if name != usage_name(*usage):

@@ -9,6 +9,7 @@ from hid_bench import DESCRIPTORS, KNOWN, as_expected, label, values
 from hypothesis import given
 from hypothesis import strategies as st
 
+from teleop.inputs.hid.descriptor.identity import MAX_NAMES
 from teleop.inputs.hid.descriptor.parser import (
     MAX_FIELD,
     MAX_FIELDS,
@@ -196,6 +197,8 @@ def test_a_descriptor_full_of_the_worst_is_read_within_limits() -> None:
     assert max(parsed.lengths.values()) == MAX_REPORT + 1
     endless = parse_descriptor(bytes.fromhex("1901 2aff7f") * 10_000 + bytes.fromhex("7501 9508 8102"))
     assert len(endless.fields) == 8
+    arrays = parse_descriptor(bytes.fromhex("0507 150026ff03 7508 9501") + bytes.fromhex("19002aff03 8100") * 8_000)
+    assert sum(len(field.usages or ()) for field in arrays.fields) <= MAX_NAMES
     long = parse_descriptor(bytes.fromhex("a4") * 1_000_000)
     assert long.warnings[0] == "byte 65535: longer than a descriptor can be; the rest is not read"
 
