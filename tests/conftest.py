@@ -54,6 +54,12 @@ def _signals_as_on_a_terminal() -> None:
 _numbers = itertools.count()
 
 
+@pytest.fixture(autouse=True, scope="session")
+def _state_of_these_tests(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """For fixtures of a module, which are made before `_state_of_its_own`: nothing of the user's is read or written."""
+    os.environ["XDG_STATE_HOME"] = str(tmp_path_factory.getbasetemp() / "state")
+
+
 @pytest.fixture(autouse=True)
 def _state_of_its_own(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """No test learns from another one, or from runs of the user's, how an axis answers. The folder is not made."""

@@ -45,6 +45,7 @@ def shot(tmp_path_factory: pytest.TempPathFactory) -> Shot:
     (folder / "other.yaml").write_text(RIG.format(name="Another", velocity=120))
     with pytest.MonkeyPatch.context() as patch:
         printed: list[str] = []
+        patch.setenv("XDG_STATE_HOME", str(folder / "state"))
         patch.setattr("builtins.print", lambda *words, **_: printed.append(" ".join(map(str, words))))
         shot = Shot(folder, {})
         assert shot.play("--passes", "3", "--learn", "--take", str(folder / "a.mcap"), "--json") == 0

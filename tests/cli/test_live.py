@@ -56,7 +56,7 @@ def test_a_target_is_marked_by_looking_at_it(tmp_path: Path) -> None:
     with terminal("live", "--targets", str(tmp_path / "move.yaml"), folder=tmp_path) as term:
         term.wait_for("keys  ready")
         term.type("\x1b[1;2C")
-        wait_until(lambda: "+10.00" in term.shown, "pan at 10")
+        wait_until(lambda: AT_10.search(term.shown), "pan commanded and measured at 10")
         term.type("tdoor,4")
         term.wait_for("mark target: door,4_")
         term.type("\r")
