@@ -140,8 +140,8 @@ def test_a_way_that_the_hunt_found_hard_is_planned_or_refused_with_a_reason() ->
     assert refusal.findings if move is None else move.at(65.5)[PAN].position == pytest.approx(45.002)
 
 
-def test_what_the_solver_found_no_way_for_is_refused_with_the_time_it_needs_and_never_left_out() -> None:
-    """Found at random: it was once a move of 0 s, in which pan stayed where it was."""
+def test_an_axis_that_the_solver_finds_no_way_for_is_refused_and_never_left_out() -> None:
+    """Found at random: it was a move of 0 s, in which pan stayed where it was."""
     none = Ramp(0.0)
     keys = [
         Key(0, 70, where="key 1", leave=none),
@@ -150,5 +150,5 @@ def test_what_the_solver_found_no_way_for_is_refused_with_the_time_it_needs_and_
     ]
     tilt = [Key(0, 0), Key(4, 10)]
     wide = Limits(-180, 180, 120, 240, 1200)
-    with pytest.raises(Infeasible, match=r"pan needs 1\.[0-9]+ s from key 1 to key 2, not 1.000 s"):
+    with pytest.raises(Infeasible, match=r"^pan needs [\d.]+ s from key 1 to key 2, not 1.000 s"):
         plan({PAN: keys, Axis.TILT: tilt}, {PAN: wide, Axis.TILT: wide})
