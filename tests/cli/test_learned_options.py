@@ -73,7 +73,10 @@ def test_the_file_is_beside_the_take_and_says_what_it_is(shot: Shot):
     assert [each["pass"] for each in content["passes"]] == [1, 2, 3]
 
 
-def test_what_was_learned_makes_the_first_pass_as_good(shot: Shot, capsys: pytest.CaptureFixture[str]):
+def test_what_was_learned_makes_the_first_pass_as_good(
+    shot: Shot, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setenv("XDG_STATE_HOME", str(shot.folder / "state"))  # the next run of the same user
     assert shot.play("--learned", str(shot.learned), "--json") == 0
     first = json.loads(capsys.readouterr().out)["axes"]["pan"]["rms"]
     unlearned = shot.report["learning"]["passes"][0]["axes"]["pan"]["rms"]

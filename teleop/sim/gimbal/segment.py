@@ -120,7 +120,7 @@ class Segment(NamedTuple):
 
     def stopped(self, time: float, stop: float) -> Segment:
         """The same drive from `time` on, after the shaft has hit a stop."""
-        assert self.swing
+        assert self.swing is not None
         position, velocity = self.drive(time)
         swing = self.swing._replace(position=stop, velocity=0.0)
         play = self.play and self.play._replace(load=self.load(time))
@@ -147,13 +147,13 @@ class Segment(NamedTuple):
 
     def _poles(self) -> tuple[float, float]:
         """The decay rate and the angular frequency of the swing."""
-        assert self.swing
+        assert self.swing is not None
         frequency, damping = self.swing[:2]
         return frequency * damping, frequency * math.sqrt(1.0 - damping * damping)
 
     def _parts(self) -> tuple[float, float, float]:
         """How much of the excess is seen behind the swing; the swing's own cosine and sine."""
-        assert self.swing
+        assert self.swing is not None
         frequency, damping, position, velocity = self.swing
         pole = 1.0 / self.lag
         squared = frequency * frequency
