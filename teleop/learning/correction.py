@@ -58,7 +58,7 @@ class Correction:
             axis: added(track, self.offsets[axis]) if axis in self.offsets else track
             for axis, track in move.tracks.items()
         }
-        return Move(tracks, move.overshoots, move.long_ramps)
+        return Move(tracks, move.overshoots, move.long_ramps, move.standstills)
 
     def exceeds(self, move: Move, limits: Mapping[Axis, Limits]) -> list[Axis]:
         """The axes that it would take beyond their limits."""

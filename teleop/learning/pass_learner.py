@@ -127,7 +127,7 @@ class PassLearner:
             axis: added(track, self._learners[axis].offset) if axis in self._learners else self.move.tracks[axis]
             for axis, track in plan.tracks.items()
         }
-        return Move(tracks, plan.overshoots, plan.long_ramps), lines
+        return Move(tracks, plan.overshoots, plan.long_ramps, plan.standstills), lines
 
     def _learner(self, axis: Axis) -> AxisLearner:
         if axis not in self._learners:

@@ -17,7 +17,7 @@ from typing import Self
 import numpy as np
 
 from teleop.core.axes import Axis, State
-from teleop.planner.keyframes.findings import LongRamp, Overshoot
+from teleop.planner.keyframes.findings import LongRamp, Overshoot, Standstill
 from teleop.planner.polynomial import HERMITE, Array, extremes
 
 CHUNK = 1 << 15  # samples at a time: a megabyte an axis
@@ -142,6 +142,12 @@ class Move:
     tracks: Mapping[Axis, Track]
     overshoots: tuple[Overshoot, ...] = ()
     long_ramps: tuple[LongRamp, ...] = ()
+    standstills: tuple[Standstill, ...] = ()
+
+    @property
+    def remarks(self) -> tuple[Overshoot | LongRamp | Standstill, ...]:
+        """What is not as the keys ask, although it is no error."""
+        return (*self.overshoots, *self.long_ramps, *self.standstills)
 
     @cached_property
     def duration(self) -> float:

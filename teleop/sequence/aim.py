@@ -164,8 +164,11 @@ class Scene:
             for key in rows:
                 angles = self.angles(look, key.at, near)
                 near = angles[0]
-                for of_axis, angle in zip(keys.values(), angles, strict=True):
-                    of_axis.append(replace(key, position=angle))
+                follows = following is not None and not (following.last and key is rows[-1])
+                for (axis, of_axis), angle in zip(keys.items(), angles, strict=True):
+                    # where it follows, how far it is off is checked, by less than is usual of an overshoot
+                    overshoot = None if follows else self._model.overshoot_of(axis)
+                    of_axis.append(replace(key, position=angle, overshoot=overshoot))
         return {axis: of_axis for axis, of_axis in keys.items() if of_axis}
 
     def _looks(self) -> Iterator[tuple[Look, Look | None]]:

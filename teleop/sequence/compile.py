@@ -96,7 +96,7 @@ def load_sequence(
     frames = {axis: [each.moved(0, factor) for each in of_axis] for axis, of_axis in timeline.frames.items()}
     if problems := list(_off(frames, move, document)):
         raise UnplayableError(problems)
-    remarks = [each for each in (*move.overshoots, *move.long_ramps) if not _is_of_table(timeline.places[each.last])]
+    remarks = [each for each in move.remarks if not _is_of_table(timeline.places[each.last])]
     warnings = [*timeline.remarks, *(timeline.places[remark.last].line(str(remark)) for remark in remarks)]
     if factor > 1:
         warnings.append(document.problem(("fit",), f"stretched it {factor:.3f} x, to {move.duration:.2f} s"))

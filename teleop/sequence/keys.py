@@ -43,10 +43,16 @@ def keys_of(model: SequenceModel) -> Keys:
             position = getattr(frame, axis.value)
             if position is not None:
                 stop = frame.pass_ == "stop"
-                of_axis.append(Key(at, position, stop, hold, numbered("keyframes", index), *eases))
+                where, overshoot = numbered("keyframes", index), model.overshoot_of(axis)
+                of_axis.append(Key(at, position, stop, hold, where, *eases, overshoot=overshoot))
     for axis, of_aim in Scene(model).keys().items():
         keys[axis] = sorted([*keys[axis], *of_aim], key=lambda key: key.at)
     return keys
+
+
+def frame_of(key: Key) -> int:
+    """The number (from 0) of the keyframe that a file's own key comes from."""
+    return int(key.where.rpartition(" ")[2]) - 1
 
 
 def line_at(document: Document, where: str, text: str) -> str:

@@ -8,10 +8,11 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, ConfigDict, Field
 
 from teleop.config.documents.base_model import Finite, PositionsSection, Section
-from teleop.config.documents.json_types import Ease, Percentage, Time
+from teleop.config.documents.json_types import Ease, Overshoot, Percentage, TensionWritten, Time
 from teleop.config.frame_rates import exact_rate
 from teleop.core.axes import Axis
 from teleop.planner.keyframes.repeat import Repeat
+from teleop.planner.keyframes.tension import EVEN
 from teleop.sequence.aim_section import Aim, CameraMountSection, Mount, OffsetSection, Place
 from teleop.sequence.cues import CueSection
 from teleop.sequence.panorama import PanoramaSection
@@ -56,6 +57,8 @@ class Keyframe(PositionsSection):
     """Where the slider or dolly below the rig is: `[x, y, z]` in m. It moves evenly from key to key."""
     pass_: Literal["through", "stop"] = Field("through", alias="pass")
     """Pass through this key, or stop at it."""
+    through: Literal["shortest"] | None = None
+    """`shortest`: an axis without ends goes to this key the short way round."""
     ease: Ease = None
     """Ramps to a stop here and away from it: `2s`, `25%`, `soft`, `{arrive: 1s, leave: 3s}`."""
 
@@ -89,8 +92,12 @@ class SequenceModel(Section):
     """Title on screens."""
     fps: Annotated[float, Field(gt=0, le=1000), AfterValidator(exact_rate)] | None = None
     """Frames per second of frames and timecode; 23.976, 29.97 and 59.94 are exactly n/1001."""
-    tension: Annotated[float, Field(ge=0, le=1)] = 0.0
-    """0 is smoothest, 1 closest to constant speed between keys."""
+    tension: TensionWritten = EVEN
+    """0 is smoothest, 1 closest to constant speed; `even` is smooth, and even between keys that are passed through."""
+    overshoot: Overshoot = None
+    """How far an axis may pass two keys between them where its limits force it to, in its units: `2`, `{pan: 2}`."""
+    through: Literal["shortest"] | None = None
+    """`shortest`: axes without ends go the short way round to every key."""
     ease: Ease = None
     """Ramps at every stop that has none of its own."""
     fit: Literal["stretch"] | None = None
@@ -117,6 +124,14 @@ class SequenceModel(Section):
     """Other sequences within this one."""
     cues: list[CueSection] = Field(default_factory=list)
     """What happens once at a time, beside the motion."""
+
+    def overshoot_of(self, axis: Axis) -> float | None:
+        """What the file tolerates of an axis, in its units; None for what is usual."""
+        return self.overshoot.get(axis.value) if isinstance(self.overshoot, dict) else self.overshoot
+
+    def goes_shortest(self, frame: int) -> bool:
+        """Whether axes without ends go the short way to a keyframe, by its number from 0."""
+        return "shortest" in (self.through, self.keyframes[frame].through)
 
     def called(self, file: str) -> str:
         """The title in one line, else the file's name without its ending."""

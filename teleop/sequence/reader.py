@@ -77,7 +77,7 @@ class SequenceReader:
         included = [self._include(document, index, entry, (*chain, path.resolve())) for index, entry in entries]
         if timeline is None or len(self.problems) > before:
             return None
-        blocks = timeline.own_blocks()
+        blocks = timeline.own_blocks(self.limits)
         for index, inner in enumerate(included):
             if inner is not None:
                 self._insert(timeline, index, inner, blocks)

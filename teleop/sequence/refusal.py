@@ -8,13 +8,13 @@ from collections.abc import Callable, Mapping, Sequence
 from teleop.config.documents.document import ENTRIES, UnplayableError, mapping
 from teleop.config.quantities import frame_rate, seconds
 from teleop.core.timing import SAME_TIME
-from teleop.planner.keyframes.findings import Finding, Infeasible, RampsTooLong, Unsolved
+from teleop.planner.keyframes.findings import Finding, Infeasible, Overshooting, RampsTooLong, Unsolved
 from teleop.sequence.panorama import WHERE, still_seconds
 from teleop.sequence.timeline import Origin
 
 IN_FULL = 20  # lines of a refusal: whoever has more of them slows the whole move
 
-Found = Finding | RampsTooLong | Unsolved
+Found = Finding | RampsTooLong | Unsolved | Overshooting
 
 
 def refusal(error: Infeasible, places: Mapping[str, Origin], text: Callable[[Found], str] = str) -> UnplayableError:

@@ -16,6 +16,7 @@ from teleop.sequence.aim_section import aim_rules
 from teleop.sequence.cues import cue_rules
 from teleop.sequence.easing import ease_rules
 from teleop.sequence.panorama import panorama_limits, panorama_rules
+from teleop.sequence.smoothness import smoothness_rules
 from teleop.sequence.tables.section import source_limits, source_rules
 from teleop.sequence.timelapse_section import is_timelapse, timelapse_rules
 
@@ -42,6 +43,7 @@ def file_rules(data: Any) -> Iterator[Wrong]:
     yield from _keyframe_rules(data, when)
     yield from _stick_rules(data)
     yield from aim_rules(data)
+    yield from smoothness_rules(data)
     if isinstance(data, dict) and not data.keys() & {"keyframes", "include", "panorama", "source"}:
         yield ("keyframes",), "is missing"
     if is_timelapse(data):
@@ -162,6 +164,12 @@ def rig_rules(
     if devices is not None and "camera" not in devices and mapping(data, "panorama"):
         yield ("panorama",), f": {rig} has no camera; its sinks are {', '.join(devices)}"
     for index, frame in enumerate(sequence(data, "keyframes")):
+        named = [axis for axis in AXES if mapping(frame).get(axis) is not None and axis in by_name]
+        if mapping(frame).get("through") == "shortest" and named and not any(by_name[a].continuous for a in named):
+            yield (
+                ("keyframes", index, "through"),
+                f": on {rig} {' and '.join(named)} cannot turn round: it has a min",
+            )
         for axis in AXES:
             position = number(mapping(frame).get(axis))
             if axis in ("pan", "tilt") and axis not in by_name and mapping(frame).get("aim") is not None:

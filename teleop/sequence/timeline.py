@@ -19,6 +19,7 @@ from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.keyframes.keys import Key
 from teleop.planner.keyframes.repeat import repeated
+from teleop.planner.keyframes.tension import Tension
 from teleop.planner.trajectory import Move
 from teleop.sequence.aim import MOST_MISSED, ON_THE_WAY, Scene, Tracked
 from teleop.sequence.cues import Cue, moved_rules
@@ -28,6 +29,7 @@ from teleop.sequence.panorama import WHERE, shots
 from teleop.sequence.tables.section import RUN_OUT, RUN_UP
 from teleop.sequence.tables.section import WHERE as SOURCE
 from teleop.sequence.tables.timed_frames import TimedFrames
+from teleop.sequence.turns import long_ways, unwrapped
 
 if TYPE_CHECKING:
     from teleop.sequence.tables.fitted_table import FittedTable
@@ -131,11 +133,12 @@ class Timeline:
                 timeline.cues.append(Timed(Cue(at, Action.SHUTTER), False, place))
         return timeline
 
-    def own_blocks(self) -> dict[Axis, list[Block]]:
-        """The keyframes, each for itself, and a panorama as a whole."""
+    def own_blocks(self, limits: Mapping[Axis, Limits]) -> dict[Axis, list[Block]]:
+        """The keyframes, each for itself, and a panorama as a whole. Adds a remark for each long way round."""
+        keys = unwrapped(self.own, self.model, limits)
+        self.remarks += [self.document.line(("keyframes", frame), text) for frame, text in long_ways(keys, limits)]
         blocks = {
-            axis: [Block([key], key.where, self.places[key.where]) for key in of_axis]
-            for axis, of_axis in self.own.items()
+            axis: [Block([key], key.where, self.places[key.where]) for key in of_axis] for axis, of_axis in keys.items()
         }
         if self.model.panorama:
             for axis, of_axis in shots(self.model.panorama, self.model.fps).keys.items():
@@ -177,7 +180,7 @@ class Timeline:
         self.frames = {axis: [each.moved(by) for each in of_axis] for axis, of_axis in self.frames.items()}
 
 
-def _inserted(key: Key, at: float, rate: float, name: str, tension: float | None, stop: bool) -> Key:
+def _inserted(key: Key, at: float, rate: float, name: str, tension: Tension | None, stop: bool) -> Key:
     later = key.later(1 / rate)
     own = key.tension if key.tension is not None else tension
     return replace(later, at=at + later.at, stop=stop or key.stop, where=f"{name}, {key.where}", tension=own)
@@ -217,7 +220,8 @@ def expand(timeline: Timeline, limits: Mapping[Axis, Limits]) -> Iterator[str]:
             return
     if model.repeat:
         try:
-            timeline.keys = repeated(timeline.keys, times, model.repeat.mode)
+            endless = [axis for axis in timeline.keys if limits[axis].continuous]
+            timeline.keys = repeated(timeline.keys, times, model.repeat.mode, endless)
         except PlanError as error:
             yield document.problem(("repeat",), str(error))
     centers = [(index, cue) for index, cue in enumerate(model.cues) if cue.recenter is not None]

@@ -34,6 +34,7 @@ from teleop.sequence.refusal import refusal
 from teleop.sequence.rules import file_rules, rig_rules
 from teleop.sequence.timelapse_section import TimelapseSection, is_timelapse
 from teleop.sequence.timeline import Origin, aims_of
+from teleop.sequence.turns import long_ways, unwrapped
 from teleop.timelapse.blur_rules import blur_problem
 from teleop.timelapse.budget import Phases, budget
 from teleop.timelapse.schedule import Schedule
@@ -154,7 +155,7 @@ def _compiled(
     phases = Phases.of(section, model.fps)
     in_frames = model.model_copy(update={"fps": 1.0})  # a frame for a second
     try:
-        keys, aims = keys_of(in_frames), aims_of(document, in_frames)
+        keys, aims = unwrapped(keys_of(in_frames), model, limits), aims_of(document, in_frames)
     except UnaimedError as error:
         raise DocumentError([document.problem(error.place, f": {error}")]) from None
     step = slots.at(slots.frames - 1) / (slots.frames - 1) if slots.frames > 1 else slots.first
@@ -172,7 +173,8 @@ def _compiled(
     problems, warnings = ([], []) if by_hand else budget(phases, slots, path, limits, continuous, runs)
     if problems:
         raise UnplayableError([document.problem(("timelapse", "interval"), text) for text in problems])
-    remarks = [line_at(document, remark.last, str(remark)) for remark in [*move.overshoots, *move.long_ramps]]
+    remarks = [line_at(document, remark.last, str(remark)) for remark in move.remarks]
+    remarks += [document.line(("keyframes", frame), text) for frame, text in long_ways(keys, limits)]
     remarks += [document.problem(("timelapse", "interval"), text) for text in warnings]
     return Timelapse(
         model.called(document.name),

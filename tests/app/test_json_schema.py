@@ -205,7 +205,7 @@ def test_whatever_stands_at_a_key_is_read_or_refused_and_no_editor_is_stricter(s
         accepted += 1
         assert not list(validator.iter_errors(data)), data
         if sheet.timelapse is None:
-            Timeline.of(document, sheet).own_blocks()  # reads every value again, and raises nothing
+            Timeline.of(document, sheet).own_blocks({})  # reads every value again, and raises nothing
     assert accepted > 2
 
 

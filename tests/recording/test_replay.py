@@ -51,8 +51,8 @@ def test_what_was_commanded_is_in_the_file_for_any_reader_of_mcap(take: Path) ->
     assert ends["pan"]["position"] == pytest.approx(40)
     assert len(messages) > 400
     moving = [state["pan"] for _, state in messages if abs(state["pan"]["velocity"]) > 1]
-    fastest = max(abs(state["velocity"]) for state in moving)
-    assert fastest == pytest.approx(move.peaks()[Axis.PAN].velocity, rel=0.5)
+    peak = move.peaks()[Axis.PAN].velocity
+    assert any(abs(state["velocity"]) == pytest.approx(peak, rel=0.01) for state in moving)
     assert begin > 0
 
 

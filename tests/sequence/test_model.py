@@ -12,7 +12,7 @@ KEYS = [{"at": 0, "pan": 0}]
 
 def test_a_file_needs_nothing_but_keyframes() -> None:
     model = SequenceModel.model_validate({"keyframes": KEYS})
-    assert (model.preroll, model.tension, model.back_to_one, model.cues) == (PREROLL, 0.0, False, [])
+    assert (model.preroll, model.tension, model.back_to_one, model.cues) == (PREROLL, "even", False, [])
     assert model.keyframes[0].pass_ == "through"
 
 
@@ -32,7 +32,6 @@ def test_a_rounded_broadcast_rate_is_the_exact_one(fps: float, exact: float) -> 
     "wrong",
     [
         {"keyframes": []},
-        {"keyframes": KEYS, "tension": 1.5},
         {"keyframes": KEYS, "fps": 0},
         {"keyframes": KEYS, "title": "x" * 201},
         {"keyframes": KEYS, "fit": "squeeze"},

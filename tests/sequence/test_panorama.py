@@ -83,7 +83,7 @@ def test_what_the_rig_cannot_reach_is_said_in_its_words(tmp_path: Path) -> None:
         "shoot.yaml:5:9: panorama.tilt aims from -71 to -29, and the rig has -56..146"
     ]
     found = problems_of(tmp_path, TEXT.replace("3s", "1.1s"), UnplayableError)
-    assert found[0].startswith("shoot.yaml:2:3: pan needs 0.978 s from shot 1 to shot 2, not 0.100 s ")
+    assert found[0].startswith("shoot.yaml:6:10: panorama.every must be at least 1.98")
     [found] = problems_of(tmp_path, TEXT, UnplayableError, devices=["gimbal"])
     assert found == "shoot.yaml:2:3: panorama: the rig has no camera; its sinks are gimbal"
 

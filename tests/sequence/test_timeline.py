@@ -24,7 +24,7 @@ def timeline(tmp_path: Path) -> Timeline:
     (tmp_path / "shoot.yaml").write_text(TEXT)
     document = read_document(tmp_path / "shoot.yaml", "shoot.yaml")
     timeline = Timeline.of(document, SequenceModel.model_validate(document.data))
-    timeline.keys, _ = joined(timeline.own_blocks())
+    timeline.keys, _ = joined(timeline.own_blocks(LIMITS))
     return timeline
 
 

@@ -135,20 +135,20 @@ def test_an_interval_that_cannot_hold_a_frame_says_which_and_what_would_do(tmp_p
         load(tmp_path, interval="0.9s")
     [said] = problems(tmp_path, interval="0.9s")
     assert said == (
-        "dusk.yaml:10:13: timelapse.interval must be at least 1.09 s, not 0.9 s: "
-        "frame 206 of 720 takes exposure 0.5 s + move 0.283 s + settle 0.3 s"
+        "dusk.yaml:10:13: timelapse.interval must be at least 1.07 s, not 0.9 s: "
+        "frame 80 of 720 takes exposure 0.5 s + move 0.262 s + settle 0.3 s"
     )
-    [tight] = load(tmp_path, interval="1.09s").warnings
-    assert "is tight: frame 206 of 720 takes" in tight
+    [tight] = load(tmp_path, interval="1.07s").warnings
+    assert "is tight: frame 80 of 720 takes" in tight
     assert load(tmp_path, interval="5s").warnings == []
     [ramped] = problems(tmp_path, interval="{from: 0.5s, to: 2s}")
-    assert "timelapse.interval is 0.57 s and must be at least 0.95 s: frame 35 of 720" in ramped
-    assert "(273 frames are too short)" in ramped
+    assert "timelapse.interval is 0.58 s and must be at least 1.03 s: frame 40 of 720" in ramped
+    assert "(250 frames are too short)" in ramped
 
 
 def test_settling_counts_with_the_longest_it_may_take(tmp_path: Path) -> None:
     [said] = problems(tmp_path, interval="2s", settle="{below: 0.05, at_most: 2s}")
-    assert "must be at least 2.79 s" in said
+    assert "must be at least 2.77 s" in said
     assert "settle 2 s" in said
 
 

@@ -14,6 +14,7 @@ from pydantic import WithJsonSchema
 from teleop.config.quantities import FRAMES_WRITTEN, LONGEST, PERCENTAGE_WRITTEN, TIME_WRITTEN
 from teleop.core.axes import Axis
 from teleop.planner.keyframes.ramp import LONGEST_SHARE, NAMES, SMOOTH
+from teleop.planner.keyframes.tension import EVEN
 
 MOST_OVERLAP = 0.9
 
@@ -71,6 +72,11 @@ Ease = Annotated[
         {"anyOf": [*_RAMP["anyOf"], _mapping([], arrive=_ARRIVE, leave=_LEAVE)], "examples": ["1.5s", "25%"]}
     ),
 ]
+_SHARE = {"type": "number", "minimum": 0, "maximum": 1}
+_DISTANCE = {"type": "number", "minimum": 0}
+_BY_AXIS = _mapping([], **{axis.value: _described(_DISTANCE, f"Of {axis.value}.") for axis in Axis})
+TensionWritten = Annotated[Any, WithJsonSchema({"anyOf": [_SHARE, {"const": EVEN}], "examples": [0.5, EVEN]})]
+Overshoot = Annotated[Any, WithJsonSchema({"anyOf": [_DISTANCE, _BY_AXIS], "examples": [2]})]
 Interval = Annotated[
     Any,
     WithJsonSchema({"anyOf": [*_SPAN["anyOf"], _mapping(["from", "to"], **{"from": _FROM, "to": _TO})]}),

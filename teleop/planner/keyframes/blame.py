@@ -11,7 +11,7 @@ from teleop.planner.keyframes.bounds import factors_needed, least_time
 from teleop.planner.keyframes.findings import AT_LIMIT, Finding, Unsolved
 from teleop.planner.keyframes.keys import Waypoint
 from teleop.planner.keyframes.legs import segment_of
-from teleop.planner.keyframes.qp import TOLERANCE
+from teleop.planner.keyframes.program import TOLERANCE
 from teleop.planner.polynomial import Array
 
 LIMITS = ("velocity", "acceleration", "jerk")

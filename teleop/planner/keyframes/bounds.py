@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from teleop.core.axes import Limits
-from teleop.planner.keyframes.qp import HEADROOM, TOLERANCE
+from teleop.planner.keyframes.program import HEADROOM, TOLERANCE
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import Array
 

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from teleop.core.axes import Axis
-from teleop.planner.keyframes.findings import LongRamp, Overshoot
+from teleop.planner.keyframes.evenness import stills
+from teleop.planner.keyframes.findings import LongRamp, Overshoot, Standstill
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import Array, extremes
 
@@ -30,10 +31,23 @@ def overshoots(
     return [Overshoot(axis, names[i], names[i + 1], float(sizes[i])) for i in np.flatnonzero(sizes > VISIBLE).tolist()]
 
 
-def long_ramps(axis: Axis, segment: Segment, names: Sequence[str], asked: tuple[float, float]) -> list[LongRamp]:
-    """The ramps that the limits make longer than the seconds `asked` for at its start and end."""
-    return [
-        LongRamp(axis, where, wanted, taken)
-        for where, wanted, taken in zip((names[0], names[-1]), asked, segment.ramps or asked, strict=True)
-        if 0 < wanted * LATE < taken
-    ]
+def long_ramps(axis: Axis, segment: Segment, names: Sequence[str], asked: Array) -> list[LongRamp]:
+    """The ramps that the limits make longer than the seconds `asked` for (n + 1, 2), the longest one at each key."""
+    found: dict[str, LongRamp] = {}
+    ramps = asked if segment.ramps is None else segment.ramps
+    for key, side in np.argwhere((asked > 0) & (asked * LATE < ramps)).tolist():
+        ramp = LongRamp(axis, names[key], float(asked[key, side]), float(ramps[key, side]))
+        known = found.get(ramp.last)
+        found[ramp.last] = ramp if known is None or known.taken < ramp.taken else known
+    return list(found.values())
+
+
+def standstills(
+    axis: Axis, segment: Segment, names: Sequence[str], widths: Array, coefficients: Array
+) -> list[Standstill]:
+    """The intervals that are almost at rest for long, once each where a repeat goes through them several times."""
+    seconds = stills(segment, widths, coefficients)
+    found: dict[frozenset[str], Standstill] = {}
+    for i in np.flatnonzero(seconds).tolist():
+        found.setdefault(frozenset(names[i : i + 2]), Standstill(axis, names[i], names[i + 1], float(seconds[i])))
+    return list(found.values())

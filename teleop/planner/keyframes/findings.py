@@ -5,12 +5,14 @@ Their texts are made here. What finds them is in `infeasibility` and `diagnostic
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from teleop.core.axes import Axis
 from teleop.core.errors import TeleopError
 
+ROOM = 1.05  # times an overshoot: what to tolerate is said with two digits
 AT_LIMIT = 1.005  # a factor below this rounds to 1.00: to name the limit would explain nothing
 
 
@@ -98,10 +100,41 @@ class Unsolved:
         return f"{self.axis}: no plan found from {self.first} to {self.last}; use a longer `ease`, or more time"
 
 
+@dataclass(frozen=True, slots=True)
+class Overshooting:
+    """Between two keys the axis would pass them by `size` units, more than tolerated, to keep its limits.
+
+    Where that is known, `way` is the two keys between which more time avoids it: `seconds` it has, `shortest` it needs.
+    """
+
+    axis: Axis
+    first: str
+    last: str
+    size: float
+    way: tuple[str, str] | None = None
+    seconds: float = 0.0
+    shortest: float = 0.0
+
+    def __str__(self) -> str:
+        size = _amount(self.axis, self.size)
+        overshoot = f"overshoot by {size} between {self.first} and {self.last}"
+        more = f"`overshoot: {_rounded_up(self.size):g}`"
+        if self.way is None:
+            return f"{self.axis} would {overshoot}, to keep its limits; allow more time, or {more}"
+        needs = f"{self.axis} needs {self.shortest:.3f} s from {self.way[0]} to {self.way[1]}, not {self.seconds:.3f} s"
+        return f"{needs} (it would {overshoot}); or `fit: stretch`, or {more}"
+
+
+def _rounded_up(size: float) -> float:
+    """With two digits, and some room for the planner."""
+    digit = 10.0 ** (math.floor(math.log10(size)) - 1)
+    return math.ceil(size * ROOM / digit) * digit
+
+
 class Infeasible(PlanError):  # noqa: N818  the field's word for it
     """The keys ask for more than the limits allow; `findings` holds everything that does, of all axes."""
 
-    def __init__(self, findings: Sequence[Finding | RampsTooLong | Unsolved]) -> None:
+    def __init__(self, findings: Sequence[Finding | RampsTooLong | Unsolved | Overshooting]) -> None:
         super().__init__("; ".join(map(str, findings)))
         self.findings = tuple(findings)
 
@@ -131,3 +164,17 @@ class LongRamp:
 
     def __str__(self) -> str:
         return f"{self.axis} needs a ramp of {self.taken:.2f} s at {self.last}, not {self.asked:.2f} s"
+
+
+@dataclass(frozen=True, slots=True)
+class Standstill:
+    """A warning: the axis all but rests for `seconds` between two keys, although neither is a stop."""
+
+    axis: Axis
+    first: str
+    last: str
+    seconds: float
+
+    def __str__(self) -> str:
+        where = f"between {self.first} and {self.last}"
+        return f"{self.axis} almost stops for {self.seconds:.1f} s {where}, to be fast enough beside it"

@@ -19,6 +19,7 @@ import numpy as np
 
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.planner import Key, attempt
+from teleop.planner.keyframes.tension import Tension
 from teleop.planner.polynomial import Array
 
 MARGIN = 0.98  # of what is allowed: what a segment is off by itself and as a part of the whole may differ a little
@@ -33,16 +34,17 @@ Keys = Mapping[int, float]  # place of the grid -> units
 class Style:
     """How one axis is fitted: off by `allowed` units at most, keys with so many digits behind the point.
 
-    There are `rate` places in a second, and at least `nearest` between two keys.
+    There are `rate` places in a second, and at least `nearest` between two keys. `overshoot` is as that of a Key.
     """
 
     axis: Axis
     limits: Limits
     allowed: float
     digits: int
-    tension: float
+    tension: Tension
     rate: float
     nearest: int
+    overshoot: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +69,8 @@ class SampledSegment:
         planned = attempt(
             {
                 self.style.axis: [
-                    Key((place - self.begin) / self.style.rate, position) for place, position in sorted(keys.items())
+                    Key((place - self.begin) / self.style.rate, position, overshoot=self.style.overshoot)
+                    for place, position in sorted(keys.items())
                 ]
             },
             {self.style.axis: self.style.limits},

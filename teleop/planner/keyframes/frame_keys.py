@@ -19,7 +19,7 @@ import numpy as np
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.fit import SampledSegment, Style, turning_points, worst_places
 from teleop.planner.keyframes.minimum_jerk import minimum_jerk
-from teleop.planner.keyframes.qp import HEADROOM
+from teleop.planner.keyframes.program import HEADROOM
 from teleop.planner.keyframes.smoothing import smoothest
 from teleop.planner.polynomial import Array
 
@@ -115,7 +115,7 @@ class Frames:
         """The keys on `smooth`; None where the planner cannot follow them."""
         targets = self._targets(runs)
         allowances = np.where(np.isnan(targets), np.inf, self.tolerance - np.abs(smooth - np.nan_to_num(targets)))
-        style = Style(self.axis, self.limits, self.tolerance, DIGITS, 0.0, 1 / step, 1)
+        style = Style(self.axis, self.limits, self.tolerance, DIGITS, 0.0, 1 / step, 1, np.inf)
         segment = SampledSegment(-runs.up, smooth, style, allowances)
         if np.ptp(smooth) <= TURN * self.tolerance:
             return {-runs.up: segment.position(-runs.up)}

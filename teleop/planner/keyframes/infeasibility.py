@@ -15,12 +15,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import pairwise
 
 from teleop.core.axes import Axis, Limits
 from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.blame import timed, untimed
 from teleop.planner.keyframes.budget import Budget
-from teleop.planner.keyframes.findings import Finding, RampsTooLong, Unsolved
+from teleop.planner.keyframes.findings import Finding, Overshooting, RampsTooLong, Unsolved
 from teleop.planner.keyframes.keys import Key, ramps_asked, ramps_fit
 from teleop.planner.keyframes.leg_times import LegTimes, Possible
 from teleop.planner.keyframes.legs import Points, durations, last_alike, legs, shortened
@@ -100,7 +102,7 @@ class _Search:
         shortest = together(leave, arrive) if leave and arrive else None
         shortest = shortest and math.ceil(shortest * 1000 - SAME_TIME) / 1000
         names = points[0].where, points[-1].where
-        self.ramps[way] = RampsTooLong(way.axis, *names, *asked, duration, shortest)
+        self.ramps[way] = RampsTooLong(way.axis, *names, float(asked[0, 1]), float(asked[-1, 0]), duration, shortest)
         if shortest is not None:
             self.needs[way] = max(shortest, self.needs.get(way, 0.0))
         return False
@@ -174,6 +176,28 @@ class _Search:
             seconds = self.needs.get(way, 0.0)
             if seconds > (ramps.shortest or 0.0 if ramps is not None and len(between) == 1 else 0.0) + LONGER:
                 yield interval, timed(axis, points, self.limits[axis], interval, seconds)
+
+
+def with_overshoots(
+    found: Sequence[Found], overshot: Sequence[tuple[Points, Overshooting]]
+) -> list[Found | Overshooting]:
+    """The findings, those of legs that only overshoot too far with that as their reason."""
+    result: list[Found | Overshooting] = []
+    for each in found:
+        for points, overshoot in overshot:
+            between = [{first.where, last.where} for first, last in pairwise(points)]
+            if each.axis is not overshoot.axis or isinstance(each, RampsTooLong):
+                continue
+            if isinstance(each, Unsolved) and each.first == points[0].where:
+                each = overshoot
+            elif isinstance(each, Finding) and {each.first, each.last} in between and each.seconds is not None:
+                way = (each.first, each.last) if each.shortest is not None else None
+                each = replace(overshoot, way=way, seconds=each.seconds, shortest=each.shortest or 0.0)
+            else:
+                continue
+            break
+        result.append(each)
+    return result
 
 
 def _remembered(possible: Possible) -> Possible:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,8 @@ from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.keyframes.ramp import Ramp, quickest
 from teleop.planner.keyframes.segment import Segment
+from teleop.planner.keyframes.tension import Tension
+from teleop.planner.polynomial import Array
 
 SETTLED = 8  # rounds of a ramp and the speed it leads to, until neither changes any more
 
@@ -23,7 +26,9 @@ class Key:
 
     `arrive` and `leave` are the ramps to rest there and away from it; where neither end of a way between rests has
     one, all of that way is used to be as smooth as can be, and where one end has one, so has the other. `tension` is
-    that of the way from this key to the next rest, where it differs from the plan's.
+    that of the way from this key to the next rest, where it differs from the plan's. The way to the next key may leave
+    the range of the two by `overshoot` units, None for what is usual, inf for any distance (on all of
+    a way from rest to rest: its keys are samples of a curve).
     """
 
     at: float
@@ -33,7 +38,8 @@ class Key:
     where: str = ""
     arrive: Ramp | None = None
     leave: Ramp | None = None
-    tension: float | None = None
+    tension: Tension | None = None
+    overshoot: float | None = None
 
     def later(self, factor: float) -> Key:
         """With all its times multiplied."""
@@ -50,7 +56,12 @@ class Waypoint(NamedTuple):
     where: str
     arrive: Ramp | None = None
     leave: Ramp | None = None
-    tension: float | None = None
+    tension: Tension | None = None
+    overshoot: float | None = None
+
+
+def _waypoint(key: Key, time: float, rest: bool) -> Waypoint:
+    return Waypoint(time, key.position, rest, key.where, key.arrive, key.leave, key.tension, key.overshoot)
 
 
 def waypoints(axis: Axis, keys: Sequence[Key]) -> list[Waypoint]:
@@ -67,42 +78,60 @@ def waypoints(axis: Axis, keys: Sequence[Key]) -> list[Waypoint]:
                 raise PlanError(
                     f"{axis}: {key.where} (at {key.at:.6g} s) is not after {last.where} (until {last.time:.6g} s)"
                 )
-            points[-1] = last._replace(rest=True, leave=key.leave, tension=key.tension)
+            points[-1] = last._replace(rest=True, leave=key.leave, tension=key.tension, overshoot=key.overshoot)
         else:
-            points.append(Waypoint(key.at, key.position, rest, key.where, key.arrive, key.leave, key.tension))
+            points.append(_waypoint(key, key.at, rest))
         if key.hold > 0:
             points[-1] = points[-1]._replace(leave=None)
-            points.append(Waypoint(key.at + key.hold, key.position, True, key.where, None, key.leave, key.tension))
+            points.append(_waypoint(key, key.at + key.hold, True)._replace(arrive=None))
     return points
 
 
-def ramps_asked(points: Sequence[Waypoint]) -> tuple[float, float] | None:
-    """The seconds asked for from one rest to the next: each end's own, or the other end's, None without any."""
+def ramps_asked(points: Sequence[Waypoint]) -> Array | None:
+    """The seconds (n + 1, 2) asked for to slow down to each point and to get up to speed from it, None without any.
+
+    Each end of a segment has its own, or that of the other end. So has a turn, where the direction changes: its own,
+    or the ends'. Ramps that meet at a turn are shortened to the time that there is; shares are of the way from one rest
+    or turn to the next.
+    """
     leave, arrive = points[0].leave or points[-1].arrive, points[-1].arrive or points[0].leave
     if leave is None or arrive is None or all(point.position == points[0].position for point in points):
         return None
-    duration = points[-1].time - points[0].time
-    return leave.over(duration), arrive.over(duration)
+    asked = np.zeros((len(points), 2))
+    for first, last in ways(np.array([point.position for point in points])):
+        duration = points[last].time - points[first].time
+        both = (points[first].leave or leave).over(duration), (points[last].arrive or arrive).over(duration)
+        fit = 1.0 if (first, last) == (0, len(points) - 1) else min(1.0, duration / max(sum(both), duration))
+        asked[first, 1], asked[last, 0] = both[0] * fit, both[1] * fit
+    return asked
 
 
 def ramps_fit(points: Sequence[Waypoint]) -> bool:
     """Whether there is time for both ramps from one rest to the next."""
     asked = ramps_asked(points)
-    return asked is None or sum(asked) <= points[-1].time - points[0].time + SAME_TIME
+    return asked is None or asked[0, 1] + asked[-1, 0] <= points[-1].time - points[0].time + SAME_TIME
 
 
-def segment_between(points: Sequence[Waypoint], asked: tuple[float, float] | None, limits: Limits) -> Segment:
+def ways(positions: Array) -> list[tuple[int, int]]:
+    """First and last key of each way in one direction, without those that stand still."""
+    direction = np.sign(np.diff(positions))
+    turns = [0, *(np.flatnonzero(np.diff(direction)) + 1).tolist(), len(direction)]
+    return [(first, last) for first, last in pairwise(turns) if direction[first] != 0]
+
+
+def segment_between(points: Sequence[Waypoint], asked: Array | None, limits: Limits) -> Segment:
     """From one rest to the next, with ramps that the limits allow for about the speed that its intervals need."""
     segment = Segment(
         np.array([point.time for point in points], float), np.array([point.position for point in points], float)
     )
     if asked is None:
         return segment
-    ramps = list(asked)
-    for end in (0, -1):
-        step, duration = abs(float(segment.steps[end])), float(segment.durations[end])
-        at_both = 2 if len(segment.steps) == 1 else 1
-        for _ in range(SETTLED):
-            speed = step / max(duration - at_both * ramps[end] / 2, duration / 2)
-            ramps[end] = max(asked[end], quickest(speed, limits))
-    return replace(segment, ramps=tuple(ramps))
+    ramps = asked.copy()
+    for first, last in ways(segment.positions):
+        for interval, key, side in ((first, first, 1), (last - 1, last, 0)):
+            step, duration = abs(float(segment.steps[interval])), float(segment.durations[interval])
+            at_both = 2 if last == first + 1 else 1
+            for _ in range(SETTLED):
+                speed = step / max(duration - at_both * ramps[key, side] / 2, duration / 2)
+                ramps[key, side] = max(asked[key, side], quickest(speed, limits))
+    return replace(segment, ramps=ramps)

@@ -15,14 +15,15 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from teleop.core.axes import Limits
-from teleop.planner.keyframes.qp import HEADROOM, SMALLEST
+from teleop.planner.keyframes.mesh import mesh
+from teleop.planner.keyframes.program import FINE, HEADROOM, SMALLEST
 from teleop.planner.keyframes.qp_solver import Sparse, minimize
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import BERNSTEIN, Array
 
 Indices = NDArray[np.intp]
 
-PIECES = 8  # as the planner's finest rule
+PIECES = 8  # as the planner's finest rule, and as finely cut at the keys
 ROUNDS = 8
 STEP = 0.5  # the most by which a duration changes in one round, as a share of it
 SETTLED = 0.005  # relative change of the sum at which no further round is needed
@@ -53,7 +54,7 @@ class _Rows(NamedTuple):
 
 def least_durations(window: Window, guess: Array) -> Array | None:
     """Durations (n,), none shorter than asked for, from a first `guess` of them; None when no time would help."""
-    program = _Program(window)
+    program = _Program(window, guess)
     durations = program.asked.copy()
     np.maximum.at(durations, window.group, guess)
     states, before, kept = program.straight(durations), np.inf, None
@@ -74,18 +75,20 @@ def least_durations(window: Window, guess: Array) -> Array | None:
 class _Program:
     """One linear program after another; its unknowns: free states of the knots, changes of durations, excesses."""
 
-    def __init__(self, window: Window) -> None:
+    def __init__(self, window: Window, guess: Array) -> None:
         segment, self.limits = window.segment, window.limits
         self.positions = segment.positions - segment.positions[0]
         self.origin, self.scale = float(segment.positions[0]), max(float(np.ptp(segment.positions)), SMALLEST)
         self.stray = window.stray
-        self.interval = np.repeat(np.arange(len(segment.steps)), PIECES)
+        near = np.full((len(guess), 2), FINE * self.limits.acceleration / self.limits.jerk)
+        self.interval, widths, keys = mesh(guess, PIECES, near)
+        self.share, self.keys = widths / guess[self.interval], keys
         self.group = window.group[self.interval]
         self.asked = np.zeros(int(window.group.max()) + 1)
         np.maximum.at(self.asked, window.group, segment.durations)
         self.weight = np.bincount(window.group).astype(float)
         known = np.full((len(self.interval) + 1, 3), np.nan)
-        known[::PIECES, 0] = self.positions / self.scale
+        known[keys, 0] = self.positions / self.scale
         for end, is_open in zip((0, -1), window.open_ends, strict=True):
             if not is_open:
                 known[end, 1:] = 0.0
@@ -99,13 +102,13 @@ class _Program:
 
     def straight(self, durations: Array) -> Array:
         """States (knots, 3) in units and seconds, from key to key in straight lines."""
-        times = np.concatenate([[0.0], np.cumsum(durations[self.group] / PIECES)])
-        positions = np.interp(times, times[::PIECES], self.positions)
+        times = np.concatenate([[0.0], np.cumsum(durations[self.group] * self.share)])
+        positions = np.interp(times, times[self.keys], self.positions)
         return np.stack([positions, np.gradient(positions, times), np.zeros_like(times)], axis=1)
 
     def improved(self, durations: Array, states: Array) -> tuple[Array, Array, float] | None:
         """Better durations and states, and by what the worst limit is still exceeded; None without a solution."""
-        widths = durations[self.group] / PIECES
+        widths = durations[self.group] * self.share
         times = np.concatenate([widths[:1], np.minimum(widths[:-1], widths[1:]), widths[-1:]])
         units = self.scale / times[:, None] ** np.arange(3)
         powers = np.arange(3)

@@ -14,6 +14,7 @@ from teleop.planner.keyframes.bounds import factors_needed, rest_to_rest
 from teleop.planner.keyframes.budget import SINGLE, Budget, searching, trying
 from teleop.planner.keyframes.least_times import Window, least_durations
 from teleop.planner.keyframes.legs import Points, at_durations, durations, pairs, segment_of, shortened
+from teleop.planner.keyframes.overshoot import tolerated
 from teleop.planner.keyframes.windows import windows
 from teleop.planner.polynomial import Array
 
@@ -23,6 +24,8 @@ LONGER = 1e-6  # relative: an interval that is longer by less is as it was
 ROOM = 1.005  # times the least one: what the planner finds a plan for nearly always
 TRIED = (1.0, 1.003, 1.006, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.35, 1.5, 1.7, 2.0, 3.0)  # times what was found
 NEAR = 1.025  # two of these that are so near are not tried between
+SHORT = 0.2  # of the longest interval
+LESS = 0.955
 START = 1.2  # times what the bounds know of each interval
 
 
@@ -56,7 +59,9 @@ class LegTimes:
             numbers: dict[object, int] = {}
             twins = np.array([numbers.setdefault(pair, len(numbers)) for pair in between[first:last]])
             part = segment_of(points[first : last + 1])
-            window = Window(part, self.limits, twins, (first > 0, last < len(between)))
+            allowed = [point.overshoot for point in points[first:last]]
+            stray = tolerated(self.axis, part, allowed)
+            window = Window(part, self.limits, twins, (first > 0, last < len(between)), stray)
             found = least_durations(window, guess[first:last])
             found = guess[first:last] if found is None else found
             seconds[first:last] = np.where(found > part.durations * (1 + LONGER), ROOM * found, part.durations)
@@ -112,4 +117,17 @@ class LegTimes:
         while high > NEAR * low:
             middle = (low * high) ** 0.5
             low, high = (low, middle) if fits(middle) else (middle, high)
-        return lasting(high).tolist()
+        return self._without_slack(points, lasting(high), had).tolist()
+
+    def _without_slack(self, points: Points, found: Array, had: Array) -> Array:
+        """With less time for what is short: the room of a long interval beside it may be a large share of its own."""
+        between = pairs(points)
+        for interval in np.flatnonzero((found > had) & (found < SHORT * found.max())).tolist():
+            while found[interval] > had[interval] and between.count(between[interval]) == 1:
+                less = found.copy()
+                less[interval] = max(had[interval], np.ceil(LESS * found[interval] * 1000) / 1000)
+                affordable = less[interval] < found[interval] and self.budget.take(trying(len(points) - 1))
+                if not affordable or not self._possible(self.axis, at_durations(points, less)):
+                    break
+                found = less
+        return found

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import sparse
 
 from teleop.core.axes import Limits
-from teleop.planner.keyframes.qp import HEADROOM
+from teleop.planner.keyframes.program import HEADROOM
 from teleop.planner.keyframes.qp_solver import Sparse, minimize
 from teleop.planner.polynomial import Array
 

@@ -11,7 +11,7 @@ import numpy as np
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.bounds import factors_needed
 from teleop.planner.keyframes.legs import Points, segment_of
-from teleop.planner.keyframes.qp import TOLERANCE
+from teleop.planner.keyframes.program import TOLERANCE
 
 WHOLE = 20  # intervals: a leg that has no more is searched as a whole
 BESIDE = 4  # intervals on either side of one at fault

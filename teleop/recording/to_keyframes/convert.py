@@ -20,7 +20,7 @@ from teleop.config.documents.document import UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
 from teleop.planner.keyframes.fit import SampledSegment, Style, fit
-from teleop.planner.keyframes.qp import HEADROOM
+from teleop.planner.keyframes.program import HEADROOM
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
 from teleop.recording.replay import cues

@@ -30,8 +30,7 @@ def sequence_text(sequence: SequenceText) -> str:
 
 def _lines(sequence: SequenceText) -> Iterator[str]:
     yield f"title: {_quoted(sequence.title)}"
-    if sequence.tension:
-        yield f"tension: {sequence.tension:g}"
+    yield f"tension: {sequence.tension:g}"
     yield "keyframes:"
     for frame in sequence.frames:
         yield f"  - {{{', '.join(_frame(frame, sequence.digits))}}}"

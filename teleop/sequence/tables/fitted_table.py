@@ -154,7 +154,13 @@ class TableReader:
         count = numbers[-1] - numbers[0]
         keys = {
             axis: [
-                Key(place * step, position, where=_name(place, numbers[0], count), tension=0.0)
+                Key(
+                    place * step,
+                    position,
+                    where=_name(place, numbers[0], count),
+                    tension=0.0,
+                    overshoot=None if place == max(of_axis) else math.inf,
+                )
                 for place, position in of_axis.items()
             ]
             for axis, of_axis in fit.keys.items()

@@ -10,7 +10,8 @@ from ruckig import InputParameter, Ruckig, Trajectory
 
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.bounds import factors_needed, is_beyond, least_time, rest_to_rest
-from teleop.planner.keyframes.qp import HEADROOM, Rule, solve
+from teleop.planner.keyframes.program import HEADROOM, Rule
+from teleop.planner.keyframes.qp import solve
 from teleop.planner.keyframes.segment import Segment
 
 LIMITS = Limits(-170, 170, 60, 120, 600)

@@ -13,7 +13,7 @@ LIMITS = Limits(-100, 100, 120, 240, 1200)
 
 
 def recorded(*keys: Key, allowed: float = 0.2) -> SampledSegment:
-    move = plan({Axis.PAN: list(keys)}, {Axis.PAN: LIMITS})
+    move = plan({Axis.PAN: list(keys)}, {Axis.PAN: LIMITS}, 0.0)
     positions = move.sample(np.arange(round(move.duration * 100) + 1) / 100)[Axis.PAN][0]
     return SampledSegment(0, positions, Style(Axis.PAN, LIMITS, allowed, 3, 0.0, 100, 3))
 

@@ -40,6 +40,7 @@ def lengthened(keys, durations):
 
 
 @settings(max_examples=12)
+@example([(0.0625, 0.0), (0.25, 84.0)])  # a short way beside a long one
 @example([(0.504, -22.6), (0.239, 17.2), (1.202, -48.4)])
 @example([(0.492, -4.9), (0.629, -148.8), (1.185, 29.4)])  # the second key next to a soft limit
 @given(st.lists(st.tuples(st.floats(0.05, 2.5), st.floats(-165, 165)), min_size=1, max_size=5))

@@ -8,11 +8,12 @@ import pytest
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.bounds import rest_to_rest
 from teleop.planner.keyframes.least_times import Window, least_durations
-from teleop.planner.keyframes.qp import Rule, solve
+from teleop.planner.keyframes.program import Rule
+from teleop.planner.keyframes.qp import solve
 from teleop.planner.keyframes.segment import Segment
 
 LIMITS = Limits(-170, 170, 60, 120, 600)
-FINEST = Rule(8, directed=False)
+FINEST = Rule(8, directed=False, fine=True)
 
 
 def segment(durations, positions) -> Segment:

@@ -7,7 +7,8 @@ import pytest
 
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.minimum_jerk import minimum_jerk
-from teleop.planner.keyframes.qp import Rule, solve
+from teleop.planner.keyframes.program import Rule
+from teleop.planner.keyframes.qp import solve
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.trajectory import Track
 

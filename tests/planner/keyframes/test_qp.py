@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teleop.core.axes import Limits
-from teleop.planner.keyframes.qp import HEADROOM, TOLERANCE, Rule, least_factors, solve
+from teleop.planner.keyframes.program import HEADROOM, TOLERANCE, Rule
+from teleop.planner.keyframes.qp import least_factors, solve
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.polynomial import extremes
 

@@ -125,6 +125,21 @@ def test_limits_hold_and_keys_are_met_whatever_the_ramps(drawn):
         assert move.at(key.at)[PAN].position == pytest.approx(key.position, abs=1e-3)
 
 
+def test_a_way_that_the_hunt_found_hard_is_planned_or_refused_with_a_reason() -> None:
+    """`hunt_plan.py --seed 21`, case 7668: two thousandths of a degree in a minute, after ramps of 0 s."""
+    keys = [
+        Key(0, 70, hold=0.5, where="key 1", leave=Ramp(0.0)),
+        Key(5.5, 45, where="key 2", arrive=Ramp(1.916)),
+        Key(65.5, 45.002, where="key 3"),
+    ]
+    limits, refusal = Limits(-180, 180, 120, 480, 1200), Infeasible([])
+    try:
+        move = plan({PAN: keys}, {PAN: limits}, 0.5)
+    except Infeasible as error:
+        refusal, move = error, None
+    assert refusal.findings if move is None else move.at(65.5)[PAN].position == pytest.approx(45.002)
+
+
 def test_an_axis_that_the_solver_finds_no_way_for_is_refused_and_never_left_out() -> None:
     """Found at random: it was a move of 0 s, in which pan stayed where it was."""
     none = Ramp(0.0)

@@ -7,7 +7,7 @@ import pytest
 
 from teleop.planner.keyframes.segment import Segment
 
-SEGMENT = Segment(np.array([0.0, 2, 5, 9]), np.array([0.0, 10, 30, 20]), (1.0, 2.0))
+SEGMENT = Segment(np.array([0.0, 2, 5, 9]), np.array([0.0, 10, 30, 20]), np.array([[0, 1.0], [0, 0], [0, 0], [2.0, 0]]))
 
 
 def test_stretching_an_interval_moves_the_later_keys_and_no_duration_but_its_own() -> None:
@@ -18,7 +18,8 @@ def test_stretching_an_interval_moves_the_later_keys_and_no_duration_but_its_own
 
 def test_a_part_has_as_much_of_the_ramps_as_there_is_time_for() -> None:
     part = SEGMENT.part(0, 1)
-    assert part.ramps == (1.0, 1.0)
+    assert part.ramps is not None
+    assert part.ramps.tolist() == [[0, 1], [1, 0]]
     assert part.times.tolist() == [0, 2]
 
 
@@ -37,13 +38,30 @@ def test_it_is_cut_where_its_ramps_end() -> None:
 
 
 def test_a_ramp_that_ends_on_a_key_makes_no_cut() -> None:
-    segment = Segment(SEGMENT.times, SEGMENT.positions, (2.0 + 1e-9, 4.0))
-    durations, _, ramps = segment.cuts()
+    ramps = np.array([[0, 2.0 + 1e-9], [0, 0], [0, 0], [4.0, 0]])
+    segment = Segment(SEGMENT.times, SEGMENT.positions, ramps)
+    durations, _, found = segment.cuts()
     assert durations.tolist() == [2, 3, 4]
-    assert ramps.tolist() == pytest.approx([2, 0, 4])
+    assert found.tolist() == pytest.approx([2, 0, 4])
 
 
 def test_without_ramps_there_are_no_cuts() -> None:
     durations, _, ramps = Segment(SEGMENT.times, SEGMENT.positions).cuts()
     assert durations.tolist() == [2, 3, 4]
     assert np.isinf(ramps).all()
+
+
+def test_it_is_cut_at_both_ends_of_a_turn() -> None:
+    ramps = np.array([[0, 0], [0, 0], [1.0, 2.0], [0, 0]])
+    durations, intervals, found = Segment(SEGMENT.times, SEGMENT.positions, ramps).cuts()
+    assert durations.tolist() == [2, 2, 1, 2, 2]
+    assert intervals.tolist() == [0, 1, 1, 2, 2]
+    assert found.tolist() == [0, 0, 1, 2, 0]
+
+
+def test_an_overshoot_is_nothing_where_it_has_to_be_directed_and_any_where_nothing_is_tolerated() -> None:
+    segment = Segment(SEGMENT.times, SEGMENT.positions, stray=np.array([0.0, 1, 2]))
+    assert segment.strays(directed=True).tolist() == [0, 0, 0]
+    assert segment.strays(directed=False).tolist() == [0, 1, 2]
+    assert segment.part(1, 3).strays(directed=False).tolist() == [1, 2]
+    assert np.isinf(SEGMENT.strays(directed=False)).all()

@@ -11,7 +11,7 @@ from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
 from teleop.core.events import Action
-from teleop.planner.keyframes.qp import HEADROOM
+from teleop.planner.keyframes.program import HEADROOM
 from teleop.sequence.compile import CompiledSequence, load_sequence
 
 PROFILE = load_profile("sim")

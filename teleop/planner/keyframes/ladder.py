@@ -1,0 +1,139 @@
+"""One segment's pieces, by a ladder of rules: few pieces first, then more, all without overshoot; then with the least.
+
+Two equal keys next to each other are a rest as long as no overshoot is needed there, because the axis can only stand
+still between them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from teleop.core.axes import Limits
+from teleop.planner.keyframes.evenness import stills, urged
+from teleop.planner.keyframes.mesh import Indices
+from teleop.planner.keyframes.overshoot import NONE, least_overshoot, with_overshoot
+from teleop.planner.keyframes.program import HEADROOM, Rule
+from teleop.planner.keyframes.qp import solve
+from teleop.planner.keyframes.segment import Segment
+from teleop.planner.keyframes.tension import Tension
+from teleop.planner.polynomial import Array
+
+PIECES = (2, 4, 8)
+AROUND = 1  # intervals planned again on either side of one that would be almost at rest
+
+
+class Pieces(NamedTuple):
+    """Durations (m,) in s and coefficients (m, 6), ascending in local seconds."""
+
+    widths: Array
+    coefficients: Array
+
+    def begin(self, times: Array) -> Array:
+        """When each begins (m,); those at keys of `times` (n + 1,) exactly then, however many widths were added up."""
+        starts = times[0] + np.concatenate([[0.0], np.cumsum(self.widths[:-1])])
+        starts[self.at(times)] = times[:-1]
+        return starts
+
+    def at(self, times: Array) -> Indices:
+        """The piece (n,) that begins at each key of `times` (n + 1,) but the last."""
+        middles = times[0] + np.cumsum(self.widths) - self.widths / 2
+        return np.searchsorted(middles, times[:-1])
+
+
+class Overshot(NamedTuple):
+    """A segment whose keys the limits allow only with more overshoot than is tolerated: the least of each interval."""
+
+    least: Array
+
+
+def directed(segment: Segment, limits: Limits, tension: Tension) -> Pieces | None:
+    """Without overshoot: cut where equal keys follow each other, each part by the coarsest rule that does."""
+    if np.any(np.abs(segment.steps) > HEADROOM * limits.velocity * segment.durations):
+        return None
+    flat = segment.steps == 0
+    cuts = (np.flatnonzero(flat[:-1] | flat[1:]) + 1).tolist()
+    parts = []
+    for first, last in pairwise([0, *cuts, len(flat)]):
+        part = _standing(segment, first) if flat[first] else _part(segment.part(first, last), limits, tension)
+        if part is None:
+            return None
+        parts.append(part)
+    return Pieces(np.concatenate([p.widths for p in parts]), np.concatenate([p.coefficients for p in parts]))
+
+
+def _part(part: Segment, limits: Limits, tension: Tension) -> Pieces | None:
+    for pieces in PIECES:
+        rule = Rule(pieces, True, tension)
+        solved = solve(part, limits, rule) if tension in ("even", 0) or pieces > PIECES[0] else None
+        if solved is not None:
+            return _moving(part, limits, rule, Pieces(*solved))
+    return None
+
+
+def _moving(part: Segment, limits: Limits, rule: Rule, solved: Pieces) -> Pieces:
+    """What was solved, or better: where it is almost at rest between two keys, it is urged on.
+
+    Only the intervals around are planned again, more finely, from and to how the axis moves there anyway. Tension 0 is
+    as smooth as can be, stops and all.
+    """
+    still = stills(part, *solved)
+    if part.ramps is not None or rule.tension == 0 or not np.any(still):
+        return solved
+    finer = replace(rule, pieces=max(rule.pieces, PIECES[1]), fine=True)
+    for first, last in _windows(np.flatnonzero(still).tolist(), len(still)):
+        states = _states(part, solved)
+        window = urged(part.window(first, last, states), still[first:last])
+        moving = solve(window, limits, finer)
+        if moving is not None and stills(window, *moving).sum() < still[first:last].sum():
+            solved = _spliced(part, solved, Pieces(*moving), first, last)
+    return solved
+
+
+def _windows(intervals: Sequence[int], count: int) -> Iterator[tuple[int, int]]:
+    """The first and last key of each group of intervals, with some more on either side."""
+    first, last = 0, -1
+    for interval in intervals:
+        if last < 0 or interval - AROUND > last:
+            if last >= 0:
+                yield first, last
+            first = max(interval - AROUND, 0)
+        last = min(interval + 1 + AROUND, count)
+    yield first, last
+
+
+def _states(segment: Segment, pieces: Pieces) -> Array:
+    """Velocity and acceleration (n + 1, 2) at each key; its rest at the last."""
+    return np.concatenate([pieces.coefficients[pieces.at(segment.times), 1:3] * (1, 2), segment.ends[1:]])
+
+
+def _spliced(segment: Segment, pieces: Pieces, window: Pieces, first: int, last: int) -> Pieces:
+    """The pieces with those from key `first` to key `last` replaced."""
+    begun = np.append(pieces.at(segment.times), len(pieces.widths))
+    before, after = begun[first], begun[last]
+    parts = ([old[:before], new, old[after:]] for old, new in zip(pieces, window, strict=True))
+    return Pieces(*map(np.concatenate, parts))
+
+
+def _standing(segment: Segment, interval: int) -> Pieces:
+    return Pieces(
+        segment.durations[interval : interval + 1], np.array([[segment.positions[interval], 0.0, 0.0, 0.0, 0.0, 0.0]])
+    )
+
+
+def overshooting(segment: Segment, limits: Limits, tension: Tension) -> Pieces | Overshot | None:
+    """With the least overshoot: the pieces, or the overshoot if it is more than tolerated; None where limits forbid."""
+    if segment.is_loose:
+        smoothest = solve(segment, limits, Rule(PIECES[-1], False, tension))
+        return None if smoothest is None else Pieces(*smoothest)
+    least = least_overshoot(segment, limits)
+    if least is None:
+        return None
+    if np.any(least > segment.strays(directed=False) * (1 + NONE)):
+        return Overshot(least)
+    solved = with_overshoot(segment, limits, least, tension)
+    return None if solved is None else Pieces(*solved)
