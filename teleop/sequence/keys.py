@@ -10,7 +10,7 @@ from teleop.config.quantities import seconds
 from teleop.core.axes import Axis, Limits
 from teleop.core.timing import SAME_TIME
 from teleop.planner.keyframes.keys import Key
-from teleop.sequence.aim import Scene
+from teleop.sequence.aim import ON_THE_WAY, Scene
 from teleop.sequence.cues import CENTERED
 from teleop.sequence.easing import ramps
 from teleop.sequence.model import SequenceModel
@@ -46,7 +46,10 @@ def keys_of(model: SequenceModel) -> Keys:
                 where, overshoot = numbered("keyframes", index), model.overshoot_of(axis)
                 of_axis.append(Key(at, position, stop, hold, where, *eases, overshoot=overshoot))
     for axis, of_aim in Scene(model).keys().items():
-        keys[axis] = sorted([*keys[axis], *of_aim], key=lambda key: key.at)
+        in_order = sorted([*keys[axis], *of_aim], key=lambda key: key.at)
+        if any(key.where.startswith(ON_THE_WAY) for key in of_aim):  # the geometry says how fast, and not how even
+            in_order = [replace(key, tension=0.0) for key in in_order]
+        keys[axis] = in_order
     return keys
 
 

@@ -191,3 +191,8 @@ def test_a_target_that_the_rig_cannot_follow_is_an_error_at_its_key(tmp_path: Pa
     assert problems_of(tmp_path, text, UnplayableError) == [
         "shoot.yaml:2:3: pan cannot keep the target in sight: the base is too fast there; use more time"
     ]
+
+
+def test_what_follows_is_as_smooth_as_the_base_below_it(tmp_path: Path) -> None:
+    peaks = load(tmp_path, HEAD + SLIDE).move.peaks()[Axis.PAN]
+    assert peaks.jerk < 20  # deg/s3, of 1200; to pass the keys on the way evenly would take most of that
