@@ -113,7 +113,7 @@ def _shoot(
     from teleop.cli.shooting.shoot import shoot
 
     if ordered != AS_WRITTEN:
-        raise DocumentError([f"{file} is a timelapse: --speed, --trim, --learn and those of passes need --rehearse"])
+        raise DocumentError([f"{file} is a timelapse: --speed, --trim and the options of passes need --rehearse"])
     assert plan.timelapse is not None
     profile = devices_in_use(plan, shoots=True)
     return shoot(file, plan.timelapse, profile, the_clock(fast, profile), shooting, take, options)

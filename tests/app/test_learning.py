@@ -105,9 +105,9 @@ def test_what_is_reported_is_against_the_plan_and_not_against_what_was_sent(tmp_
 def test_a_program_learns_and_plays_what_it_has_learned(tmp_path: Path):
     (tmp_path / "rig.yaml").write_text(PROFILE)
     with teleop.open(tmp_path / "rig.yaml", virtual=True) as opened:
-        report = opened.play(FAST, passes=2, learn=True, take=tmp_path / "a.mcap")
-        first, second = (each["pan"].rms for each in report.passes)
-        assert second <= max(first / 4, 0.06)
+        report = opened.play(FAST, passes=3, learn=True, take=tmp_path / "a.mcap")
+        first, *later = (each["pan"].rms for each in report.passes)
+        assert min(later) <= max(first / 4, 0.05)
         with pytest.raises(teleop.UsageError, match="already exists"):
             opened.play(FAST, passes=2, learn=tmp_path / "a.learned.json")
         with pytest.raises(teleop.UsageError, match="needs passes"):

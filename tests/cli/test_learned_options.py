@@ -12,7 +12,7 @@ import pytest
 from teleop.cli import run
 from teleop.recording.reader import read_take
 
-MOVE = "keyframes:\n  - {at: 0, pan: 0}\n  - {at: 2, pan: 40}\n  - {at: 4, pan: -5}\n"
+MOVE = "tension: 0\nkeyframes:\n  - {at: 0, pan: 0}\n  - {at: 2, pan: 40}\n  - {at: 4, pan: -5}\n"
 RIG = """
 name: {name}
 links: {{gimbal: "sim:"}}

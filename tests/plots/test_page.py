@@ -144,10 +144,10 @@ def test_the_page_in_a_browser(reveal: str, tmp_path: Path) -> None:
     command += ["--window-size=1280,900", "--virtual-time-budget=20000", "--dump-dom", f"file://{tmp_path}/move.html"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=True)
     said = json.loads(Reader(done.stdout).texts["title"][0])
-    assert said["peaks"][1] == ["pan 8.79 / 120", "tilt 2.73 / 90", "focus 0.143 / 0.5"]
+    assert said["peaks"][1] == ["pan 6.52 / 120", "tilt 2.36 / 90", "focus 0.113 / 0.5"]
     assert seconds(said["cursor"]) == pytest.approx(6, abs=0.05)
     assert [len(card) for card in said["values"]] == [3, 3, 3, 3]
-    assert said["values"][1][0].startswith("pan 5.5")
+    assert said["values"][1][0].startswith("pan 6.5")
     assert [seconds(text) for text in said["zoomed"]] == pytest.approx([6, 9], abs=0.05)
     assert said["hidden"] == [2, 2, 2, 2]
     assert [seconds(text) for text in said["whole"]] == pytest.approx([0, 15], abs=0.05)
