@@ -17,8 +17,9 @@ from teleop.core.errors import DeviceError, LinkError, TeleopError
 from teleop.core.interfaces import Clock
 from teleop.core.response import Response
 from teleop.core.timing import FIRST_REPORT, PERIOD
+from teleop.devices.builders import Device
 from teleop.devices.gimbal.position import Angles
-from teleop.devices.rig import DRONE_FIRST_REPORT, Device, Rig, open_rig
+from teleop.devices.rig import DRONE_FIRST_REPORT, Rig, open_rig
 
 CURES = {
     Axis.FOCUS: "plug it in, switch the wheel to CAN and calibrate it (teleop send focus calibrate auto)",

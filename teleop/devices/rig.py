@@ -1,8 +1,8 @@
 """A profile brought to life: its links open, its devices at hand, and all of it closed in reverse whatever happens.
 
-Which class serves a type of sink is a row in a table. Devices that share a link share one connection, because two
-frames must never interleave on a bus. A simulated device is an ordinary one on a link that ends in this process.
-Whether a link ends at a gimbal or at a drone follows from the sinks that use it.
+Devices that share a link share one connection, because two frames must never interleave on a bus. A simulated
+device is an ordinary one on a link that ends in this process. Whether a link ends at a gimbal or at a drone follows
+from the sinks that use it.
 """
 
 from __future__ import annotations
@@ -10,54 +10,31 @@ from __future__ import annotations
 import secrets
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
 from types import MappingProxyType
 
-from teleop.config.credentials import APP_KEY, load_credentials
 from teleop.config.documents.document import DocumentError
-from teleop.config.flight_modes import FLIGHT_MODES, combination_of
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import (
-    MOVES,
-    CameraSection,
-    FlightSection,
-    FocusSection,
     GimbalSection,
     SinkSection,
-    VirtualRcSection,
 )
-from teleop.core.axes import Axis, Limits
+from teleop.core.axes import Axis
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import LinkError, TeleopError
-from teleop.core.interfaces import Clock, Observer, Reporter, Sink, Source
+from teleop.core.interfaces import Clock, Observer, Sink, Source
 from teleop.core.response import Response
 from teleop.core.timing import LoopTiming
+from teleop.devices.builders import BUILDERS, Device, app_cipher, gimbal_device
 from teleop.devices.camera import CameraSink
 from teleop.devices.connection import Connection
-from teleop.devices.drone.control_mode import ControlMode
-from teleop.devices.drone.last_enable import LastEnable, default_file
-from teleop.devices.drone.movement import MovementControl
-from teleop.devices.drone.preflight import Site
 from teleop.devices.drone.sink import DroneSink
-from teleop.devices.drone.telemetry import Telemetry
-from teleop.devices.drone.virtual_rc import VirtualRcControl
-from teleop.devices.focus import FocusReporter, FocusSink
 from teleop.devices.gimbal.guard_notes import GuardNotes
 from teleop.devices.gimbal.outlook import Foreseen
-from teleop.devices.gimbal.pi_correction import Gains
-from teleop.devices.gimbal.position import Angles, PositionSink
 from teleop.devices.gimbal.profile_firmware import profile_firmware
 from teleop.devices.gimbal.profile_simulation import simulated_settings
-from teleop.devices.gimbal.speed import SpeedSink
-from teleop.devices.gimbal.speed_control import SpeedControl
-from teleop.devices.gimbal.stick import StickSink
-from teleop.dji.drone.encryption import Cipher
-from teleop.dji.drone.messages import Activate
 from teleop.dji.drone.session import OnboardSession
 from teleop.dji.gimbal.session import Session
 from teleop.links import open_link, parse
-from teleop.monitors.direction import DirectionGuard
-from teleop.monitors.exchanged_axes import ExchangedAxesGuard
 from teleop.monitors.following_error import FollowingErrorGuard
 from teleop.planner.live import Live
 from teleop.sim.drone.device import SimulatedDrone
@@ -66,25 +43,6 @@ from teleop.sim.link import SimLink
 
 HOLDING = 0.04  # s between looks at a resting axis that may drift: what is sent speeds holds no place by itself
 DRONE_FIRST_REPORT = 8.0  # s: an activation may be asked for three times, a second each
-
-
-@dataclass(frozen=True)
-class Device:
-    """What serves one entry of a profile's sinks, and the axes it can move.
-
-    `follow` is how far from commanded these may be found, in units, None where they are not measured, and `delay` how
-    much later than that they move (s).
-    """
-
-    moves: Sequence[Axis]
-    sink: Sink
-    reporter: Reporter | None
-    follow: float | None = 0.0
-    delay: float = 0.0
-    direction: DirectionGuard | None = None  # what notices that an axis goes the other way
-    exchange: ExchangedAxesGuard | None = None  # and that one axis is reported in the place of another
-    control: SpeedControl | None = None  # what identifies the axes that are sent speeds
-    lines: list[str] | None = None  # what its guards have to say
 
 
 class Rig:
@@ -247,7 +205,7 @@ class _Opening:
     def _device(self, section: SinkSection, connection: Connection) -> Device:
         limits = self._profile.limits
         if isinstance(section, GimbalSection):
-            return _gimbal(section, connection, limits, self._priors)
+            return gimbal_device(section, connection, limits, self._priors)
         return BUILDERS[section.type](section, connection, limits)
 
     def rig(self) -> Rig:
@@ -266,7 +224,7 @@ class _Opening:
             return Connection(name, url, link, clock.now(), link.counts, session)
         far: SimulatedGimbal | SimulatedDrone
         if name in profile.drones:
-            far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=_cipher(name in profile.encrypted))
+            far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=app_cipher(name in profile.encrypted))
         else:
             settings, firmware = simulated_settings(profile, name), profile_firmware(profile, name)
             far = self._simulated[name] = SimulatedGimbal(
@@ -288,93 +246,3 @@ def _unlike_others(clock: Clock) -> int:
 def _turns_for_ever(profile: Profile) -> bool:
     """Whether the simulated gimbal must, because the profile says that the real one does."""
     return Axis.PAN in profile.limits and profile.limits[Axis.PAN].continuous
-
-
-def _gimbal(
-    section: GimbalSection, connection: Connection, limits: Mapping[Axis, Limits], priors: Mapping[Axis, Response]
-) -> Device:
-    wiring = section.wiring
-    own = {axis: limits[axis] for axis in section.axes if axis is not None and axis in limits}
-    delay = section.delay or 0.0
-    guard = DirectionGuard(section.sign_line, delay, speeds=section.mode != "position")
-    gains = Gains(section.gains.proportional, section.gains.integral)
-    reporter = Angles(connection, wiring, section.legacy_angles)
-    exchange = _exchange_guard(section, reporter, guard.found)
-
-    def sent(now: float, speeds: Mapping[Axis, float]) -> None:
-        guard.sent(now, speeds)
-        if exchange:
-            exchange.sent(now, speeds)
-
-    sink: Sink
-    match section.mode:
-        case "position":
-            sink = PositionSink(connection, section.rate, delay, wiring, own, guard.found)
-        case "speed":
-            sink = SpeedSink(connection, section.rate, section.delay, wiring, own, gains, sent, priors)
-        case "stick":
-            full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
-            sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, sent, priors)
-    control = None if isinstance(sink, PositionSink) else sink.control
-    lines = sink.guard.lines if isinstance(sink, PositionSink) else sink.control.lines
-    return Device(list(own), sink, reporter, section.max_following_error, delay, guard, exchange, control, lines)
-
-
-def _exchange_guard(section: GimbalSection, reporter: Angles, found: set[Axis]) -> ExchangedAxesGuard | None:
-    """None for a gimbal that drives only one of pitch and roll."""
-    pair, wiring = section.pitch_and_roll, section.wiring
-    if pair is None:
-        return None
-    ratio = wiring.report_sign(pair[0]) * wiring.report_sign(pair[1])
-    return ExchangedAxesGuard(
-        *(pair, ratio, lambda: section.order_line(reporter.bare), section.delay or 0.0),
-        section.mode != "position",
-        found,
-    )
-
-
-def _focus(section: FocusSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
-    sink, reporter = FocusSink(connection, section.rate), FocusReporter(connection)
-    return Device(MOVES[section.type], sink, reporter, section.max_following_error)
-
-
-def _camera(section: CameraSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
-    return Device(MOVES[section.type], CameraSink(connection), None)
-
-
-def _virtual_rc(section: VirtualRcSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
-    last = None if connection.simulated else LastEnable(default_file())
-    mode = VirtualRcControl(connection, section.back_to_rc, section.go_home, last)
-    return _drone(section, mode, connection)
-
-
-def _flight(section: FlightSection, connection: Connection, limits: Mapping[Axis, Limits]) -> Device:  # noqa: ARG001
-    site = Site(section.guidance, section.indoors)
-    combination, frame = combination_of(section.mode, section.vertical, section.yaw), FLIGHT_MODES[section.mode][1]
-    mode = MovementControl(connection, combination, frame, section.full_scale.model_dump(), site)
-    return _drone(section, mode, connection)
-
-
-def _drone(section: VirtualRcSection | FlightSection, mode: ControlMode, connection: Connection) -> Device:
-    activation = Activate(0) if connection.simulated else load_credentials().activation()
-    telemetry = Telemetry(connection, activation, _cipher(section.encrypted))
-    sink = DroneSink(mode, telemetry, connection.opened, section.low_battery)
-    return Device(MOVES[section.type], sink, sink, follow=None)
-
-
-def _cipher(encrypted: bool) -> Cipher | None:
-    """What encrypts, by the app's key; raises DocumentError where there is none."""
-    if not encrypted:
-        return None
-    credentials = load_credentials()
-    if credentials.cipher is None:
-        raise DocumentError([f"encrypted: true needs the app's key: in {APP_KEY}, or key in {credentials.place}"])
-    return credentials.cipher
-
-
-BUILDERS: Mapping[str, Callable[..., Device]] = {
-    "focus": _focus,
-    "camera": _camera,
-    "virtual-rc": _virtual_rc,
-    "flight": _flight,
-}

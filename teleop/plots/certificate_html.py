@@ -3,31 +3,25 @@
 from __future__ import annotations
 
 import html
-import re
 from collections.abc import Iterator, Sequence
 from datetime import datetime
-from pathlib import Path
 
 from teleop.core.axes import Axis
 from teleop.plots.error_chart import COLORS, chart
+from teleop.plots.printed_page import printed_page
 from teleop.plots.style import UNIT_SIGNS
 from teleop.recording.certificate import Certificate, Comparison, error_path
 from teleop.recording.chan import ORDER, TURNS
 
-_WEB = Path(__file__).parent / "web"
 NOT_IN_TAKE = "not in the take"
 NONE = "&#8211;"
 
 
 def page(found: Certificate, files: Sequence[str], fps: float, vfov: float) -> str:
     """The HTML text; `files` are the names of the paths written beside it."""
-    parts = {
-        "title": html.escape(found.takes[0].about.title),
-        "style": (_WEB / "certificate.css").read_text(encoding="utf-8").strip(),
-        "content": "\n".join(_content(found, files, fps, vfov)),
-    }
-    text = (_WEB / "certificate.html").read_text(encoding="utf-8")
-    return re.sub(r"{{(\w+)}}", lambda match: parts[match[1]], text)
+    title = found.takes[0].about.title
+    name = f"{title}: repeatability"
+    return printed_page(name, "Certificate of repeatability", title, _content(found, files, fps, vfov))
 
 
 def _content(found: Certificate, files: Sequence[str], fps: float, vfov: float) -> Iterator[str]:

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import html
-import re
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 import numpy as np
@@ -14,9 +11,8 @@ from teleop.core.axes import Axis
 from teleop.core.response import Response
 from teleop.planner.polynomial import Array
 from teleop.plots.error_chart import chart
+from teleop.plots.printed_page import printed_page
 from teleop.plots.style import UNIT_SIGNS
-
-_WEB = Path(__file__).parent / "web"
 
 
 class Trace(NamedTuple):
@@ -46,13 +42,7 @@ class Trace(NamedTuple):
 
 def page(title: str, traces: Sequence[Trace]) -> str:
     """The HTML text, without scripts."""
-    parts = {
-        "title": html.escape(title),
-        "style": (_WEB / "certificate.css").read_text(encoding="utf-8").strip(),
-        "content": "\n".join(_content(traces)),
-    }
-    text = (_WEB / "response.html").read_text(encoding="utf-8")
-    return re.sub(r"{{(\w+)}}", lambda match: parts[match[1]], text)
+    return printed_page(title, "Calibration", title, _content(traces))
 
 
 def _content(traces: Sequence[Trace]) -> Iterator[str]:

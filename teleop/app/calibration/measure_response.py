@@ -14,13 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from teleop.app.calibration.calibration_move import CalibrationMove
+from teleop.app.calibration.measured_axes import measured_axes
 from teleop.app.run import Screen, Signals
 from teleop.app.stop_inputs import guarded
 from teleop.config.profile import Profile
 from teleop.config.response_store import Key, ResponseStore
 from teleop.config.sinks_section import GimbalSection
 from teleop.core.axes import Axis, Limits, Reading
-from teleop.core.errors import DeviceError, UsageError
+from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
 from teleop.core.interfaces import Clock
 from teleop.core.response import Response
@@ -81,18 +82,6 @@ class ResponseReport:
         """For `delay` in the profile, s: one for all axes."""
         delays = [each.response.delay for each in self.axes]
         return max(0.0, round(math.fsum(delays) / len(delays), 3))
-
-
-def measured_axes(profile: Profile, axis: Axis | None) -> tuple[GimbalSection, Sequence[Axis]]:
-    """The gimbal, and which of its axes to measure. Raises UsageError where there is none."""
-    for section in profile.sinks:
-        if isinstance(section, GimbalSection):
-            axes = [each for each in section.axes if each in profile.limits and axis in (None, each)]
-            if axes:
-                return section, [each for each in axes if each is not None]
-    raise UsageError(
-        f"--axis {axis}: no gimbal of {profile.name} moves it" if axis else f"{profile.name} has no gimbal"
-    )
 
 
 def move_of(profile: Profile, axis: Axis) -> CalibrationMove:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 
+from teleop.app.calibration.measured_axes import measured_axes
 from teleop.app.calibration.sign_probe import SignProbe, Signs
 from teleop.app.run import Signals
 from teleop.app.stop_inputs import guarded
@@ -18,7 +19,6 @@ from teleop.config.sinks_section import GimbalSection
 from teleop.config.wiring import Wiring
 from teleop.core.axes import Axis
 from teleop.core.control_loop import ControlLoop
-from teleop.core.errors import UsageError
 from teleop.core.interfaces import Clock
 from teleop.core.run_state import Result
 from teleop.core.timing import LoopTiming
@@ -56,7 +56,7 @@ def measure_signs(
 
     `begun` is called with the axes and whether there are keys. Raises UsageError where no gimbal moves the axis.
     """
-    section, axes = _measured(profile, axis)
+    section, axes = measured_axes(profile, axis)
     limits = {each: profile.limits[each] for each in axes}
     full = None if section.mode != "stick" else lambda each: section.full(each, profile.limits[each].velocity)
     with ExitStack() as stack:
@@ -77,18 +77,6 @@ def measure_signs(
             ended = loop.run()
     reasons = [*ended.reasons, *([guard.reason] if guard.reason else [])]
     return SignsReport(ended.result, reasons, section, probe.signs if ended.result is Result.DONE else {})
-
-
-def _measured(profile: Profile, axis: str | None) -> tuple[GimbalSection, Sequence[Axis]]:
-    """The gimbal, and which of its axes to measure. Raises UsageError."""
-    for section in profile.sinks:
-        if isinstance(section, GimbalSection):
-            axes = [each for each in section.axes if each in profile.limits and axis in (None, each)]
-            if axes:
-                return section, [each for each in axes if each is not None]
-    raise UsageError(
-        f"--axis {axis}: no gimbal of {profile.name} moves it" if axis else f"{profile.name} has no gimbal"
-    )
 
 
 def _settings(section: GimbalSection, found: Mapping[Axis, Signs]) -> Mapping[str, Mapping[str, int]]:

@@ -16,9 +16,9 @@ from teleop.app.calibration.measure_response import (
     ResponseReport,
     keep,
     measure_responses,
-    measured_axes,
     move_of,
 )
+from teleop.app.calibration.measured_axes import measured_axes
 from teleop.cli.calibration.response_picture import check_picture, draw_picture
 from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import DEFAULTS, Options, announce, announce_json

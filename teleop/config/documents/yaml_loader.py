@@ -17,6 +17,7 @@ import yaml
 
 from teleop.config.documents.document import Document, DocumentError, Flaw, Location, Place, joined, path_text
 from teleop.config.documents.messages import decimal_comma, missing_space
+from teleop.config.documents.read_bytes import read_bytes
 from teleop.config.documents.yaml_nodes import TooMuchError, compose
 
 MAX_BYTES = 4_000_000  # a sequence of 2000 keys is 0.2 MB
@@ -55,13 +56,7 @@ def read_document(file: Path, name: str | None = None, note: str = "") -> Docume
 
 def _read(file: Path, name: str | None) -> Document:
     name = name or str(file)
-    try:
-        with file.open("rb") as stream:
-            raw = stream.read(MAX_BYTES + 1)
-    except OSError as error:
-        raise DocumentError([f"{name}: cannot be read: {error.strerror or error}"]) from None
-    if len(raw) > MAX_BYTES:
-        raise DocumentError([f"{name}:1:1: is larger than {MAX_BYTES // 1_000_000} MB"])
+    raw = read_bytes(file, name, MAX_BYTES)
     try:
         return parse_document(raw.decode("utf-8-sig"), name)
     except UnicodeDecodeError as error:

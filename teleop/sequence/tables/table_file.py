@@ -17,6 +17,7 @@ import numpy as np
 
 from teleop.config.documents.document import DocumentError
 from teleop.config.documents.messages import decimal_comma, nearest, shown
+from teleop.config.documents.read_bytes import read_bytes
 from teleop.planner.polynomial import Array
 
 MAX_BYTES = 16_000_000
@@ -103,13 +104,7 @@ class Table:
 
 def read_table(file: Path, name: str) -> Table:
     """The table in `file`. Raises DocumentError where it cannot be read, or has no numbers."""
-    try:
-        with file.open("rb") as stream:
-            raw = stream.read(MAX_BYTES + 1)
-    except OSError as error:
-        raise DocumentError([f"{name}: cannot be read: {error.strerror or error}"]) from None
-    if len(raw) > MAX_BYTES:
-        raise DocumentError([f"{name}:1:1: is larger than {MAX_BYTES // 1_000_000} MB"])
+    raw = read_bytes(file, name, MAX_BYTES)
     text = raw.decode("utf-16" if raw[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig", "replace")
     if "\0" in text:
         raise DocumentError([f"{name}:1:1: is not text; save the table as CSV"])
