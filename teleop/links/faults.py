@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import errno
 import os
+import socket
 from collections.abc import Mapping
 
 from teleop.core.errors import LinkError
@@ -78,9 +79,18 @@ def _explain(address: LinkAddress, error: BaseException, advice: Mapping[tuple[s
     virtual = address.interface == "socketcan" and address.channel.startswith("vcan")
     family = "vcan" if virtual else address.interface
     text = advice.get((family, cause.errno)) or advice.get((_ANY, cause.errno))
+    if address.interface == "socketcan" and cause.errno == errno.ENETDOWN and not _is_there(address.channel):
+        text = _GONE  # the kernel takes an interface down before it removes it: which of the two is heard is a race
     if text is None:
         return LinkError(f"{address}: {os.strerror(cause.errno)}")
     return LinkError(f"{address}: {text.format(channel=address.channel, bitrate=address.bitrate)}")
+
+
+def _is_there(interface: str) -> bool:
+    try:
+        return socket.if_nametoindex(interface) > 0
+    except OSError:
+        return False
 
 
 def _first_line(error: BaseException) -> str:

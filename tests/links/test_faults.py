@@ -214,8 +214,17 @@ def test_a_link_that_does_not_open_says_what_to_do(url: str, number: int, says: 
         ("slcan:/dev/ttyACM0", 5, "the adapter is gone: plug it in, then start again"),
     ],
 )
-def test_a_link_that_fails_later_says_what_to_do(url: str, number: int, says: str) -> None:
+def test_a_link_that_fails_later_says_what_to_do(
+    monkeypatch: pytest.MonkeyPatch, url: str, number: int, says: str
+) -> None:
+    monkeypatch.setattr("socket.if_nametoindex", lambda _name: 3)
     assert str(link_failed(parse(url), driver_fault("Failed", number))) == f"{url}: {says}"
+
+
+def test_an_interface_that_went_down_because_it_was_removed_is_gone() -> None:
+    link = parse("socketcan:no_such0")
+    says = "the adapter is gone: plug it in, then start again"
+    assert str(link_failed(link, driver_fault("Failed", errno.ENETDOWN))) == f"{link}: {says}"
 
 
 def test_an_error_without_a_number_keeps_its_first_line() -> None:
