@@ -41,6 +41,7 @@ from teleop.manual.target_marks import TargetMarks
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 from teleop.recording.writer import Recorder, recording
 
+
 class Beside(Protocol):
     """Hands beside those at the rig, outranked by them: inputs, and what drives the axes beneath all inputs."""
 

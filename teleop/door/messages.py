@@ -34,11 +34,9 @@ class CommandError(ValueError):
 class Shape(NamedTuple):
     """The fields of a kind of command. `control`: only the holder of control may give it. `moves`: it moves an axis."""
 
-    required: Mapping[str, Check] = {}  # noqa: RUF012 - never changed
-    optional: Mapping[str, Check] = {}  # noqa: RUF012
+    required: Mapping[str, Check] = {}
+    optional: Mapping[str, Check] = {}
     control: bool = True
-
-
 
 
 def _ages(value: Any) -> dict[str, float]:

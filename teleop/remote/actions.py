@@ -232,7 +232,7 @@ class LiveActions:
         if self._works.planning:
             raise Refusal("another move is being planned")
         by_hand = asked["move"] == "keys"
-        if by_hand and len(self.keys.keys) < 2:  # noqa: PLR2004 - a way has two ends
+        if by_hand and len(self.keys.keys) < 2:
             raise Refusal("set at least two keys first")
         asked.planning()
         self._works.plan(asked, self.keys.content() if by_hand else asked["move"], self._begin)

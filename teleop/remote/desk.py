@@ -137,6 +137,7 @@ class Desk:
         self._seen: dict[str, float] = {}  # sessions whose page tells that it lives, and when it last did
         self._closed: OrderedDict[str, None] = OrderedDict()
         self._presses: list[tuple[str, Press]] = []
+        self._unsaid: list[tuple[dict[str, Any], str]] = []
         self._asker: Asked | None = None
         self._changes = 0
 
@@ -212,7 +213,7 @@ class Desk:
             self._internal(command, now)
         elif (before := self._answers.get((datagram.address, command.id))) is not None:
             self._socket.answer(before, datagram.address)
-        else:
+        elif not any(to == datagram.address and each["id"] == command.id for each, to in self._unsaid):
             self._do(Asked(command, datagram.address, self), now)
 
     def _internal(self, command: DoorCommand, now: float) -> None:
@@ -291,15 +292,23 @@ class Desk:
         session = asked.command.session
         if asked.command.brief and self.control.brief and self.control.holds(session):
             self.control.release(session, self._now)
+            self.control.step(self._now, self.actions.rests, False)
 
     # --- answers
 
     def answer(self, asked: Asked, message: Mapping[str, Any]) -> None:
-        data = self._send({"id": asked.command.id, **message, "tick": self.tick}, asked.address)
-        if data and not message.get("done"):
-            self._answers[asked.address, asked.command.id] = data
-            while len(self._answers) > ANSWERS:
-                self._answers.popitem(last=False)
+        """Once the state of this tick is written (`flush`): who is answered finds it there."""
+        self._unsaid.append(({"id": asked.command.id, **message}, asked.address))
+
+    def flush(self) -> None:
+        """Send what there is to answer, after the state of the tick."""
+        unsaid, self._unsaid = self._unsaid, []
+        for message, address in unsaid:
+            data = self._send({**message, "tick": self.tick}, address)
+            if data and not message.get("done"):
+                self._answers[address, message["id"]] = data
+                while len(self._answers) > ANSWERS:
+                    self._answers.popitem(last=False)
 
     def _send(self, message: Mapping[str, Any], address: str) -> bytes:
         data = b""

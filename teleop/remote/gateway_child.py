@@ -15,7 +15,7 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from time import monotonic
-from typing import Any
+from typing import Any, NamedTuple
 
 MODULE = "teleop.gateway"
 MOST, WITHIN = 3, 60.0  # starts again, in so many s
@@ -24,6 +24,13 @@ STARTING = 20.0  # s for its first word
 LOOK = 0.1  # s between two looks
 LEAVING = 0.5  # s that it has to end by itself
 LINES = 20  # of its errors that are passed on, at most
+
+
+class Gateway(NamedTuple):
+    """What the gateway is told when it starts, and the descriptors that it inherits."""
+
+    settings: Mapping[str, Any]
+    passed: Sequence[int] = ()
 
 
 class GatewayChild:

@@ -23,7 +23,7 @@ from teleop.inputs.stick_shaping import shape
 from teleop.manual.operator import Operator
 from teleop.remote.actions import LiveActions
 from teleop.remote.desk import Desk
-from teleop.remote.gateway_child import GatewayChild
+from teleop.remote.gateway_child import Gateway, GatewayChild
 from teleop.remote.jobs import JobSource
 from teleop.remote.keys import HandKeys
 from teleop.remote.state import Parts, StatePublisher
@@ -31,18 +31,15 @@ from teleop.remote.stick import RemoteStick
 from teleop.remote.told import Told
 from teleop.remote.works import Works
 
-Settings = Callable[[DoorAddress], Mapping[str, Any]]
-
 
 class RemoteHands:
     """`moves` is the folder of the moves that clients may name.
 
-    `gateway` is what the gateway is told, beside where the door is, and `passed` the descriptors that it inherits; None
-    for no gateway.
+    `gateway` is what the gateway is told, beside where the door is; None for no gateway.
     """
 
-    def __init__(self, moves: Path, gateway: Mapping[str, Any] | None, passed: Sequence[int] = ()) -> None:
-        self._folder, self._gateway, self._passed = moves, gateway, passed
+    def __init__(self, moves: Path, gateway: Gateway | None) -> None:
+        self._folder, self._gateway = moves, gateway
         self.address: DoorAddress
         self.desk: Desk
         self.child: GatewayChild | None = None
@@ -90,8 +87,9 @@ class RemoteHands:
         self._publisher.publish("waiting", rig.clock.now())
         stack.callback(lambda: self._publisher.publish("over", rig.clock.now()))
         if self._gateway is not None:
-            settings = {**self._gateway, "door": str(self.address.folder)}
-            self.child = GatewayChild(settings, self._passed, self._heard, operator.notify, self._gateway_ended)
+            settings = {**self._gateway.settings, "door": str(self.address.folder)}
+            passed = self._gateway.passed
+            self.child = GatewayChild(settings, passed, self._heard, operator.notify, self._gateway_ended)
             stack.callback(self.child.close)
             self.child.start()
         return self, self
@@ -117,12 +115,14 @@ class RemoteHands:
         self._actions.observe(tick)
         run, self._read = "running" if self._read else "stopping", False
         self._publisher.publish(run, tick.time, tick)
+        self.desk.flush()
 
     def write(self, tick: Tick) -> None: ...
 
     def release(self, now: float) -> float | None:
         self._jobs.end("the run has ended")
         self._publisher.publish("releasing", now)
+        self.desk.flush()
         return None
 
     def _mark(self) -> None:
