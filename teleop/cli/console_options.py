@@ -60,8 +60,12 @@ class ConsoleOptions:
         str | None, Parameter(metavar="TOKEN", help="Token to log in with; without it one is made where it is needed.")
     ] = None
     tls: Annotated[
-        bool, Parameter(help="Serve HTTPS with a certificate made for it.", negative=(), show_default=False)
+        bool, Parameter(help="Serve HTTPS, with a certificate that is made once.", negative=(), show_default=False)
     ] = False
+    certificate: Annotated[
+        Path | None, Parameter(metavar="FILE", help="Certificate (PEM) for HTTPS, instead of one that is made.")
+    ] = None
+    key: Annotated[Path | None, Parameter(metavar="FILE", help="Key of that certificate (PEM).")] = None
     moves: Annotated[
         Path, Parameter(metavar="FOLDER", help="Folder of the moves and takes that the console shows.")
     ] = Path()
@@ -87,7 +91,12 @@ class ConsoleOptions:
         host, port = parse_bind(bind)
         folder = str(self.moves.resolve())
         asked = ConsoleSettings(host, port, self.token or "", moves=folder, takes=folder, rig=rig)
-        listener, settings = listen(with_tokens(asked))
+        settings = with_tokens(asked)
+        if self.tls or self.certificate is not None:
+            from teleop.console.certificate import with_tls
+
+            settings = with_tls(settings, self.certificate, self.key)
+        listener, settings = listen(settings)
         with listener:
             if as_json:
                 print(json.dumps(reached(settings)), flush=True)
@@ -105,7 +114,7 @@ class ConsoleOptions:
             with self.gateway(bind, rig, as_json) as gateway:
                 yield gateway
             return
-        for name, given in (("--token", self.token), ("--tls", self.tls)):
+        for name, given in (("--token", self.token), ("--tls", self.tls), ("--certificate", self.certificate)):
             if given:
                 raise UsageError(f"{name}: needs --console")
         yield None
