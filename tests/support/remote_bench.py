@@ -12,13 +12,14 @@ import msgpack
 from hands import FakeInput
 from wire import Tap, tapped
 
-from teleop.app.live import both
+from teleop.app.beside import both
 from teleop.app.run import commands
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile, load_profile
 from teleop.core.axes import Axis
-from teleop.core.clock import VirtualClock
+from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.control_loop import ControlLoop
+from teleop.core.interfaces import Observer
 from teleop.core.run_state import RunState
 from teleop.core.timing import PERIOD
 from teleop.devices.camera_answers import CameraAnswers
@@ -50,7 +51,7 @@ class RemoteBench:
         hands: RemoteHands,
         operator: Operator,
         pad: FakeInput,
-        clock: VirtualClock,
+        clock: VirtualClock | SystemClock,
         tap: Tap,
     ) -> None:
         self.loop, self.hands, self.operator, self.pad, self.clock, self.tap = loop, hands, operator, pad, clock, tap
@@ -148,22 +149,26 @@ class RemoteBench:
 
 
 @contextmanager
-def remote_bench(folder: Path, moves: Path | None = None) -> Iterator[RemoteBench]:
+def remote_bench(
+    folder: Path, clock: VirtualClock | SystemClock | None = None, observer: Observer | None = None
+) -> Iterator[RemoteBench]:
+    """On the virtual clock unless another is given; `observer` sees each tick before the door does."""
     with ExitStack() as stack:
-        clock, profile, pad = VirtualClock(), _profile(folder), FakeInput()
-        hands = RemoteHands(moves or folder, None)
+        clock, profile, pad = clock or VirtualClock(), _profile(folder), FakeInput()
+        hands = RemoteHands(folder, None)
         hands.open(stack, profile, profile.limits)
         presets = Presets(folder / "presets.yaml")
         stack.callback(presets.close)
         operator = Operator(profile.limits, [pad, *hands.inputs], presets, profile.sticks, 2.0, hands.beneath)
         rig = stack.enter_context(open_rig(profile, clock))
         tap = tapped(rig)
-        observer, sink = hands.attach(stack, operator, presets, rig)
+        seen = [] if observer is None else [observer]
+        own, sink = hands.attach(stack, operator, presets, rig)
         notify = both(operator.notify, hands.line)
         observers, sinks = commands(rig, list(profile.axes), notify, both(operator.confirmed, hands.confirmed))
         answered = both(operator.camera_answered, hands.camera_answered)
         observers.append(CameraAnswers(rig.camera, notify, answered, lenient=True))
-        loop = rig.loop(list(profile.axes), [operator], [*observers, observer], [*sinks, sink])
+        loop = rig.loop(list(profile.axes), [operator], [*observers, *seen, own], [*sinks, sink])
         bench = RemoteBench(loop, hands, operator, pad, clock, tap)
         stack.callback(bench.close)
         while loop.supervisor.state is RunState.WAITING:
