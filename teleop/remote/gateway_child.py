@@ -62,7 +62,8 @@ class GatewayChild:
     def close(self) -> None:
         """End the child and the thread."""
         self._over.set()
-        self._thread.join(LEAVING + 1.0)
+        if self._thread.is_alive():
+            self._thread.join(LEAVING + 1.0)
 
     def _run(self) -> None:
         # The child dies with the thread that started it (PR_SET_PDEATHSIG), so one thread starts them all.
