@@ -5,6 +5,7 @@ from __future__ import annotations
 import secrets
 import time
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
@@ -20,11 +21,14 @@ from teleop.console.door import Door
 from teleop.console.gate import Gate, client_address
 from teleop.console.json_body import Refusal, read_object
 from teleop.console.login import Logins
+from teleop.console.moves import MoveRoutes
 from teleop.console.openapi import description
 from teleop.console.sessions import HttpSessions
 from teleop.console.settings import ConsoleSettings
 from teleop.console.static_files import login_page, static_files
+from teleop.console.takes import TakeRoutes
 from teleop.console.websocket import Client
+from teleop.console.worker import Worker, WorkerProcess
 
 MOST_CLIENTS = 32  # WebSockets at once
 LONGEST_NAME = 40  # characters of what a client calls itself
@@ -33,8 +37,16 @@ LONGEST_NAME = 40  # characters of what a client calls itself
 class Console:
     """Everything that one server has: `app` is the ASGI application."""
 
-    def __init__(self, settings: ConsoleSettings, door: Door, clock: Callable[[], float] = time.monotonic) -> None:
-        self._door, self._clock = door, clock
+    def __init__(
+        self,
+        settings: ConsoleSettings,
+        door: Door,
+        clock: Callable[[], float] = time.monotonic,
+        workers: tuple[Worker, Worker] | None = None,
+    ) -> None:
+        self._settings, self._door, self._clock = settings, door, clock
+        self._workers = workers or (WorkerProcess(), WorkerProcess())  # a plan does not wait for a take's report
+        self._moves = MoveRoutes(Path(settings.moves), settings.rig, self._workers[0])
         self._logins = Logins(settings)
         self._sessions = HttpSessions(door)
         self._clients = 0
@@ -47,17 +59,36 @@ class Console:
         self.gate = self.app = Gate(starlette, settings, self._logins, self._knows, clock)
 
     def _all_routes(self) -> Sequence[BaseRoute]:
-        commands = CommandRoutes(self._door, self._sessions)
+        commands = CommandRoutes(self._door, self._sessions, self._moves.planned)
+        takes = TakeRoutes(Path(self._settings.takes), self._moves, self._workers[1])
         return [
             Route("/api", self._describe, methods=["GET"]),
             Route("/api/state", commands.state, methods=["GET"]),
             Route("/api/command", commands.command, methods=["POST"]),
             Route("/api/stop", commands.stop, methods=["POST"]),
             Route("/api/login", self._login, methods=["POST"]),
+            Route("/api/moves", self._moves.list, methods=["GET"]),
+            Route("/api/moves/{name}", self._moves.read, methods=["GET"]),
+            Route("/api/moves/{name}", self._moves.save, methods=["PUT"]),
+            Route("/api/plan", self._moves.plan, methods=["POST"]),
+            Route("/api/takes", takes.list, methods=["GET"]),
+            Route("/api/takes/{name}", takes.read, methods=["GET"]),
+            Route("/api/takes/{name}/keys", takes.keys, methods=["POST"]),
+            Route("/takes/{name}/report", takes.page, methods=["GET"]),
+            Route("/takes/{name}/download", takes.download, methods=["GET"]),
             WebSocketRoute("/ws", self._websocket),
             Route("/login", self._login_page, methods=["GET"]),
             *(Route(path, self._file, methods=["GET"]) for path in ("/", *static_files()) if path != "/index.html"),
         ]
+
+    async def start(self) -> None:
+        """Have the planner ready before somebody drags a key."""
+        await self._workers[0].start()
+
+    async def close(self) -> None:
+        """End the workers."""
+        for worker in self._workers:
+            await worker.close()
 
     def _knows(self, scope: Scope) -> bool:
         """Whether there is anything at the path of a request."""
@@ -93,7 +124,9 @@ class Console:
             return
         self._clients += 1
         role = websocket.scope["state"]["role"]
-        client = Client(websocket, self._door, secrets.token_hex(4), client_name(websocket), role, self._clock)
+        client = Client(
+            websocket, self._door, secrets.token_hex(4), client_name(websocket), role, self._moves, self._clock
+        )
         try:
             await client.run()
         finally:

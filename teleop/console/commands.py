@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from typing import Any
 
 from starlette.requests import Request
@@ -14,14 +14,15 @@ from teleop.console.json_body import Refusal, read_object
 from teleop.console.sessions import HttpSession, HttpSessions
 from teleop.console.stopping import stop
 
+Plan = Callable[[Mapping[str, Any]], Awaitable[Mapping[str, Any]]]
 WATCHERS = "this login only watches: log in with the token to operate"
 
 
 class CommandRoutes:
-    """Handlers of `/api/state`, `/api/command` and `/api/stop`."""
+    """Handlers of `/api/state`, `/api/command` and `/api/stop`. `plan` answers the command of that name."""
 
-    def __init__(self, door: Door, sessions: HttpSessions) -> None:
-        self._door, self._sessions = door, sessions
+    def __init__(self, door: Door, sessions: HttpSessions, plan: Plan) -> None:
+        self._door, self._sessions, self._plan = door, sessions, plan
 
     async def state(self, request: Request) -> Response:
         """The newest state; a client that asks for it regularly is present."""
@@ -44,6 +45,8 @@ class CommandRoutes:
             return answer({"ok": True})
         if command["do"] == "stop":
             return answer_of(await stop(self._door, session.session, session.name))
+        if command["do"] == "plan":
+            return answer(await self._plan(command))
         return answer_of(await self._sessions.waiting(session, self._commanded(command, session, wait)))
 
     async def _commanded(self, command: Mapping[str, Any], session: HttpSession, wait: bool) -> Mapping[str, Any]:

@@ -33,7 +33,9 @@ class _Server(uvicorn.Server):
 
 async def serve(settings: ConsoleSettings, door: Door, listener: socket.socket) -> None:
     """Serve the console at a socket of `settings.listen` until the task is cancelled."""
-    server = _Server(_config(settings, Console(settings, door)))
+    console = Console(settings, door)
+    server = _Server(_config(settings, console))
+    ready = asyncio.create_task(console.start())
     task = asyncio.create_task(server.serve([listener]))
     try:
         await asyncio.shield(task)
@@ -41,6 +43,9 @@ async def serve(settings: ConsoleSettings, door: Door, listener: socket.socket) 
         server.should_exit = True
         await task
         raise
+    finally:
+        ready.cancel()
+        await console.close()
 
 
 def _config(settings: ConsoleSettings, console: Console) -> uvicorn.Config:

@@ -19,6 +19,7 @@ from teleop.console.commands import WATCHERS, check_command, pass_stick
 from teleop.console.door import Door
 from teleop.console.json_body import MOST_BYTES, Refusal, parse_object
 from teleop.console.merge_patch import changes
+from teleop.console.moves import MoveRoutes
 from teleop.console.rate_limit import Bucket
 from teleop.console.settings import Role
 from teleop.console.stopping import stop
@@ -50,10 +51,11 @@ class Client:
         session: str,
         name: str,
         role: Role,
+        moves: MoveRoutes,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._websocket, self._door = websocket, door
-        self._session, self._name, self._role = session, name, role
+        self._session, self._name, self._role, self._moves = session, name, role, moves
         self._outbox: deque[Mapping[str, Any]] = deque()
         self._newest: Mapping[str, Any] | None = None
         self._sent: Mapping[str, Any] | None = None
@@ -179,6 +181,8 @@ class Client:
             return
         elif do == "ping":
             self._answer({"type": "pong", "id": id_})
+        elif do == "plan":
+            self._start(self._plan(message, id_))
         elif self._role != "operate":
             raise Refusal(403, WATCHERS)
         elif do == "stick":
@@ -202,6 +206,13 @@ class Client:
         if accepted.get("ok") and "id" in accepted:
             ended = await self._door.finished(accepted["id"])
             self._answer({**ended, "type": "done", "id": id_})
+
+    async def _plan(self, message: Mapping[str, Any], id_: int | str | None) -> None:
+        try:
+            found = await self._moves.planned(message)
+        except Refusal as refusal:
+            found = {**refusal.content, "kind": "invalid"}
+        self._answer({**found, "type": "answer", "id": id_})
 
     def _answer_door(self, id_: int | str | None, found: Mapping[str, Any]) -> None:
         self._answer({**found, "type": "answer", "id": id_})

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import json
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +12,7 @@ from starlette.testclient import TestClient
 
 from teleop.console.app import Console
 from teleop.console.settings import ConsoleSettings
+from teleop.console.worker import jobs, work
 
 TOKEN, WATCH = "operate-me", "watch-me"
 OPERATE = {"authorization": f"Bearer {TOKEN}"}
@@ -17,6 +20,20 @@ WATCHING = {"authorization": f"Bearer {WATCH}"}
 BASE = "http://127.0.0.1:8470"
 OPEN = ConsoleSettings()
 LOCKED = ConsoleSettings(token=TOKEN, watch_token=WATCH)
+
+
+class HereWorker:
+    """Does what a worker does in a thread of this process."""
+
+    async def start(self) -> None:
+        jobs()
+
+    async def do(self, job: str, *arguments: Any) -> Any:
+        line = json.dumps([job, *arguments]).encode()
+        return json.loads(json.dumps(await asyncio.to_thread(work, line, jobs()), allow_nan=False))
+
+    async def close(self) -> None:
+        pass
 
 
 class ConsoleBench(TestClient):
@@ -27,7 +44,7 @@ class ConsoleBench(TestClient):
 
     def __init__(self, settings: ConsoleSettings = OPEN, **client: Any) -> None:
         self.door, self.now = FakeDoor(), 0.0
-        self.console = Console(settings, self.door, lambda: self.now)
+        self.console = Console(settings, self.door, lambda: self.now, (HereWorker(), HereWorker()))
         super().__init__(self.console.app, **{"base_url": BASE, "client": ("127.0.0.1", 50000), **client})
 
     def page(self, headers: Any = None, query: str = "") -> Any:
