@@ -1,0 +1,2 @@
+/** @param {any} keys */
+export const openKeys = (keys) => keys;
