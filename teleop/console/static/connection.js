@@ -1,7 +1,7 @@
 // The WebSocket: states in, commands out. A gap of a second in the states means "lost": everything is gray, every stick is
 // released, and the page comes back as a watcher.
 import { batch, signal } from "./vendor/preact/preact.min.js";
-import { hello, link, merged, notify, roundTrip, show, state } from "./store.js";
+import { hello, link, merged, notify, roundTrip, show } from "./store.js";
 
 const GAP = 1000; // ms without a state until the connection counts as lost
 const PING = 500, WINDOW = 10_000; // ms between two pings, and of those that the shown round trip is of

@@ -1,2 +1,157 @@
-/** @param {any} keys */
-export const openKeys = (keys) => keys;
+// The open move: its keyframes as they are edited, undo and redo, and the plan that the server makes of them.
+import { batch, computed, signal } from "../vendor/preact/preact.min.js";
+import { chosen, listMoves, request, urlOf } from "../moves.js";
+import { notify } from "../store.js";
+
+/**
+ * @typedef {Object<string, any> & {at: number, hold?: number}} Keyframe positions by axis beside `at` and `hold`, in s
+ * @typedef {{name: string, title: string, keyframes: Keyframe[], cues: {at: number, name: string}[], fixed: string}} Doc
+ *   `fixed` is why its keys cannot be edited, "" when they can
+ * @typedef {{times: number[], position: number[], velocity?: number[], limits: (number|null)[]}} Curve
+ * @typedef {{axis: string, first: number, last: number, shortest: number|null, text: string}} Problem keys are counted from 1
+ * @typedef {{duration: number, axes: Object<string, Curve>, problems: Problem[], warnings: string[], cues: {at: number, name: string}[], max_speed?: number}} Plan
+ */
+const MOST_UNDO = 200;
+const LEAST_GAP = 0.05; // s between two keys
+
+/** @type {import("../vendor/preact/preact.min.js").Signal<Doc|null>} */
+export const doc = signal(null);
+/** @type {import("../vendor/preact/preact.min.js").Signal<Plan|null>} */
+export const plan = signal(null);
+export const planning = signal(false);
+const past = signal(/** @type {Doc[]} */ ([])), future = signal(/** @type {Doc[]} */ ([]));
+const saved = signal(/** @type {Doc|null} */ (null));
+export const canUndo = computed(() => past.value.length > 0), canRedo = computed(() => future.value.length > 0);
+export const unsaved = computed(() => doc.value !== null && doc.value !== saved.value);
+/** The number of the key that the table and the curves show as selected, from 1; 0 for none. */
+export const selected = signal(0);
+export const axis = signal("pan");
+
+/** @param {Doc} next @param {boolean} asSaved */
+function show(next, asSaved) {
+  batch(() => {
+    doc.value = next;
+    if (asSaved) saved.value = next;
+    past.value = [];
+    future.value = [];
+    plan.value = null;
+    selected.value = 0;
+  });
+  makePlan();
+}
+
+/** @param {string} name */
+export async function open(name) {
+  const found = await request(urlOf(name));
+  if (!found) return;
+  chosen.value = name;
+  show(read(name, found), true);
+}
+
+/** A new move of the keys from the hand, not in a file until it is saved. @param {Keyframe[]} keyframes */
+export function openKeys(keyframes) {
+  show({ name: "", title: "Keys from the hand", keyframes, cues: [], fixed: "" }, false);
+}
+
+/** @param {string} name @param {any} found @returns {Doc} */
+function read(name, found) {
+  return { name, title: found.title || name, keyframes: found.keyframes ?? [], cues: found.cues ?? [], fixed: found.fixed ?? "" };
+}
+
+/** Changes the keyframes: `change` gets a copy of them. @param {(keyframes: Keyframe[]) => Keyframe[]|void} change */
+export function edit(change) {
+  const old = doc.peek();
+  if (!old || old.fixed) return;
+  const keyframes = old.keyframes.map((key) => ({ ...key }));
+  const next = { ...old, keyframes: change(keyframes) ?? keyframes };
+  batch(() => {
+    past.value = [...past.value.slice(1 - MOST_UNDO), old];
+    future.value = [];
+    doc.value = next;
+  });
+  makePlan();
+}
+
+/** @param {typeof past} from @param {typeof past} to */
+function step(from, to) {
+  const old = doc.peek(), next = from.peek().at(-1);
+  if (!old || !next) return;
+  batch(() => {
+    from.value = from.value.slice(0, -1);
+    to.value = [...to.value, old];
+    doc.value = next;
+  });
+  makePlan();
+}
+export const undo = () => step(past, future);
+export const redo = () => step(future, past);
+
+let asked = 0;
+/** Asks the planner; the answer to an older question is dropped. */
+async function makePlan() {
+  const number = ++asked, now = doc.peek();
+  if (!now) return;
+  planning.value = true;
+  const found = await request("/api/plan", { method: "POST", body: { name: now.name, title: now.title, keyframes: now.keyframes } });
+  if (number !== asked) return;
+  batch(() => {
+    planning.value = false;
+    if (found) plan.value = found;
+  });
+}
+
+/** @param {string} name */
+export async function save(name) {
+  const now = doc.peek();
+  if (!now) return false;
+  const answer = await request(urlOf(name), { method: "PUT", body: { title: now.title, keyframes: now.keyframes } });
+  if (!answer) return false;
+  batch(() => {
+    const named = { ...now, name };
+    doc.value = saved.value = named;
+    chosen.value = name;
+  });
+  notify(`${name} saved`);
+  listMoves();
+  return true;
+}
+
+/** Where a key may be in time: between its neighbors. @param {number} index @returns {[number, number]} */
+export function room(index) {
+  const keys = /** @type {Doc} */ (doc.peek()).keyframes, before = keys[index - 1], after = keys[index + 1];
+  return [before ? before.at + (before.hold ?? 0) + LEAST_GAP : 0, after ? after.at - (keys[index].hold ?? 0) - LEAST_GAP : 86_400];
+}
+
+/** Later keys and cues move on, so that a problem's segment has the time that it needs. @param {Problem} problem */
+export function stretch({ first, last, shortest }) {
+  edit((keys) => {
+    const from = keys[first - 1], to = keys[last - 1];
+    if (!from || !to || shortest === null) return;
+    const more = from.at + (from.hold ?? 0) + shortest - to.at;
+    for (const key of keys.slice(last - 1)) key.at = Math.ceil((key.at + more) * 1000 - 1e-6) / 1000;
+  });
+}
+
+/** A key at a time, where the plan is then. @param {number} at */
+export function insert(at) {
+  const positions = positionsAt(at);
+  edit((keys) => [...keys, { at: Math.round(at * 100) / 100, ...positions }].sort((a, b) => a.at - b.at));
+}
+
+/** @param {number} at @returns {Object<string, number>} */
+export function positionsAt(at) {
+  const curves = plan.peek()?.axes ?? {};
+  return Object.fromEntries(Object.entries(curves).map(([name, curve]) => [name, Math.round(valueAt(curve, at) * 1000) / 1000]));
+}
+
+/** @param {Curve} curve @param {number} at */
+export function valueAt({ times, position }, at) {
+  let low = 0, high = times.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= at) low = middle;
+    else high = middle;
+  }
+  const span = times[high] - times[low], share = span > 0 ? Math.min(Math.max((at - times[low]) / span, 0), 1) : 1;
+  return position[low] + share * (position[high] - position[low]);
+}
