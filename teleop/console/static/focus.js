@@ -16,7 +16,7 @@ export function FocusCard() {
   const own = useSignal(/** @type {Object<string, number>} */ (JSON.parse(localStorage.getItem(KEPT) ?? "{}")));
   const axis = state.value?.axes.focus;
   if (!axis) return null;
-  const low = axis.minimum ?? 0, high = axis.maximum ?? 1, now = axis.measured ?? axis.commanded;
+  const low = axis.minimum ?? 0, high = axis.maximum ?? 1, now = axis.measured ?? axis.commanded ?? low;
   const marks = known(own.value), at = (/** @type {number} */ value) => `${(100 * (value - low)) / (high - low)}%`;
   const set = (/** @type {string} */ name) => {
     own.value = { ...own.value, [name]: Math.round(now * 1000) / 1000 };

@@ -13,6 +13,7 @@ import { Transport } from "./transport.js";
 
 const ranges = part((s) => s.ranges, []), range = part((s) => s.range, 0), follow = part((s) => s.follow, "");
 const recording = part((s) => s.recording, false), camera = part((s) => s.camera, false);
+const newest = part((s) => s.messages?.[0]?.text ?? "", "");
 const MODES = ["lock", "yaw", "sport"];
 /** s within which a jog of so many units has to be done; the rig may need longer and then stops short */
 const JOGS = [[0.1, 0.5], [1, 1], [10, 3]];
@@ -83,5 +84,6 @@ function StickCard() {
       onClick=${() => command(recording.value ? "stop_recording" : "record")}><i aria-hidden="true"></i>${recording.value ? "Stop recording" : "Record"}</button>
     <button disabled=${!mine.value || !fresh.value} onClick=${() => command("shutter")}>Shutter</button>`}
     <${StickState} />
+    ${newest.value && html`<p class="newest" role="log" aria-label="Newest message">${newest.value}</p>`}
   </section>`;
 }

@@ -22,15 +22,15 @@ export function Transport({ compact = false, open, blocked = "" }) {
   const start = () => command("play", { move: what, preroll: wait.value, passes: passes.value, loop: loop.value });
   return html`<section class="card transport"><h2>${now ? now.title : "Transport"} <span>${phase(now)}</span></h2>
     <div class="row">
-      <button class="icon" disabled=${off || !playing} aria-label="To the start" onClick=${() => command("to_start")}><${Icon} name="start" /></button>
-      <button class="icon" disabled=${off || !playing} aria-label="Previous key" onClick=${() => command("previous_key")}><${Icon} name="previous" /></button>
+      <button class="icon" disabled=${off || !paused} title="while paused" aria-label="To the start" onClick=${() => command("to_start")}><${Icon} name="start" /></button>
+      <button class="icon" disabled=${off || !paused} title="while paused" aria-label="Previous key" onClick=${() => command("previous_key")}><${Icon} name="previous" /></button>
       <button class="icon play" data-testid="play" disabled=${off || playing || none || !!blocked} aria-label=${`Play ${what}`} title=${blocked || undefined} onClick=${start}><${Icon} name="play" /></button>
       <button class="icon pause ${paused ? "on" : ""}" data-testid="pause" disabled=${off || !playing} aria-label=${paused ? "Resume" : "Pause"}
         onClick=${() => command(paused ? "resume" : "pause")}><${Icon} name=${paused ? "resume" : "pause"} /></button>
-      <button class="icon" disabled=${off || !playing} aria-label="Next key" onClick=${() => command("next_key")}><${Icon} name="next" /></button>
+      <button class="icon" disabled=${off || !paused} title="while paused" aria-label="Next key" onClick=${() => command("next_key")}><${Icon} name="next" /></button>
       <button class="icon" disabled=${!fresh.value || !mine.value || !playing} aria-label="End the move" onClick=${() => command("abort")}><${Icon} name="stop" /></button>
-      <progress max=${now?.duration || 1} value=${now ? Math.max(now.at, 0) : 0} aria-label="Progress of the move"></progress>
-      <output class="time">${now ? clock(now.at) : "00:00.00"}</output>
+      <progress max=${now?.duration || 1} value=${now ? Math.max(now.at ?? 0, 0) : 0} aria-label="Progress of the move"></progress>
+      <output class="time">${now ? clock(now.at ?? 0) : "00:00.00"}</output>
     </div>
     <div class="row options">
       ${!open && html`<label>Plays <select value=${what} onChange=${(/** @type {any} */ e) => (chosen.value = e.target.value)}>
@@ -55,9 +55,9 @@ const speeds = (now) => [...new Set([...SPEEDS.filter((share) => share <= (now?.
 /** @param {import("./types.js").MoveState|null} now */
 function phase(now) {
   if (!now) return "";
-  if (now.phase === "preroll" && now.countdown) return `starts in ${Math.ceil(now.countdown)} s`;
-  const pass = now.passes > 1 || now.loop ? `, pass ${now.pass}${now.loop ? "" : ` of ${now.passes}`}` : "";
-  return `${now.phase}${now.key ? `, key ${now.key} of ${now.keys}` : ""}${pass}`;
+  if (now.phase === "preroll" && (now.at ?? 0) < 0) return `starts in ${Math.ceil(-(now.at ?? 0))} s`;
+  const pass = now.passes === 1 ? "" : `, pass ${now.pass}${now.passes ? ` of ${now.passes}` : ""}`;
+  return `${now.phase}${now.key ? `, key ${now.key} of ${now.keys}` : ""}${pass}${now.why ? `: ${now.why}` : ""}`;
 }
 
 /** @param {{errors: Object<string, number>[]}} props the largest error of each pass, by axis */

@@ -1,10 +1,10 @@
 /**
  * The shapes of what the server sends, as JSDoc types; there is no code in it. docs/reference has them in words.
  *
- * @typedef {{measured: number|null, measured_age_ms: number|null, commanded: number, speed: number, unit: string,
+ * @typedef {{measured: number|null, measured_age_ms: number|null, commanded: number|null, speed: number, unit: string,
  *   minimum: number|null, maximum: number|null, max_speed: number, continuous: boolean, driver: string, expo?: number}} AxisState
- * @typedef {{title: string, name?: string, phase: string, at: number, duration: number, speed: number, max_speed?: number,
- *   key: number|null, keys: number, pass: number, passes: number, loop?: boolean, countdown?: number|null, errors?: Object<string, number>[]}} MoveState
+ * @typedef {{title: string, name?: string, phase: string, at: number|null, duration: number, speed: number, max_speed?: number, why?: string,
+ *   key: number|null, keys: number, pass: number, passes: number|null, errors?: Object<string, number>[]}} MoveState
  * @typedef {{frames_done: number, frames: number, eta: number|null, missed: number, paused: boolean, clip_s?: number,
  *   interval_s?: number, intervals?: number[], battery?: number|null}} ShootState
  * @typedef {Object<string, number|string>} Positions

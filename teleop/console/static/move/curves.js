@@ -32,7 +32,7 @@ export function Curves({ at }) {
     drag.value = null;
     if (moved) edit((keys) => void Object.assign(keys[moved.index], { at: moved.at, [moved.axis]: moved.value }));
   };
-  return html`<div class="curves ${planning.value ? "planning" : ""}" ref=${box}>
+  return html`<div class="curves ${planning.value ? "planning" : ""} ${plan.value?.stale ? "stale" : ""}" ref=${box}>
     ${now && html`<svg width=${size.value.width} height=${size.value.height} role="img" aria-label=${`Curves of ${names.join(", ")}; the keys follow as sliders`}>
       <${Grid} scale=${scale} names=${names} />
       <${Limits} scale=${scale} />
@@ -40,7 +40,7 @@ export function Curves({ at }) {
       ${names.map((name) => html`<${Line} name=${name} scale=${scale} />`)}
       <${Ghost} scale=${scale} drag=${drag.value} />
       ${at !== null && html`<path class="scrub" d=${`M${scale.x(at)} ${ROOM.top}V${scale.height - ROOM.bottom}`} />`}
-      ${playing.value && html`<path class="playhead" d=${`M${scale.x(playing.value.at)} ${ROOM.top - 6}V${scale.height - ROOM.bottom}`} />`}
+      ${typeof playing.value?.at === "number" && html`<path class="playhead" d=${`M${scale.x(playing.value.at)} ${ROOM.top - 6}V${scale.height - ROOM.bottom}`} />`}
     </svg>
     <div class="diamonds">${names.map((name) => now.keyframes.map((key, index) => typeof key[name] === "number" && html`<${Diamond}
       key=${`${name}${index}`} name=${name} index=${index} keyframe=${key} scale=${scale} drag=${drag} drop=${drop} box=${box} />`))}</div>`}
@@ -75,7 +75,7 @@ function Limits({ scale }) {
 }
 
 /** @param {{scale: import("./scale.js").Scale}} props */
-const Cues = ({ scale }) => html`<g class="cues">${(plan.value?.cues ?? doc.value?.cues ?? []).map((cue) => html`<path d=${`M${scale.x(cue.at)} ${ROOM.top}V${scale.height - ROOM.bottom}`} />
+const Cues = ({ scale }) => html`<g class="cues">${(plan.value?.cues ?? []).map((cue) => html`<path d=${`M${scale.x(cue.at)} ${ROOM.top}V${scale.height - ROOM.bottom}`} />
   <text x=${scale.x(cue.at) + (scale.x(cue.at) > scale.width / 2 ? -4 : 4)} y=${ROOM.top + 9} text-anchor=${scale.x(cue.at) > scale.width / 2 ? "end" : "start"}>${cue.name}</text>`)}</g>`;
 
 /** The planned curve, and in red where the rig cannot do it: there, from key to key. @param {{name: string, scale: import("./scale.js").Scale}} props */
@@ -85,7 +85,7 @@ function Line({ name, scale }) {
   const d = curve ? `M${curve.times.map((t, n) => `${scale.x(t).toFixed(1)} ${scale.y(name, curve.position[n]).toFixed(1)}`).join("L")}` : "";
   return html`<g class=${`line stroke-${name} ${chosenAxis.value === name ? "chosen" : ""}`}>
     ${curve && html`<path d=${d} />`}
-    ${bad.map(({ first, last }) => html`<path class="infeasible" d=${straight(keys.slice(first - 1, last), name, scale)} />`)}</g>`;
+    ${bad.map(({ first, last }) => first !== null && last !== null && html`<path class="infeasible" d=${straight(keys.slice(first - 1, last), name, scale)} />`)}</g>`;
 }
 
 /** @param {import("./document.js").Keyframe[]} keys @param {string} name @param {import("./scale.js").Scale} scale */

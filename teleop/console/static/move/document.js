@@ -1,15 +1,17 @@
 // The open move: its keyframes as they are edited, undo and redo, and the plan that the server makes of them.
 import { batch, computed, signal } from "../vendor/preact/preact.min.js";
 import { chosen, listMoves, request, urlOf } from "../moves.js";
+import { contentWith, keyframesOf, planOf, whyFixed } from "./content.js";
 import { notify } from "../store.js";
 
 /**
  * @typedef {Object<string, any> & {at: number, hold?: number}} Keyframe positions by axis beside `at` and `hold`, in s
- * @typedef {{name: string, title: string, keyframes: Keyframe[], cues: {at: number, name: string}[], fixed: string}} Doc
- *   `fixed` is why its keys cannot be edited, "" when they can
- * @typedef {{times: number[], position: number[], velocity?: number[], limits: (number|null)[]}} Curve
- * @typedef {{axis: string, first: number, last: number, shortest: number|null, text: string}} Problem keys are counted from 1
- * @typedef {{duration: number, axes: Object<string, Curve>, problems: Problem[], warnings: string[], cues: {at: number, name: string}[], max_speed?: number}} Plan
+ * @typedef {{name: string, title: string, content: any, keyframes: Keyframe[], fixed: string, suggested?: string}} Doc
+ *   `content` is all of the file, `fixed` why its keys cannot be edited, "" when they can
+ * @typedef {{times: number[], position: number[], limits: (number|null)[], peak: number, fastest: number, unit: string}} Curve
+ * @typedef {{axis: string, first: number|null, last: number|null, shortest: number|null, text: string}} Problem keys are counted from 1
+ * @typedef {{duration: number, axes: Object<string, Curve>, problems: Problem[], warnings: string[], cues: {at: number, name: string}[],
+ *   keys: {number: number, at: number, hold: number, axes: Object<string, number>}[], stale: boolean}} Plan `stale`: its curves are older than the keys
  */
 const MOST_UNDO = 200;
 const LEAST_GAP = 0.05; // s between two keys
@@ -45,18 +47,21 @@ export async function open(name) {
   const found = await request(urlOf(name));
   if (!found) return;
   chosen.value = name;
-  show(read(name, found), true);
+  version = found.version;
+  show(docOf(name, found.content), true);
 }
 
-/** A new move of the keys from the hand, not in a file until it is saved. @param {Keyframe[]} keyframes */
-export function openKeys(keyframes) {
-  show({ name: "", title: "Keys from the hand", keyframes, cues: [], fixed: "" }, false);
+/** A new move, in no file until it is saved. @param {any} content @param {string} [name] */
+export function openNew(content, name = "") {
+  version = undefined;
+  show({ ...docOf("", content), suggested: name }, false);
 }
 
-/** @param {string} name @param {any} found @returns {Doc} */
-function read(name, found) {
-  return { name, title: found.title || name, keyframes: found.keyframes ?? [], cues: found.cues ?? [], fixed: found.fixed ?? "" };
-}
+/** A move of the keys from the hand. @param {Keyframe[]} keyframes */
+export const openKeys = (keyframes) => openNew({ title: "Keys from the hand", keyframes });
+
+/** @param {string} name @param {any} content @returns {Doc} */
+const docOf = (name, content) => ({ name, title: content?.title || name, content, keyframes: keyframesOf(content), fixed: whyFixed(content) });
 
 /** Changes the keyframes: `change` gets a copy of them. @param {(keyframes: Keyframe[]) => Keyframe[]|void} change */
 export function edit(change) {
@@ -87,16 +92,22 @@ export const undo = () => step(past, future);
 export const redo = () => step(future, past);
 
 let asked = 0;
+/** Of the file as it was read, so that nobody's later changes are overwritten. @type {string|undefined} */
+let version;
+
+/** The values of the file as they are now. @param {Doc} now */
+const contentOf = (now) => (now.fixed ? now.content : contentWith(now.content, now.keyframes));
+
 /** Asks the planner; the answer to an older question is dropped. */
 async function makePlan() {
   const number = ++asked, now = doc.peek();
   if (!now) return;
   planning.value = true;
-  const found = await request("/api/plan", { method: "POST", body: { name: now.name, title: now.title, keyframes: now.keyframes } });
+  const found = await request("/api/plan", { method: "POST", body: now.content ? { content: contentOf(now) } : { move: now.name } });
   if (number !== asked) return;
   batch(() => {
     planning.value = false;
-    if (found) plan.value = found;
+    if (found) plan.value = planOf(found, plan.peek());
   });
 }
 
@@ -104,8 +115,9 @@ async function makePlan() {
 export async function save(name) {
   const now = doc.peek();
   if (!now) return false;
-  const answer = await request(urlOf(name), { method: "PUT", body: { title: now.title, keyframes: now.keyframes } });
+  const answer = await request(urlOf(name), { method: "PUT", body: { content: contentOf(now), ...(version ? { version } : {}) } });
   if (!answer) return false;
+  version = answer.version;
   batch(() => {
     const named = { ...now, name };
     doc.value = saved.value = named;
@@ -125,8 +137,8 @@ export function room(index) {
 /** Later keys and cues move on, so that a problem's segment has the time that it needs. @param {Problem} problem */
 export function stretch({ first, last, shortest }) {
   edit((keys) => {
-    const from = keys[first - 1], to = keys[last - 1];
-    if (!from || !to || shortest === null) return;
+    const from = keys[(first ?? 0) - 1], to = keys[(last ?? 0) - 1];
+    if (!from || !to || last === null || shortest === null) return;
     const more = from.at + (from.hold ?? 0) + shortest - to.at;
     for (const key of keys.slice(last - 1)) key.at = Math.ceil((key.at + more) * 1000 - 1e-6) / 1000;
   });

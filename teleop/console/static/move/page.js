@@ -31,6 +31,7 @@ export function Move() {
 
 function Head() {
   const now = doc.value, name = useSignal("");
+  useEffect(() => void (name.value = doc.peek()?.suggested ?? ""), [now?.suggested]);
   const store = () => {
     const called = now?.name || name.value.trim();
     if (called) save(called);
@@ -38,7 +39,7 @@ function Head() {
   };
   return html`<section class="card head" aria-label="File">
     <label>Move <select value=${now?.name ?? ""} onChange=${(/** @type {any} */ e) => e.target.value && open(e.target.value)}>
-      ${!now?.name && html`<option value="">${now ? "new: keys from the hand" : "none"}</option>`}
+      ${!now?.name && html`<option value="">${now ? "new, in no file yet" : "none"}</option>`}
       ${moves.value.map((each) => html`<option value=${each.name}>${each.name}${each.shipped ? " (shipped)" : ""}</option>`)}</select></label>
     <b class="title">${now?.title ?? ""}</b><span class="state">${planning.value ? "planning" : unsaved.value ? "not saved" : ""}</span>
     <span class="row end">
@@ -54,7 +55,7 @@ const Axes = () => html`<div class="axis-tabs" role="group" aria-label="Axis in 
 
 /** @param {{at: {value: number|null}}} props */
 function Scrubber({ at }) {
-  const end = plan.value?.duration ?? 0, time = at.value ?? 0, seconds = useSignal(3);
+  const end = plan.value?.stale ? 0 : (plan.value?.duration ?? 0), time = at.value ?? 0, seconds = useSignal(3);
   const go = () => command("goto", { axes: positionsAt(time), seconds: seconds.value });
   const keys = (/** @type {KeyboardEvent} */ event) => event.key !== "Tab" && event.key !== " " && event.stopPropagation();
   return html`<div class="scrubber"><input type="range" min="0" max=${end || 1} step="0.01" value=${time} disabled=${!end} aria-label="Scrub the move" aria-valuetext=${`${short(time, 2)} s`}
@@ -69,6 +70,6 @@ function Problems() {
   const { problems = [], warnings = [] } = plan.value ?? {};
   if (!problems.length && !warnings.length) return null;
   return html`<ul class="problems" aria-label="What the rig cannot do">
-    ${problems.map((problem) => html`<li class="bad"><span>${problem.text}</span>${problem.shortest !== null && html`<button class="small" onClick=${() => stretch(problem)}>Stretch to ${short(problem.shortest)} s</button>`}</li>`)}
+    ${problems.map((problem) => html`<li class="bad"><span>${problem.text}</span>${problem.shortest !== null && problem.first !== null && html`<button class="small" onClick=${() => stretch(problem)}>Stretch to ${short(problem.shortest)} s</button>`}</li>`)}
     ${warnings.map((text) => html`<li class="warn"><span>${text}</span></li>`)}</ul>`;
 }

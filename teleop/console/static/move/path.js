@@ -13,7 +13,7 @@ export function PathView({ at }) {
   if (!curves || !(curves.pan || curves.tilt) || !doc.value) return html`<section class="card path"><h2>Path</h2></section>`;
   const end = plan.value?.duration ?? 1, aim = (/** @type {number} */ t) => [curves.pan ? valueAt(curves.pan, t) : 0, curves.tilt ? valueAt(curves.tilt, t) : 0];
   const points = Array.from({ length: MOST + 1 }, (_, n) => aim((end * n) / MOST));
-  const stops = doc.value.keyframes.map((key) => aim(key.at)), here = aim(at ?? 0);
+  const stops = doc.value.keyframes.map((key) => key.at).map(aim), here = aim(at ?? 0);
   const [left, right] = ends(points.map(([pan]) => pan), fov[0]), [low, high] = ends(points.map(([, tilt]) => tilt), fov[1]);
   const unit = Math.max(right - left, high - low) / 100, text = (/** @type {number[]} */ [pan, tilt]) => `${pan.toFixed(2)} ${(-tilt).toFixed(2)}`;
   const frame = (/** @type {number[]} */ [pan, tilt], name = "") => html`<rect class=${name} x=${pan - fov[0] / 2} y=${-tilt - fov[1] / 2} width=${fov[0]} height=${fov[1]} />`;

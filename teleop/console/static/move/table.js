@@ -18,7 +18,7 @@ export function KeyTable() {
 
 /** @param {{keyframe: import("./document.js").Keyframe, index: number, names: string[], off: boolean}} props */
 function Row({ keyframe, index, names, off }) {
-  const number = index + 1, bad = new Set((plan.value?.problems ?? []).filter(({ first, last }) => number >= first && number <= last).map((problem) => problem.axis));
+  const number = index + 1, bad = new Set((plan.value?.problems ?? []).filter(({ first, last }) => first !== null && last !== null && number >= first && number <= last).map((problem) => problem.axis));
   const set = (/** @type {string} */ name, /** @type {any} */ value) => edit((keys) => {
     if (value === null) delete keys[index][name];
     else keys[index][name] = value;
