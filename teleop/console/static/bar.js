@@ -60,12 +60,12 @@ function Health() {
   const late = age.value !== null && age.value > 250;
   const trip = roundTrip.value;
   return html`
-    ${Object.entries(links.value).map(([name, each]) => html`<${Chip} tone=${each.ok ? "good" : "bad"} name=${name}>${each.ok ? milliseconds(each.age_ms) : "no answer"}<//>`)}
-    ${inputs.value.map((each) => html`<${Chip} tone=${each.trouble ? "bad" : each.waits_for ? "warn" : "good"} name=${each.name}
-      title=${each.trouble || each.waits_for}>${each.trouble || each.waits_for || (each.drives.length ? each.drives.join(", ") : "ready")}<//>`)}
     <${Chip} tone=${late ? "bad" : "good"} name="Age" testid="age">${fresh.value ? milliseconds(age.value) : "--"}<//>
     <${Chip} tone=${trip.median === null ? "" : trip.median > 150 ? "warn" : "good"} name="Round trip" title="median and worst of the last 10 s">
       ${milliseconds(trip.median)} / ${milliseconds(trip.worst)}<//>
+    ${Object.entries(links.value).map(([name, each]) => html`<${Chip} tone=${each.ok ? "good" : "bad"} name=${name}>${each.ok ? milliseconds(each.age_ms) : "no answer"}<//>`)}
+    ${inputs.value.map((each) => html`<${Chip} tone=${each.trouble ? "bad" : each.waits_for ? "warn" : "good"} name=${each.name}
+      title=${each.trouble || each.waits_for}>${each.trouble || each.waits_for || (each.drives.length ? each.drives.join(", ") : "ready")}<//>`)}
     <${Chip} tone=${missed.value ? "warn" : ""} name="Missed">${missed.value}<//>
     ${camera.value && html`<${Chip} tone=${recording.value ? "rec" : ""} name="REC">${recording.value ? minutes(recordingTime.value) : "off"}<//>`}`;
 }

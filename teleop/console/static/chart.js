@@ -36,15 +36,16 @@ onLost(clear);
 
 /** @param {number} width @param {number} height */
 function options(width, height) {
-  const axis = { stroke: MUTED, grid: { stroke: GRID, width: 1 }, ticks: { show: false }, font: "12px system-ui, sans-serif" };
+  const rem = parseFloat(getComputedStyle(document.documentElement).fontSize), letter = Math.round(0.75 * rem);
+  const axis = { stroke: MUTED, grid: { stroke: GRID, width: 1 }, ticks: { show: false }, font: `${letter}px system-ui, sans-serif` };
   const ink = (/** @type {string} */ name) => INK[/** @type {"pan"} */ (name)] ?? "#e9ecef";
   const scale = (/** @type {string} */ name) => (state.peek()?.axes[name]?.unit === "deg" ? "y" : "share");
   return {
     width, height, padding: [8, 12, 0, 0], legend: { show: false }, cursor: { show: false }, select: { show: false },
     scales: { x: { time: false, range: () => [-SPAN, 0] }, y: { range: around }, share: { range: [-0.05, 1.05] } },
     axes: [
-      { ...axis, size: 26, values: (/** @type {any} */ _, /** @type {number[]} */ ticks) => ticks.map((t) => (t ? `${t} s` : "now")) },
-      { ...axis, size: 46, scale: "y", values: (/** @type {any} */ _, /** @type {number[]} */ ticks) => ticks.map((t) => `${t}°`) },
+      { ...axis, size: 2.2 * letter, space: 5 * letter, values: (/** @type {any} */ _, /** @type {number[]} */ ticks) => ticks.map((t) => (t ? `${t} s` : "now")) },
+      { ...axis, size: 3.8 * letter, space: 3 * letter, scale: "y", values: (/** @type {any} */ _, /** @type {number[]} */ ticks) => ticks.map((t) => `${t}°`) },
     ],
     series: [{}, ...axes.peek().flatMap((name) => [
       { scale: scale(name), stroke: ink(name), width: 1, alpha: 0.45, dash: [4, 4], points: { show: false } },

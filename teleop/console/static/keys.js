@@ -3,6 +3,7 @@ import { html } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
 import { axes, fresh, mine, part, tab } from "./store.js";
 import { short } from "./format.js";
+import { chosen } from "./moves.js";
 import { openKeys } from "./move/document.js";
 
 const EVEN = 4; // s between two keys until they are dragged
@@ -10,6 +11,10 @@ export const keys = part((s) => s.keys, []);
 
 export function Keys() {
   const list = keys.value, off = !fresh.value || !mine.value;
+  const set = () => {
+    chosen.value = ""; // Play is about the keys now
+    command("set_key");
+  };
   const edit = () => {
     openKeys(list.map((key, n) => ({ at: n * EVEN, ...key })));
     tab.value = "move";
@@ -20,7 +25,7 @@ export function Keys() {
       <tbody>${list.map((key, n) => html`<tr><th scope="row">${n + 1}</th>${axes.value.map((name) => html`<td>${key[name] === undefined ? "" : short(key[name], name === "focus" ? 3 : 2)}</td>`)}
         <td><button class="small" disabled=${off} aria-label=${`Delete key ${n + 1}`} onClick=${() => command("delete_key", { number: n + 1 })}>×</button></td></tr>`)}</tbody></table></div>`}
     <div class="row">
-      <button class="primary" data-testid="set-key" disabled=${off} onClick=${() => command("set_key")}>Set key</button>
+      <button class="primary" data-testid="set-key" disabled=${off} onClick=${set}>Set key</button>
       <button disabled=${list.length < 2} onClick=${edit}>Edit as a move</button>
       <button disabled=${off || !list.length} onClick=${() => command("clear_keys")}>Clear keys</button>
     </div>

@@ -1,5 +1,5 @@
 // The moves, takes and plans that the server has: requests and answers, and which move is chosen.
-import { signal } from "./vendor/preact/preact.min.js";
+import { computed, signal } from "./vendor/preact/preact.min.js";
 import { notify } from "./store.js";
 
 /** @typedef {{name: string, title?: string, shipped?: boolean, kind?: string, problem?: string}} MoveName */
@@ -26,6 +26,11 @@ export async function request(path, { method = "GET", body, quiet = false } = {}
   }
   return null;
 }
+
+/** Moves that play; timelapses are shot. */
+export const playable = computed(() => moves.value.filter((each) => each.kind !== "timelapse" && !each.problem));
+/** What is open or plays where nothing was chosen: a file of the folder before a shipped move. */
+export const preferred = computed(() => chosen.value || (playable.value.find((each) => !each.shipped) ?? playable.value.find((each) => each.name === "reveal") ?? playable.value[0])?.name || "");
 
 /** @param {string} name */
 export const urlOf = (name) => `/api/moves/${encodeURIComponent(name)}`;

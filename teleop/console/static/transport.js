@@ -4,15 +4,15 @@ import { command } from "./connection.js";
 import { able, fresh, mine, part } from "./store.js";
 import { clock, short } from "./format.js";
 import { Icon } from "./icons.js";
-import { chosen, moves } from "./moves.js";
+import { chosen, playable, preferred } from "./moves.js";
 import { keys } from "./keys.js";
 
 const move = part((s) => s.move, null);
 const SPEEDS = [0.25, 0.5, 0.75, 1, 1.5, 2];
 export const preroll = { key: "teleop.preroll" };
 
-/** What play starts: a move that was chosen, else the keys from the hand where there are two, else the first move. @param {string} [open] */
-export const toPlay = (open) => open ?? (chosen.value || (keys.value.length > 1 ? "keys" : (moves.value[0]?.name ?? "keys")));
+/** What play starts: a move that was chosen, else the keys from the hand where there are two, else a move of the folder. @param {string} [open] */
+export const toPlay = (open) => open ?? (chosen.value || (keys.value.length > 1 ? "keys" : preferred.value || "keys"));
 
 /** @param {{compact?: boolean, open?: string, blocked?: string}} props `open` is the move that the editor has, `blocked` why it cannot play */
 export function Transport({ compact = false, open, blocked = "" }) {
@@ -34,7 +34,7 @@ export function Transport({ compact = false, open, blocked = "" }) {
     </div>
     <div class="row options">
       ${!open && html`<label>Plays <select value=${what} onChange=${(/** @type {any} */ e) => (chosen.value = e.target.value)}>
-        <option value="keys">keys from the hand</option>${moves.value.map((each) => html`<option value=${each.name}>${each.name}</option>`)}</select></label>`}
+        <option value="keys">keys from the hand</option>${playable.value.map((each) => html`<option value=${each.name}>${each.name}</option>`)}</select></label>`}
       <label>Speed <select value=${String(now?.speed ?? 1)} disabled=${off || !playing} onChange=${(/** @type {any} */ e) => command("speed", { share: Number(e.target.value) })}>
         ${speeds(now).map((share) => html`<option value=${String(share)}>${Math.round(100 * share)} %</option>`)}</select></label>
       <label>Preroll <input type="number" min="0" max="60" step="1" value=${wait.value} onChange=${(/** @type {any} */ e) => {

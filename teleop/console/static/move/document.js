@@ -42,11 +42,11 @@ function show(next, asSaved) {
   makePlan();
 }
 
-/** @param {string} name */
-export async function open(name) {
+/** Opens a move of the folder. One that was picked is also what Play starts on the Live page. @param {string} name @param {boolean} [picked] */
+export async function open(name, picked = false) {
   const found = await request(urlOf(name));
   if (!found) return;
-  chosen.value = name;
+  if (picked) chosen.value = name;
   version = found.version;
   show(docOf(name, found.content), true);
 }

@@ -4,7 +4,7 @@ import { command } from "../connection.js";
 import { able, notify } from "../store.js";
 import { clock, short } from "../format.js";
 import { Icon } from "../icons.js";
-import { chosen, listMoves, moves } from "../moves.js";
+import { listMoves, moves, preferred } from "../moves.js";
 import { Transport } from "../transport.js";
 import { axis, canRedo, canUndo, doc, insert, open, plan, planning, positionsAt, redo, save, stretch, undo, unsaved } from "./document.js";
 import { axesOfMove, Curves } from "./curves.js";
@@ -15,7 +15,7 @@ export function Move() {
   const at = useSignal(/** @type {number|null} */ (null));
   useEffect(() => {
     listMoves().then(() => {
-      const first = chosen.peek() || moves.peek()[0]?.name;
+      const first = preferred.peek();
       if (!doc.peek() && first && first !== "keys") open(first);
     });
   }, []);
@@ -25,7 +25,7 @@ export function Move() {
     <div class="editor card"><${Axes} /><${Curves} at=${at.value} /><${Scrubber} at=${at} /><${Problems} /></div>
     <${PathView} at=${at.value} />
     <section class="card numbers"><h2>Keys <span>${now ? `${now.keyframes.length} keys, ${short(plan.value?.duration ?? 0, 2)} s` : ""}</span></h2>${now?.fixed && html`<p class="waits">${now.fixed}</p>`}<${KeyTable} /></section>
-    <${Transport} open=${now?.name || "keys"} blocked=${now && unsaved.value ? "save the move to play it" : ""} />
+    <${Transport} open=${now?.name || "keys"} blocked=${why(now)} />
   </main>`;
 }
 
@@ -38,7 +38,7 @@ function Head() {
     else notify("give the new move a name first", "error");
   };
   return html`<section class="card head" aria-label="File">
-    <label>Move <select value=${now?.name ?? ""} onChange=${(/** @type {any} */ e) => e.target.value && open(e.target.value)}>
+    <label>Move <select value=${now?.name ?? ""} onChange=${(/** @type {any} */ e) => e.target.value && open(e.target.value, true)}>
       ${!now?.name && html`<option value="">${now ? "new, in no file yet" : "none"}</option>`}
       ${moves.value.map((each) => html`<option value=${each.name}>${each.name}${each.shipped ? " (shipped)" : ""}</option>`)}</select></label>
     <b class="title">${now?.title ?? ""}</b><span class="state">${planning.value ? "planning" : unsaved.value ? "not saved" : ""}</span>
@@ -72,4 +72,10 @@ function Problems() {
   return html`<ul class="problems" aria-label="What the rig cannot do">
     ${problems.map((problem) => html`<li class="bad"><span>${problem.text}</span>${problem.shortest !== null && problem.first !== null && html`<button class="small" onClick=${() => stretch(problem)}>Stretch to ${short(problem.shortest)} s</button>`}</li>`)}
     ${warnings.map((text) => html`<li class="warn"><span>${text}</span></li>`)}</ul>`;
+}
+
+/** Why the open move cannot play. @param {import("./document.js").Doc|null} now */
+function why(now) {
+  if (now?.content?.timelapse) return "a timelapse is shot on the Shoot page";
+  return now && unsaved.value ? "save the move to play it" : "";
 }

@@ -15,6 +15,12 @@ export function PathView({ at }) {
   const points = Array.from({ length: MOST + 1 }, (_, n) => aim((end * n) / MOST));
   const stops = doc.value.keyframes.map((key) => key.at).map(aim), here = aim(at ?? 0);
   const [left, right] = ends(points.map(([pan]) => pan), fov[0]), [low, high] = ends(points.map(([, tilt]) => tilt), fov[1]);
+  /** @type {Map<string, {at: number[], numbers: number[]}>} */
+  const marks = new Map();
+  stops.forEach((stop, n) => {
+    const spot = stop.map((value) => value.toFixed(0)).join();
+    marks.set(spot, { at: stop, numbers: [...(marks.get(spot)?.numbers ?? []), n + 1] });
+  });
   const unit = Math.max(right - left, high - low) / 100, text = (/** @type {number[]} */ [pan, tilt]) => `${pan.toFixed(2)} ${(-tilt).toFixed(2)}`;
   const frame = (/** @type {number[]} */ [pan, tilt], name = "") => html`<rect class=${name} x=${pan - fov[0] / 2} y=${-tilt - fov[1] / 2} width=${fov[0]} height=${fov[1]} />`;
   const now = measured.value;
@@ -23,7 +29,8 @@ export function PathView({ at }) {
       <path class="axis-lines" d=${`M${left} 0H${right}M0 ${-low}V${-high}`} />
       ${stops.map((stop) => frame(stop, "frame"))}${frame(here, "frame now")}
       <path class="way" d=${`M${points.map(text).join("L")}`} />
-      ${stops.map(([pan, tilt], n) => html`<circle class=${selected.value === n + 1 ? "stop selected" : "stop"} cx=${pan} cy=${-tilt} r=${1.6 * unit} /><text x=${pan + 2.4 * unit} y=${-tilt - 1.6 * unit} font-size=${5 * unit}>${n + 1}</text>`)}
+      ${stops.map(([pan, tilt], n) => html`<circle class=${selected.value === n + 1 ? "stop selected" : "stop"} cx=${pan} cy=${-tilt} r=${1.6 * unit} />`)}
+      ${[...marks.values()].map(({ at: [pan, tilt], numbers }) => html`<text x=${pan + 2.4 * unit} y=${-tilt - 1.6 * unit} font-size=${5 * unit}>${numbers.join(", ")}</text>`)}
       ${now[0] !== null && html`<circle class="measured" cx=${now[0]} cy=${-(now[1] ?? 0)} r=${1.8 * unit} />`}
     </svg></section>`;
 }
