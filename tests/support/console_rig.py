@@ -38,6 +38,7 @@ class ConsoleRig:
         }  # fmt: skip
         self.frozen: float | None = None  # the loop's time of a rig that stands still for a picture
         self.age_ms = 4.0
+        self.quiet = False  # sends no states
 
     def turn(self, seconds: float) -> None:
         alive = time.monotonic() - self.stick_time < DEAD_MAN
@@ -74,7 +75,8 @@ class ConsoleRig:
     async def states(self) -> AsyncIterator[dict[str, Any]]:
         while True:
             await asyncio.sleep(1 / 30)
-            yield self.state()
+            if not self.quiet:
+                yield self.state()
 
     async def run(self) -> None:
         while True:

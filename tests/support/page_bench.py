@@ -58,7 +58,7 @@ class PageServer:
 
     def anew(self) -> ConsoleRig:
         """The rig as it was at first, with no command and no stick yet."""
-        self.rig.__dict__.update(ConsoleRig().__dict__)
+        self.rig.__dict__ = ConsoleRig().__dict__  # at once: its task goes on meanwhile
         return self.rig
 
 

@@ -11,7 +11,7 @@ const STOP_REPEAT = 100, STOP_LONGEST = 10_000; // ms
 
 /** @type {WebSocket|null} */
 let socket = null;
-let attempts = 0, lastState = 0, nextId = 1;
+let attempts = 0, lastState = 0, lastWatch = 0, nextId = 1;
 /** @type {any} */
 let whole = null;
 /** @type {Map<number, {answer: (a: any) => void, done: (d: any) => void}>} */
@@ -168,14 +168,16 @@ function pong(id) {
   roundTrip.value = { median: sorted[sorted.length >> 1], worst: sorted[sorted.length - 1] };
 }
 
+/** A page that hung or slept is lost too: what it shows is old, and what it held is held no longer. */
 function watch() {
-  const now = performance.now();
-  if (!socket || now - lastState <= GAP) return;
-  lose();
+  const now = performance.now(), slept = now - lastWatch > GAP && !document.hidden;
+  lastWatch = now;
+  if (socket && (slept || now - lastState > GAP)) lose();
 }
 
 export function start() {
   connect();
+  lastWatch = performance.now();
   setInterval(watch, 100);
   setInterval(() => {
     const id = nextId++;

@@ -5,13 +5,14 @@ import { mine } from "./store.js";
 
 const PERIOD = 20; // ms
 const ZEROS = 3;
+const HUNG = 1000; // ms without a turn after which nobody knows what the hand does: the rig has disarmed it too
 const ENDS = ["blur", "pagehide", "freeze", "orientationchange"];
 
 /** The deflections of each hand, by its name: a touch stick or a gamepad. @type {Map<string, Object<string, number>>} */
 const hands = new Map();
 /** @type {Set<() => void>} */
 const whenReleased = new Set();
-let seq = 0, zerosLeft = 0, timer = 0;
+let seq = 0, zerosLeft = 0, timer = 0, lastTurn = 0;
 /** @type {Object<string, number>} */
 let last = {};
 
@@ -22,6 +23,7 @@ export const onReleased = (fn) => (whenReleased.add(fn), () => whenReleased.dele
 export function hold(name, deflections) {
   hands.set(name, deflections);
   if (!timer) {
+    lastTurn = performance.now();
     timer = window.setInterval(turn, PERIOD);
     turn();
   }
@@ -39,12 +41,15 @@ export function releaseAll() {
   hands.clear();
   if (held) {
     zerosLeft = ZEROS;
-    for (let left = ZEROS; left > 0; left--) turn(); // at once: a hidden page has no timers
+    for (let left = ZEROS; left > 0; left--) turn(); // at once: a hidden page has slow timers
   }
   whenReleased.forEach((fn) => fn());
 }
 
 function turn() {
+  const now = performance.now(), hung = timer && now - lastTurn > HUNG;
+  lastTurn = now;
+  if (hung && hands.size) return releaseAll();
   if (hands.size) {
     zerosLeft = 0;
     /** @type {Object<string, number>} */
