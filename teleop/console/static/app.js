@@ -19,7 +19,7 @@ const PAGES = { live: Live, move: Move, shoot: Shoot, takes: Takes };
 function App() {
   const Page = PAGES[tab.value];
   useEffect(() => {
-    history.replaceState(null, "", `#${tab.value}`);
+    history.replaceState(null, "", `${location.search}#${tab.value}`);
     document.title = `${TABS.find(([id]) => id === tab.value)?.[1]} - teleop console`;
   }, [tab.value]);
   return html`<div class="app link-${link.value}"><${Bar} /><${Banners} /><${Page} /><${Help} /></div>`;

@@ -35,7 +35,8 @@ export const onState = (fn) => (whenState.add(fn), () => whenState.delete(fn));
 
 export function connect() {
   const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-  const mine = (socket = new WebSocket(`${scheme}//${location.host}/ws`));
+  const name = new URLSearchParams(location.search).get("name"); // what others see of this page, else its kind and address
+  const mine = (socket = new WebSocket(`${scheme}//${location.host}/ws${name ? `?name=${encodeURIComponent(name)}` : ""}`));
   lastState = performance.now();
   mine.onmessage = (event) => socket === mine && receive(event.data);
   mine.onclose = () => socket === mine && lose();
