@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 from teleop.app.absent_devices import open_present
 from teleop.app.drone_flight import Aboard, is_flown
@@ -19,10 +20,12 @@ from teleop.app.operator_inputs import open_devices
 from teleop.app.run import RunReport, Screen, Signals, commands, run
 from teleop.app.stop_inputs import open_stop_inputs
 from teleop.app.target_file import TargetFile
-from teleop.config.presets import default_file, read_presets
+from teleop.config.presets import Presets, default_file, read_presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
-from teleop.core.interfaces import Clock, Observer, Sink
+from teleop.core.events import Action, DeviceCommand
+from teleop.core.interfaces import Clock, Observer, Sink, Source
+from teleop.core.operator_input import Input
 from teleop.core.run_status import RunStatus
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.connection import Connection
@@ -37,6 +40,29 @@ from teleop.manual.stop_guard import Relay, StopGuard
 from teleop.manual.target_marks import TargetMarks
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 from teleop.recording.writer import Recorder, recording
+
+
+class Beside(Protocol):
+    """Hands beside those at the rig, outranked by them: inputs, and what drives the axes beneath all inputs."""
+
+    @property
+    def inputs(self) -> Sequence[Input]: ...
+
+    @property
+    def beneath(self) -> Source: ...
+
+    def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits]) -> None: ...
+
+    def attach(self, stack: ExitStack, operator: Operator, presets: Presets, rig: Rig) -> tuple[Observer, Sink]: ...
+
+    def line(self, text: str) -> None:
+        """A line that a device or a link gives the operator."""
+        ...
+
+    def confirmed(self, command: DeviceCommand) -> None: ...
+
+    def camera_answered(self, action: Action, done: bool) -> None: ...
+
 
 NO_INPUT = "live: no joystick and no terminal: plug in a joystick, run it on a terminal, or give --sticks"
 
@@ -72,6 +98,7 @@ class LiveRun:
     take: Path | None = None
     virtual: bool = False
     targets: Path | None = None
+    beside: Beside | None = None
 
     def by_hand(self, make_screen: Callable[[LiveParts], Screen], signals: Signals) -> RunReport:
         """Until the operator or what is recorded ends it. Raises TeleopError for what keeps it from beginning."""
@@ -80,8 +107,9 @@ class LiveRun:
         replay, aboard = None if sticks is None else self.replay(sticks), Aboard()
         with ExitStack() as stack:
             begin = (lambda: math.inf) if replay is None else (lambda: replay.begin)
+            alone = keyboard is not None or self.beside is not None
             inputs, note = open_devices(
-                *(stack, profile, self.clock, keyboard is not None, NO_INPUT, self.recordings, begin, self.virtual)
+                *(stack, profile, self.clock, alone, NO_INPUT, self.recordings, begin, self.virtual)
             )
             damage: list[str] = []
             kept = KeptResponses(profile, damage.append)
@@ -90,9 +118,13 @@ class LiveRun:
             shelf = read_presets(self.presets or default_file(profile.name), limits, profile.name)
             stack.callback(shelf.close)
             own = [*inputs, *([] if keyboard is None else [keyboard])]
+            beneath: Source | None = replay
+            if self.beside is not None:
+                self.beside.open(stack, profile, limits)
+                own, beneath = [*own, *self.beside.inputs], self.beside.beneath
             targets = None if self.targets is None else TargetFile(self.targets)
             marks = None if targets is None else TargetMarks(targets.height, targets.add)
-            operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, replay, marks)
+            operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, beneath, marks)
             if targets is not None:
                 targets.notify = operator.notify
                 stack.callback(targets.close)
@@ -103,6 +135,9 @@ class LiveRun:
             screen = make_screen(LiveParts(limits, operator, rig.connections, recorder, aboard.state))
             observers, sinks = self._watched(rig, axes, operator, lenient=replay is None)
             observers = [*observers, *([] if targets is None else [targets])]
+            if self.beside is not None:
+                observer, sink = self.beside.attach(stack, operator, shelf, rig)
+                observers, sinks = [*observers, observer], [*sinks, sink]
             tracking, stopped = TrackingErrorMonitor(lambda: operator.begin), (lambda: operator.reason)
             return run(rig, axes, [operator], tracking, screen, signals, recorder, observers, sinks, stopped, kept)
 
@@ -157,9 +192,25 @@ class LiveRun:
     def _watched(
         self, rig: Rig, axes: Sequence[Axis], operator: Operator, lenient: bool
     ) -> tuple[Sequence[Observer], Sequence[Sink]]:
-        observers, sinks = commands(rig, axes, operator.notify, operator.confirmed)
-        camera = CameraAnswers(rig.camera, operator.notify, operator.camera_answered, lenient=lenient)
+        beside = self.beside
+        notify = operator.notify if beside is None else both(operator.notify, beside.line)
+        confirmed = operator.confirmed if beside is None else both(operator.confirmed, beside.confirmed)
+        answered = operator.camera_answered
+        if beside is not None:
+            answered = both(answered, beside.camera_answered)
+        observers, sinks = commands(rig, axes, notify, confirmed)
+        camera = CameraAnswers(rig.camera, notify, answered, lenient=lenient)
         return [*observers, camera, *([] if self.keyboard is None else [self.keyboard])], sinks
+
+
+def both(first: Callable[..., object], second: Callable[..., object]) -> Callable[..., object]:
+    """Calls one after the other."""
+
+    def call(*arguments: object) -> None:
+        first(*arguments)
+        second(*arguments)
+
+    return call
 
 
 def _until_end(sticks: Sticks | None, recordings: Sequence[Recording]) -> Sticks:

@@ -15,6 +15,7 @@ from importlib.metadata import version
 from cyclopts import App, CycloptsError, Group
 
 import teleop
+from teleop.cli.console_options import with_console
 from teleop.cli.examples import examples
 from teleop.cli.signals import process
 from teleop.cli.staging_options import joined
@@ -27,6 +28,7 @@ DONE, FAILED, BAD_USAGE, INTERRUPTED = 0, 1, 2, 130
 COMMANDS: Mapping[str, tuple[str, str]] = {
     "play": ("teleop.cli.play:play", "Play a move on a rig."),
     "live": ("teleop.cli.live:live", "Move a rig by joystick, dial and keys."),
+    "console": ("teleop.cli.console:console", "Move a rig from a browser."),
     "check": ("teleop.cli.check:check", "Check a sequence against a rig."),
     "preview": ("teleop.cli.preview:preview", "Draw a sequence as a page, a picture or a table."),
     "list": ("teleop.cli.shipped_files:list_shipped", "List the shipped moves, rigs and pads."),
@@ -95,7 +97,7 @@ def _printable() -> None:
 def run(arguments: Sequence[str]) -> int:
     """Do what was typed; its exit code."""
     debug = "--debug" in arguments  # of every command, those that have no options of their own included
-    arguments = joined([argument for argument in arguments if argument != "--debug"])
+    arguments = with_console(joined([argument for argument in arguments if argument != "--debug"]))
     logging.basicConfig(level=logging.DEBUG if debug else logging.WARNING, format="teleop: %(message)s")
     try:
         return app(arguments, print_error=False, exit_on_error=False, result_action="return_int_as_exit_code_else_zero")

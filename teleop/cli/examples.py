@@ -19,6 +19,11 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "teleop live --rig rs2 --link gimbal=slcan:/dev/ttyACM0",
         "teleop live --sticks recorded.csv --fast",
     ],
+    "console": [
+        "teleop console",
+        "teleop console --rig rs2 --bind 0.0.0.0:8470 --moves shots/",
+        "teleop console --bind 127.0.0.1:0 --json",
+    ],
     "check": ["teleop check reveal", "teleop check ./mine.yaml --rig rs2"],
     "preview": [
         "teleop preview reveal -o move.html",

@@ -73,11 +73,11 @@ class Presets:
     def get(self, number: int) -> Preset | None:
         return self._presets.get(number)
 
-    def store(self, number: int, positions: Mapping[Axis, float]) -> None:
-        """Positions of these axes, from now on; what the preset had of others, and its name, stays."""
+    def store(self, number: int, positions: Mapping[Axis, float], name: str | None = None) -> None:
+        """Positions of these axes, from now on; what the preset had of others, and without a new name its own, stays."""
         before = self._presets.get(number, Preset({}))
         rounded = {axis: round(position, DIGITS) + 0.0 for axis, position in positions.items()}
-        self._presets[number] = Preset({**before.positions, **rounded}, before.name)
+        self._presets[number] = Preset({**before.positions, **rounded}, before.name if name is None else name)
         self._save()
 
     def delete(self, number: int) -> bool:

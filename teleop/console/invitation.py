@@ -6,9 +6,12 @@ it from there.
 
 from __future__ import annotations
 
+import hashlib
 import ipaddress
 import socket
+import ssl
 from collections.abc import Sequence
+from pathlib import Path
 
 from teleop.console.settings import ConsoleSettings, Role, is_loopback
 
@@ -45,7 +48,9 @@ def invitation(settings: ConsoleSettings) -> Sequence[str]:
     if settings.is_open:
         return [*lines, "Only this computer can open it. For a phone: --bind 0.0.0.0:8470"]
     lines += [f"Token to operate: {settings.token}", f"Token to watch, with STOP: {settings.watch_token}"]
-    if not settings.has_tls:
+    if settings.has_tls:
+        lines.append(f"Certificate, SHA-256: {fingerprint(settings.certificate)[:47]}... (a browser warns of it once)")
+    else:
         lines.append("Without --tls the network can read the tokens, and a phone may sleep.")
     if not is_loopback(settings.host):
         lines += qr_lines(url(settings))
@@ -68,6 +73,14 @@ def qr_lines(text: str) -> Sequence[str]:
 def _line(upper: Sequence[bool], lower: Sequence[bool]) -> str:
     """Two rows of modules: light ones are drawn, because a terminal is dark."""
     return "".join(_HALVES[not above, not below] for above, below in zip(upper, lower, strict=True))
+
+
+def fingerprint(certificate: str) -> str:
+    """SHA-256 of a certificate, as a browser shows it."""
+    text = Path(certificate).read_text(encoding="ascii")
+    begin, end = text.index(ssl.PEM_HEADER), text.index(ssl.PEM_FOOTER) + len(ssl.PEM_FOOTER)
+    digest = hashlib.sha256(ssl.PEM_cert_to_DER_cert(text[begin:end])).hexdigest().upper()
+    return ":".join(digest[i : i + 2] for i in range(0, len(digest), 2))
 
 
 def reachable_host(host: str) -> str:

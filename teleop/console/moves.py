@@ -25,6 +25,7 @@ MOST_BODY = 2_100_000  # of a request with it: JSON needs more for each line end
 MOST_DEPTH = 32  # as in a file
 ENDINGS = (".yaml", ".yml")
 UNNAMED = "move"
+NO_NAME = "not a name for a move: use letters, digits, spaces, `.`, `-` and `_`"
 
 
 class MoveRoutes:
@@ -59,6 +60,8 @@ class MoveRoutes:
         require_operator(request)
         name = request.path_params["name"]
         data = await read_object(request, MOST_BODY, MOST_DEPTH)
+        if self._files.find(name) is None and self._files.place(name) is None:
+            raise Refusal(400, NO_NAME)
         async with self._saving:
             text = await self._new_text(name, data)
             found = await self._plan(text, name)
@@ -89,9 +92,15 @@ class MoveRoutes:
     async def save_new(self, name: str, text: str) -> None:
         """A new move of this name. Raises Refusal (400, 409)."""
         async with self._saving:
-            if self._files.find(name) is not None:
-                raise Refusal(409, f"there is a move {name} already")
+            self.check_new(name)
             self._write(name, text)
+
+    def check_new(self, name: str) -> None:
+        """Raises Refusal for what is not the name of a new move."""
+        if self._files.find(name) is not None:
+            raise Refusal(409, f"there is a move {name} already")
+        if self._files.place(name) is None:
+            raise Refusal(400, NO_NAME)
 
     def _find(self, name: str) -> tuple[Path, bool]:
         """The file of a move, and whether it is shipped. Raises Refusal (404)."""
@@ -124,7 +133,7 @@ class MoveRoutes:
     def _write(self, name: str, text: str) -> None:
         place = self._files.find(name) or self._files.place(name)
         if place is None:
-            raise Refusal(400, "not a name for a move: use letters, digits, spaces, `.`, `-` and `_`")
+            raise Refusal(400, NO_NAME)
         try:
             write_text(place, text)
         except OutputError as error:

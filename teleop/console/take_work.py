@@ -78,13 +78,17 @@ def _of_summary(found: Summary) -> Mapping[str, Any]:
         "result": "cut off" if ending is None else str(ending),
         "ok": ending is not None and not found.remark and ending.result == COMPLETE,
         "damaged": bool(found.remark),
-        "problem": found.remark,
+        "problem": _without_folder(found.remark, found.path),
     }
 
 
 def _text(error: DocumentError, path: Path) -> str:
     """What is wrong, without the folder, which is no business of a page."""
-    return error.problems[0].removeprefix(f"{path}: ").replace(f"{path.parent}/", "")
+    return _without_folder(error.problems[0], path)
+
+
+def _without_folder(text: str, path: Path) -> str:
+    return text.removeprefix(f"{path}: ").replace(f"{path.parent}/", "")
 
 
 def _plain(value: object) -> Any:

@@ -8,6 +8,7 @@ from collections import OrderedDict
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response
@@ -47,7 +48,7 @@ class TakeRoutes:
         for file in self._files.files():
             entry = dict(await self._entry(file))
             known = self._reports.get(_stamp(file))
-            if known is None and not entry.get("damaged") and loop.time() < end:
+            if known is None and "title" in entry and loop.time() < end:
                 known = await self._report(file)
             entry["peaks"] = None if known is None else known.get("peaks")
             entries.append(entry)
@@ -72,6 +73,8 @@ class TakeRoutes:
             raise Refusal(400, f"tolerance: must be a number above 0 and at most {MOST_TOLERANCE:g}")
         if not isinstance(save, str | None):
             raise Refusal(400, "save: must be the name of a new move")
+        if save is not None:
+            self._moves.check_new(save)
         found = await self._worker.do("take_keys", str(file), tolerance)
         if "error" in found:
             raise Refusal(422, found["error"])
@@ -97,7 +100,8 @@ class TakeRoutes:
         return file
 
     async def _entry(self, file: Path) -> Mapping[str, Any]:
-        links = {"report": f"/takes/{file.stem}/report", "download": f"/takes/{file.stem}/download"}
+        url = f"/takes/{quote(file.stem)}"
+        links = {"report": f"{url}/report", "download": f"{url}/download"}
         return {**await self._kept(self._entries, "take", file), **links}
 
     async def _report(self, file: Path) -> Mapping[str, Any]:

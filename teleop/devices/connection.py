@@ -82,6 +82,11 @@ class Connection:
         return self._url == "sim:"
 
     @property
+    def heard(self) -> float:
+        """When the last good frame came, on the loop's clock."""
+        return self._heard
+
+    @property
     def counts(self) -> Mapping[str, int]:
         """How much has passed, and everything that went wrong without being a fault, by name."""
         counts = {**asdict(self.session.counts), **self._link_counts}

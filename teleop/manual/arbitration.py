@@ -26,7 +26,8 @@ LATE = 0.05  # s after which a recall is reported as late
 class Arbitration:
     """`locks` are the inputs in the order of their priority; `notify` takes lines for the operator.
 
-    `drivers` are the inputs that deflect an axis, `deflections` (-1..1) by how much, `recall` what is under way.
+    `drivers` are the inputs that deflect an axis, `deflections` (-1..1) by how much, `recall` what is under way. `taken`
+    are the axes that inputs deflect or have sent somewhere.
     """
 
     def __init__(
@@ -45,6 +46,7 @@ class Arbitration:
         self.recall: Recall | None = None
         self.drivers: dict[Axis, Interlock] = {}
         self.deflections: dict[Axis, float] = {}
+        self.taken: set[Axis] = set()
         self._driven: dict[
             Axis, Interlock | None
         ] = {}  # not yet at rest since this input moved it; None: it is to rest
@@ -62,6 +64,7 @@ class Arbitration:
         self._merge()
         self._take_steps(now, motion)
         sent = self._sent(now, motion, share)
+        self.taken = {*self.drivers, *sent}
         demand: dict[Axis, Setpoint] = self._held()
         for axis, shaping in self._shaping.items():
             deflection = self.deflections.get(axis, 0.0)
@@ -149,7 +152,7 @@ class Arbitration:
         """Drop all that inputs asked for; what moves comes to rest as soon as it may."""
         self.recall = None
         self._jog.clear()
-        self.drivers, self.deflections = {}, {}
+        self.drivers, self.deflections, self.taken = {}, {}, set()
         for shaping in self._shaping.values():
             shaping.drop()
         self._driven = dict.fromkeys(self._limits)

@@ -46,7 +46,7 @@ class Interlock:
             return self.held
         self._centered = self._centered or not (self.held.deflected or any(self.held.deflections.values()))
         self._enable()
-        self.waits_for = self._missing(manual_control)
+        self.waits_for = self.held.late or self._missing(manual_control)
         return self.held
 
     def slid(self) -> dict[Axis, float]:

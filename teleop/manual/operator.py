@@ -9,7 +9,7 @@ input that is locked (see `interlock`) moves nothing, but its STOP always works.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from teleop.config.device_commands import DRONE
 from teleop.config.operator_settings import SticksSection
@@ -60,6 +60,7 @@ class Operator:
         self._recording = False  # what the camera was asked for last
         self._filming = False  # what it has confirmed
         self.reason = ""  # that the run is stopped, for its report if it ends now
+        self.stopped_by = ""  # whose STOP is not cleared
         self._manual_control = self._beneath_unlocked = True
         self._dial = 0.0
         self._follow = ""
@@ -71,7 +72,9 @@ class Operator:
             Command.ENABLE: self._enable,
             Command.SLOWER: lambda _hand, _press: self._set_range(max(self._range - 1, 0)),
             Command.FASTER: lambda _hand, _press: self._set_range(min(self._range + 1, len(sticks.ranges) - 1)),
-            Command.RANGE: lambda _hand, _press: self._set_range((self._range + 1) % len(sticks.ranges)),
+            Command.RANGE: lambda _hand, press: self._set_range(
+                press.number - 1 if press.number else (self._range + 1) % len(sticks.ranges)
+            ),
             Command.RECALL: self._recall_preset,
             Command.STORE: self._store,
             Command.DELETE: self._delete,
@@ -134,11 +137,19 @@ class Operator:
     def next_change(self, now: float) -> float:
         return math.inf if self._done else now
 
+    @property
+    def taken(self) -> Collection[Axis]:
+        """The axes that inputs moved in the last tick, or sent somewhere."""
+        return self._arbitration.taken
+
     def _read_beneath(self, now: float, feedback: Feedback) -> Demand:
         if self._beneath is None:
             return {}
         demand, actions = self._beneath.read(now, feedback)
         self._actions += actions
+        for action in actions:
+            if action in (Action.RECORD, Action.STOP):
+                self._recording = action is Action.RECORD
         self._done = self._done or math.isinf(self._beneath.next_change(now))
         rests = all(setpoint == CENTERED_STICK for setpoint in demand.values())
         self._beneath_unlocked = not self._stopped and (self._beneath_unlocked or rests)
@@ -160,14 +171,14 @@ class Operator:
     def _stop(self, lock: Interlock, _press: Press) -> None:
         if not self._stopped:
             self.notify(f"STOP by {lock.name}. Press c to clear, then center all sticks.")
-            self.reason = f"ended while stopped: STOP by {lock.name}"
+            self.reason, self.stopped_by = f"ended while stopped: STOP by {lock.name}", lock.name
         self._stopped = True
         self._relock_all()
 
     def _clear(self, _hand: Interlock, _press: Press) -> None:
         if self._stopped:
             self.notify("STOP cleared: center all sticks")
-            self._stopped, self.reason = False, ""
+            self._stopped, self.reason, self.stopped_by = False, "", ""
             self._relock_all()
 
     def _enable(self, _hand: Interlock, _press: Press) -> None:

@@ -172,7 +172,11 @@ class Playback:
         if not 0 <= index < len(self._keys):
             self.refusal = f"no key {'after' if keys > 0 else 'before'} this one"
             return
-        target = self._keys[index]
+        self.seek(self._keys[index], now)
+
+    def seek(self, time: float, now: float) -> None:
+        """To the move's `time`, along the path; the move has to be paused."""
+        target = min(max(time, self._move.opening), self._move.duration)
         self._ask(lambda pace, start: go_to(self._move, self._limits, pace, target, start), now)
 
     def _ask(self, search: Search, now: float) -> None:

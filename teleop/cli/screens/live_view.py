@@ -134,8 +134,9 @@ class Plain:
         self._last: Message | None = None
 
     def show(self, tick: Tick, elapsed: float, status: OperatorStatus) -> None:
-        for message in reversed(self._new(status.messages)):
+        for message in reversed(new_messages(status.messages, self._last)):
             self.lines.notify(f"{elapsed:6.1f} s  {message.text}")
+        self._last = status.messages[0] if status.messages else self._last
         if tick.time >= self._next:
             self._next = tick.time + 1
             angles = (f"{axis} {round(state.position, 3) + 0.0:+.3f}" for axis, state in tick.motion.items())
@@ -144,7 +145,7 @@ class Plain:
             stop = STOP_WORDS[stop_state(status.stopped, tick.motion)]
             self.lines.notify(f"{elapsed:6.1f} s  {'  '.join(angles)}{flying}{stop}")
 
-    def _new(self, messages: Sequence[Message]) -> Sequence[Message]:
-        until = messages.index(self._last) if self._last in messages else len(messages)
-        self._last = messages[0] if messages else self._last
-        return messages[:until]
+
+def new_messages(messages: Sequence[Message], last: Message | None) -> Sequence[Message]:
+    """Those that came after `last`, newest first."""
+    return messages[: messages.index(last)] if last in messages else messages

@@ -11,11 +11,13 @@ import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import yaml
 
 from teleop.config.documents.document import DocumentError, Location
+from teleop.config.documents.list_pairs import pairing
 from teleop.config.documents.yaml_loader import MAX_DEPTH, MAX_NODES, parse_document
 from teleop.config.documents.yaml_nodes import compose
 
@@ -123,15 +125,17 @@ def _list_differences(old: Sequence[Any], new: Sequence[Any], path: Location) ->
     for kind, first, end, new_first, new_end in reversed(alike):
         if kind == "equal":
             continue
-        kept = min(end - first, new_end - new_first)
-        added = new[new_first + kept : new_end]
-        if first + kept == len(old):
-            yield from (_Edit((*path, len(old) + index), value) for index, value in enumerate(added))
-        else:
-            yield from (_Edit((*path, first + kept), value, insert=True) for value in reversed(added))
-        yield from (_Edit((*path, index), delete=True) for index in reversed(range(first + kept, end)))
-        for index in reversed(range(kept)):
-            yield from _differences(old[first + index], new[new_first + index], (*path, first + index))
+        pairs = pairing(old[first:end], new[new_first:new_end])
+        bounds = [(-1, -1), *pairs, (end - first, new_end - new_first)]
+        for (before, new_before), (after, new_after) in reversed(list(pairwise(bounds))):
+            at, added = first + after, new[new_first + new_before + 1 : new_first + new_after]
+            if at == len(old):
+                yield from (_Edit((*path, at + index), value) for index, value in enumerate(added))
+            else:
+                yield from (_Edit((*path, at), value, insert=True) for value in reversed(added))
+            yield from (_Edit((*path, index), delete=True) for index in reversed(range(first + before + 1, at)))
+            if before >= 0:
+                yield from _differences(old[first + before], new[new_first + new_before], (*path, first + before))
 
 
 def _applied(text: str, edit: _Edit) -> str:

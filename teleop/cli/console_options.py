@@ -1,0 +1,97 @@
+"""The options of the web console, for every command that has one beside its run, and what is printed of it."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from teleop.cli.screens.folded import tell
+from teleop.core.errors import UsageError
+
+if TYPE_CHECKING:
+    from teleop.remote.gateway_child import Gateway
+
+BIND = "127.0.0.1:8470"
+_ADDRESS = re.compile(r"(\[[0-9a-fA-F:.]+\]|[^\s/\[\]:]*):\d+|\d+(\.\d+){3}")
+
+Realtime = Annotated[
+    bool,
+    Parameter(
+        help="Run the control thread in real time (SCHED_FIFO) where that is permitted.",
+        negative=(),
+        show_default=False,
+    ),
+]
+
+
+def with_console(arguments: Sequence[str]) -> list[str]:
+    """What was typed, with the address of `--console`, or the default one, made one word with it."""
+    result: list[str] = []
+    for argument in arguments:
+        if result and result[-1] == "--console":
+            if _ADDRESS.fullmatch(argument):
+                result[-1] += f"={argument}"
+                continue
+            result[-1] += f"={BIND}"
+        result.append(argument)
+    if result and result[-1] == "--console":
+        result[-1] += f"={BIND}"
+    return result
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class ConsoleOptions:
+    """How the console is reached, and what it serves."""
+
+    token: Annotated[
+        str | None, Parameter(metavar="TOKEN", help="Token to log in with; without it one is made where it is needed.")
+    ] = None
+    tls: Annotated[
+        bool, Parameter(help="Serve HTTPS with a certificate made for it.", negative=(), show_default=False)
+    ] = False
+    moves: Annotated[
+        Path, Parameter(metavar="FOLDER", help="Folder of the moves and takes that the console shows.")
+    ] = Path()
+
+    @contextmanager
+    def gateway(self, bind: str, rig: str, as_json: bool) -> Iterator[Gateway]:
+        """What the gateway is started with, while it listens there; prints how to reach it.
+
+        Raises UsageError and DeviceError for an address at which it cannot listen.
+        """
+        try:
+            import starlette  # noqa: F401 - only whether it is there
+            import uvicorn  # noqa: F401
+        except ImportError:
+            raise UsageError("the console needs its packages: pip install 'rs-teleop[console]'") from None
+        from teleop.console.invitation import as_json as reached
+        from teleop.console.invitation import invitation
+        from teleop.console.settings import ConsoleSettings, listen, parse_bind, with_tokens
+        from teleop.remote.gateway_child import Gateway
+
+        if not self.moves.is_dir():
+            raise UsageError(f"--moves {self.moves}: is no folder")
+        host, port = parse_bind(bind)
+        folder = str(self.moves.resolve())
+        asked = ConsoleSettings(host, port, self.token or "", moves=folder, takes=folder, rig=rig)
+        listener, settings = listen(with_tokens(asked))
+        with listener:
+            if as_json:
+                print(json.dumps(reached(settings)), flush=True)
+            else:
+                for line in invitation(settings):
+                    tell(line)
+            number = listener.fileno()
+            console = {"settings": settings.as_json(), "listener": number}
+            yield Gateway({"console": console}, (number,))
+
+
+NO_CONSOLE = ConsoleOptions()

@@ -1,0 +1,55 @@
+"""Where the door of a run is: a folder of its own, for this user alone, with the ring and the socket in it."""
+
+from __future__ import annotations
+
+import os
+import stat
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from shutil import rmtree
+from typing import NamedTuple
+
+PREFIX = "teleop-"
+
+
+class DoorAddress(NamedTuple):
+    """The folder of a door. Names in it are short: macOS gives the path of a socket 104 bytes."""
+
+    folder: Path
+
+    @property
+    def ring(self) -> Path:
+        return self.folder / "ring"
+
+    @property
+    def commands(self) -> str:
+        """The socket that the control process takes commands from."""
+        return str(self.folder / "door")
+
+    def client(self, number: int) -> str:
+        """A socket for the answers to a client, which is the process with this number."""
+        return str(self.folder / f"c{number}")
+
+
+@contextmanager
+def new_door() -> Iterator[DoorAddress]:
+    """A folder (mode 0700) for the door of this run, removed with all that is in it afterwards."""
+    folder = Path(tempfile.mkdtemp(prefix=PREFIX, dir=_runtime_folder()))
+    try:
+        yield DoorAddress(folder)
+    finally:
+        rmtree(folder, ignore_errors=True)
+
+
+def _runtime_folder() -> str | None:
+    """`$XDG_RUNTIME_DIR` where it is this user's alone; else None, the system's place for temporary files."""
+    named = os.environ.get("XDG_RUNTIME_DIR", "")
+    try:
+        found = os.stat(named) if os.path.isabs(named) else None
+    except OSError:
+        return None
+    if found is None or not stat.S_ISDIR(found.st_mode) or found.st_uid != os.getuid() or found.st_mode & 0o077:
+        return None
+    return named

@@ -1,0 +1,90 @@
+"""The gateway process: `python -m teleop.gateway`, started by the control process and by nobody else.
+
+Its input has one line of settings, and ends when the control process does; then it ends too, at once, so that nothing
+on the network believes in a rig that is gone.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import ctypes
+import importlib
+import json
+import os
+import signal
+import socket
+import sys
+import threading
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from teleop.core.errors import TeleopError
+from teleop.door.address import DoorAddress
+from teleop.gateway.door_client import DoorClient
+
+PR_SET_PDEATHSIG = 1
+LEAVING = 0.3  # s for answers under way, once the control process has ended
+
+
+def main() -> int:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _die_with_parent()
+    line = sys.stdin.buffer.readline()
+    if not line:
+        return 0
+    try:
+        asyncio.run(_serve(json.loads(line)))
+    except TeleopError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0
+
+
+async def _serve(settings: dict[str, Any]) -> None:
+    ended = asyncio.Event()
+    loop = asyncio.get_running_loop()
+    threading.Thread(target=_watch_parent, args=(loop, ended), name="parent", daemon=True).start()
+    async with DoorClient(DoorAddress(Path(settings["door"]))) as door:
+        waiting = loop.create_task(ended.wait())
+        served = [loop.create_task(_console(settings["console"], door))] if "console" in settings else []
+        done, _ = await asyncio.wait([*served, waiting], return_when=asyncio.FIRST_COMPLETED)
+        for task in (*served, waiting):
+            task.cancel()
+        await asyncio.gather(*served, waiting, return_exceptions=True)
+        for task in done - {waiting}:
+            task.result()
+
+
+async def _console(settings: dict[str, Any], door: DoorClient) -> None:
+    """The web console, which this module does not know before it is asked for: it is the layer above."""
+    server = importlib.import_module("teleop.console.server")
+    kept = importlib.import_module("teleop.console.settings").ConsoleSettings.from_json(settings["settings"])
+    listener = socket.socket(fileno=os.dup(settings["listener"]))
+    listener.setblocking(False)
+    await server.serve(kept, door, listener)
+
+
+def _watch_parent(loop: asyncio.AbstractEventLoop, ended: asyncio.Event) -> None:
+    """In a thread: an event loop that hangs does not keep the process."""
+    while os.read(sys.stdin.fileno(), 4096):
+        pass
+    with suppress(RuntimeError):  # the loop is closed already
+        loop.call_soon_threadsafe(ended.set)
+    time.sleep(LEAVING)
+    os._exit(0)
+
+
+def _die_with_parent() -> None:
+    """Linux ends this process with its parent even while it is stopped; elsewhere its closed input does."""
+    parent = os.getppid()
+    if sys.platform == "linux":
+        with suppress(OSError, AttributeError):
+            ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+        if os.getppid() != parent:
+            os._exit(1)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

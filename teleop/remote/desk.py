@@ -1,0 +1,318 @@
+"""The control process's side of the door: takes what has come, checks who may, has it done, and answers.
+
+It is an input of the operator: a STOP or a record is a press of the person whose command it was. It takes a bounded
+number of datagrams per tick and never waits. A command that comes again is answered again and not done again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter, OrderedDict
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from teleop.core.operator_input import Command, Held, Press
+from teleop.door.messages import INTERNAL, CommandError, DoorCommand, checked, packed, unpacked
+from teleop.door.sockets import CommandSocket, Datagram
+from teleop.remote.control import Control, Denied, Person
+from teleop.remote.stick import RemoteStick
+
+MOST = 32  # datagrams in a tick
+ANSWERS = 512  # that are kept, for commands that come again
+GONE = 2.0  # s without a word of a console, after which its move pauses
+GATEWAY_GONE = 2.0  # s without a word of the gateway
+
+
+class Refusal(Exception):  # noqa: N818 - no error of the program: an answer
+    """Why a command is not done. `kind` is "busy", "refused" or "invalid"; `holder` has control."""
+
+    def __init__(self, reason: str, kind: str = "refused", holder: str = "") -> None:
+        super().__init__(reason)
+        self.kind, self.holder = kind, holder
+
+
+@dataclass(eq=False)
+class Asked:
+    """A command under way, and how to answer it. `over` is whether all has been said."""
+
+    command: DoorCommand
+    address: str
+    desk: Desk
+    accepted: bool = False
+    over: bool = False
+
+    @property
+    def person(self) -> Person:
+        return Person(self.command.session, self.command.name)
+
+    def __getitem__(self, key: str) -> Any:
+        return self.command.fields[key]
+
+    def get(self, key: str, default: Any = None) -> Any:
+        return self.command.fields.get(key, default)
+
+    def accept(self) -> None:
+        if not self.accepted and not self.over:
+            self.accepted = True
+            self.desk.answer(self, {"ok": True})
+
+    def planning(self) -> None:
+        """It cannot be told yet whether it is accepted."""
+        self.desk.answer(self, {"planning": True})
+
+    def refuse(self, refusal: Refusal) -> None:
+        if self.accepted:
+            self.end(str(refusal))
+        elif not self.over:
+            self.over = True
+            holder = {"holder": refusal.holder} if refusal.holder else {}
+            self.desk.answer(self, {"error": str(refusal), "kind": refusal.kind, **holder})
+            self.desk.action_over(self)
+
+    def end(self, why: str = "") -> None:
+        """What was accepted is over: done, or `why` it ended before."""
+        if not self.accepted:
+            self.refuse(Refusal(why)) if why else self.accept()
+        if self.over:
+            return
+        self.over = True
+        self.desk.answer(self, {"done": True, **({"error": why, "kind": "refused"} if why else {"ok": True})})
+        self.desk.action_over(self)
+
+
+class Actions(Protocol):
+    """What the commands do in this kind of run."""
+
+    @property
+    def rests(self) -> bool: ...
+
+    def busy(self, session: str) -> bool:
+        """Whether something goes on that this session has begun."""
+        ...
+
+    def do(self, asked: Asked, now: float) -> None:
+        """Accept, end or refuse what is asked; may raise Refusal. Not for control, STOP, clear and sticks."""
+        ...
+
+    def passing(self, now: float) -> None:
+        """Control goes to another one: what moves ends or pauses."""
+        ...
+
+    def gone(self, sessions: Callable[[str], bool], now: float) -> None:
+        """Called each tick; `sessions` says whether a session's client is gone."""
+        ...
+
+
+@dataclass
+class Counts:
+    """What has come by the door. `lost` are answers that no client took."""
+
+    taken: int = 0
+    refused: int = 0
+    malformed: int = 0
+    faults: int = 0
+    kinds: Counter[str] = field(default_factory=Counter)
+
+
+class Desk:
+    """`actions` are what the commands do in this run; `notify` takes lines for everybody."""
+
+    name = "console"  # who the present presses are from
+
+    def __init__(
+        self,
+        socket: CommandSocket,
+        stick: RemoteStick,
+        notify: Callable[[str], object],
+        actions: Actions,
+    ) -> None:
+        self._socket, self.stick, self.actions = socket, stick, actions
+        self.control = Control(notify)
+        self.counts = Counts()
+        self.tick, self._now = 0, 0.0
+        self.gateway_at = -math.inf  # when the gateway was heard last
+        self._answers: OrderedDict[tuple[str, int], bytes] = OrderedDict()
+        self._seen: dict[str, float] = {}  # sessions whose page tells that it lives, and when it last did
+        self._closed: OrderedDict[str, None] = OrderedDict()
+        self._presses: list[tuple[str, Press]] = []
+        self._unsaid: list[tuple[dict[str, Any], str]] = []
+        self._asker: Asked | None = None
+        self._changes = 0
+
+    # --- the input
+
+    def read(self, now: float) -> Held:
+        """Take what has come; what was pressed. Presses of several persons take a tick each, a STOP first."""
+        self.poll(now)
+        if not self._presses:
+            return Held()
+        self._presses.sort(key=lambda each: each[1].command is not Command.STOP)
+        self.name, press = self._presses.pop(0)
+        if press.command is Command.STOP:
+            self._presses.clear()
+        return Held(presses=[press])
+
+    def press(self, name: str, command: Command, number: int = 0, device_command: Any = None) -> None:
+        self._presses.append((name, Press(command, number, device_command)))
+
+    def poll(self, now: float) -> None:
+        self._now = now
+        for datagram in self._socket.receive(MOST):
+            self.counts.taken += 1
+            self.take(datagram, now)
+        rests = self.actions.rests
+        holder = self.control.holder
+        busy = holder is not None and self.actions.busy(holder.session)
+        if self.stick.age(now) is not None:
+            self.control.use(now)
+        self.control.step(now, rests, busy)
+        if self.control.passing:
+            self.actions.passing(now)
+        self._follow_control()
+        self.actions.gone(lambda session: self._is_gone(session, now), now)
+
+    def _follow_control(self) -> None:
+        """The stick is the holder's, while control does not pass to another one."""
+        holder, control = self.control.holder, self.control
+        session = holder.session if holder is not None and not control.leaving else ""
+        if session != self.stick.session or control.changes != self._changes:
+            self._changes = control.changes
+            self.stick.give(session, control.name)
+        if (asker := self._asker) is not None and control.asking is None and not control.passing:
+            self._asker = None
+            asker.end("" if control.holds(asker.command.session) else f"{control.name or 'the holder'} said no")
+
+    def _is_gone(self, session: str, now: float) -> bool:
+        """Whether nobody is behind a session any more: closed, its page silent, or the gateway silent."""
+        if session in self._closed or now - self.gateway_at > GATEWAY_GONE:
+            return True
+        return session in self._seen and now - self._seen[session] > GONE
+
+    def all_gone(self, now: float) -> None:
+        """The gateway has ended, and with it every connection."""
+        self.gateway_at = -math.inf
+        holder = self.control.holder
+        if holder is not None:
+            self._close(holder.session, now)
+
+    # --- one datagram
+
+    def take(self, datagram: Datagram, now: float) -> None:
+        try:
+            command = checked(unpacked(datagram.data))
+        except CommandError as error:
+            self.counts.malformed += 1
+            self._send({"id": error.id, "error": str(error)[:200], "kind": "invalid"}, datagram.address)
+            return
+        self.counts.kinds[command.do] += 1
+        if command.do == "stick":
+            self.stick.take(command.session, command.fields, command.time / 1000, now)
+        elif command.do in INTERNAL:
+            self._internal(command, now)
+        elif (before := self._answers.get((datagram.address, command.id))) is not None:
+            self._socket.answer(before, datagram.address)
+        elif not any(to == datagram.address and each["id"] == command.id for each, to in self._unsaid):
+            self._do(Asked(command, datagram.address, self), now)
+
+    def _internal(self, command: DoorCommand, now: float) -> None:
+        if command.do == "closed":
+            self._close(command.session, now)
+            return
+        self.gateway_at = now
+        for session, age in command.fields.get("seen", {}).items():
+            self._seen[session] = max(self._seen.get(session, -math.inf), now - age / 1000)
+        if len(self._seen) > ANSWERS:
+            self._seen = {session: at for session, at in self._seen.items() if now - at < 60.0}
+
+    def _close(self, session: str, now: float) -> None:
+        self._closed[session] = None
+        while len(self._closed) > ANSWERS:
+            self._closed.popitem(last=False)
+        self.control.closed(session, now)
+        self.stick.forget(session)
+
+    def _do(self, asked: Asked, now: float) -> None:
+        self._closed.pop(asked.command.session, None)
+        try:
+            match asked.command.do:
+                case "stop":
+                    self.press(asked.command.name, Command.STOP)
+                    asked.end()
+                case "take_control":
+                    self._take_control(asked, now)
+                case "release_control":
+                    self._authorize(asked, now)
+                    self.control.release(asked.command.session, now)
+                    asked.end()
+                case "deny_control":
+                    self._authorize(asked, now)
+                    self.control.deny()
+                    asked.end()
+                case "clear":
+                    if self.control.holder is not None:
+                        self._authorize(asked, now)
+                    self.press(asked.command.name, Command.CLEAR)
+                    asked.end()
+                case _:
+                    self._authorize(asked, now)
+                    self.actions.do(asked, now)
+        except Refusal as refusal:
+            self.counts.refused += 1
+            asked.refuse(refusal)
+        except Exception as fault:  # noqa: BLE001 - a command from outside never ends the run
+            self.counts.faults += 1
+            asked.refuse(Refusal(f"{asked.command.do}: {type(fault).__name__}: {fault}"[:200]))
+
+    def _authorize(self, asked: Asked, now: float) -> None:
+        """Raises Refusal for one who has no control, unless it is free and is taken for this alone."""
+        control, command = self.control, asked.command
+        if command.brief and (control.holder is None or control.holds(command.session)):
+            control.take(asked.person, now, brief=True)
+        if not control.holds(command.session):
+            if control.holder is None:
+                raise Refusal("take control first")
+            raise Refusal(f"{control.name} has control", "busy", control.name)
+        control.use(now)
+
+    def _take_control(self, asked: Asked, now: float) -> None:
+        try:
+            has = self.control.take(asked.person, now, asked.get("ask", False))
+        except Denied as denied:
+            raise Refusal(str(denied), "busy", denied.holder) from None
+        if has:
+            asked.end()
+        else:
+            asked.accept()
+            self._asker = asked
+
+    def action_over(self, asked: Asked) -> None:
+        """A control that was taken for one action alone ends with it."""
+        session = asked.command.session
+        if asked.command.brief and self.control.brief and self.control.holds(session):
+            self.control.release(session, self._now)
+            self.control.step(self._now, self.actions.rests, False)
+
+    # --- answers
+
+    def answer(self, asked: Asked, message: Mapping[str, Any]) -> None:
+        """Once the state of this tick is written (`flush`): who is answered finds it there."""
+        self._unsaid.append(({"id": asked.command.id, **message}, asked.address))
+
+    def flush(self) -> None:
+        """Send what there is to answer, after the state of the tick."""
+        unsaid, self._unsaid = self._unsaid, []
+        for message, address in unsaid:
+            data = self._send({**message, "tick": self.tick}, address)
+            if data and not message.get("done"):
+                self._answers[address, message["id"]] = data
+                while len(self._answers) > ANSWERS:
+                    self._answers.popitem(last=False)
+
+    def _send(self, message: Mapping[str, Any], address: str) -> bytes:
+        data = b""
+        with suppress(CommandError):  # a reason that is too long: there is no answer then
+            data = packed(message)
+            self._socket.answer(data, address)
+        return data

@@ -1,0 +1,115 @@
+"""Plans moves for the control process, in a process of its own: `python -m teleop.remote.planning_process`.
+
+Planning computes for a second, and the control thread shares its interpreter with everything else in its process. Both
+ends are ours, so what passes is pickled. It ends with its input.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import struct
+import subprocess
+import sys
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import IO, Any
+
+from teleop.config.profile import Profile
+from teleop.core.errors import TeleopError
+from teleop.sequence.compile import CompiledSequence
+
+HEAD = struct.Struct("!I")
+NICE = 5
+
+
+def send(stream: IO[bytes], what: object) -> None:
+    data = pickle.dumps(what)
+    stream.write(HEAD.pack(len(data)) + data)
+    stream.flush()
+
+
+def receive(stream: IO[bytes]) -> Any:
+    """Raises EOFError at the end."""
+    head = stream.read(HEAD.size)
+    if len(head) < HEAD.size:
+        raise EOFError
+    return pickle.loads(stream.read(HEAD.unpack(head)[0]))
+
+
+class PlanningProcess:
+    """Started with the first plan; one that has ended is started again. `plan` waits, so call it in a thread."""
+
+    def __init__(self, profile: Profile) -> None:
+        self._profile = profile
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def plan(self, what: str | Mapping[str, Any]) -> CompiledSequence:
+        """The move in a file, or with this content. Raises TeleopError with the reason."""
+        process = self._running()
+        assert process.stdin is not None
+        assert process.stdout is not None
+        try:
+            send(process.stdin, what)
+            found = receive(process.stdout)
+        except (OSError, EOFError):
+            self.close()
+            raise TeleopError("the process that plans has ended: try again") from None
+        if isinstance(found, str):
+            raise TeleopError(found)
+        return found
+
+    def _running(self) -> subprocess.Popen[bytes]:
+        if self._process is None or self._process.poll() is not None:
+            command = [sys.executable, "-m", __spec__.name if __name__ != "__main__" else __name__]
+            self._process = subprocess.Popen(
+                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+            )
+            assert self._process.stdin is not None
+            with suppress(OSError):
+                send(self._process.stdin, self._profile)
+        return self._process
+
+    def close(self) -> None:
+        process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            process.wait()
+            for stream in (process.stdin, process.stdout):
+                if stream is not None:
+                    with suppress(OSError):
+                        stream.close()
+
+
+def main() -> None:
+    from teleop.app.planning import plan_content, plan_file
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a Ctrl-C of the terminal is for the control process
+    with suppress(OSError, AttributeError):
+        os.nice(NICE)
+    reading, writing = sys.stdin.buffer, sys.stdout.buffer
+    sys.stdout = sys.stderr
+    with suppress(EOFError, OSError):
+        profile = receive(reading)
+        while True:
+            what = receive(reading)
+            try:
+                plan = plan_file(what, profile) if isinstance(what, str) else plan_content(what, profile)
+                found = _playable(plan)
+            except TeleopError as error:
+                found = "; ".join(getattr(error, "problems", ()) or [str(error)])
+            send(writing, found)
+
+
+def _playable(plan: Any) -> CompiledSequence:
+    """Raises TeleopError for a move that is none to play from a console."""
+    if plan.timelapse is not None:
+        raise TeleopError("it is a timelapse: shoot it")
+    if plan.is_flown:
+        raise TeleopError("it flies a drone, which needs an operator at the rig: use teleop play")
+    return plan.sequence
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,154 @@
+"""A move that a client plays: the source of the pipeline as a job, with its transport.
+
+It pauses on its path where it can, and halts away from it where it must (a STOP, control passing on); either way it
+goes on when it is asked to, from where it was. One that is `attended` pauses when its console is gone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
+
+from teleop.core.axes import Axis, Motion
+from teleop.core.errors import TeleopError
+from teleop.core.events import Tick, TickEvent
+from teleop.core.interfaces import Feedback
+from teleop.core.setpoints import Demand
+from teleop.remote.jobs import Ended
+from teleop.sequence.phases import SequencePhase
+from teleop.sequence.progress import run_status
+from teleop.sequence.source import SequenceSource
+
+PHASES: Mapping[SequencePhase, str] = {
+    SequencePhase.EASING: "easing",
+    SequencePhase.PREROLL: "preroll",
+    SequencePhase.ARMED: "armed",
+    SequencePhase.PLAYING: "playing",
+    SequencePhase.REJOINING: "rejoining",
+    SequencePhase.RETURNING: "returning",
+    SequencePhase.OVER: "resting",
+}
+
+
+class NotNowError(TeleopError):
+    """What the move cannot do at the moment, and why."""
+
+
+class PlayJob:
+    """`title` is the move's. `owner` is the session that has it played."""
+
+    def __init__(self, title: str, owner: str, source: SequenceSource, attended: bool, ended: Ended) -> None:
+        self.title, self.owner, self.attended, self.ended = title, owner, attended, ended
+        self.source = source
+        self.halted = ""  # why it is away from its path
+        self.left = False  # by its console: it was paused for that
+        self._going = False
+        self._motion: Motion = {}
+
+    @property
+    def axes(self) -> Collection[Axis]:
+        return self.source.move.tracks
+
+    def start(self, now: float, motion: Motion) -> None:
+        self._motion = motion
+        self.source.start(now, motion)
+        if self.halted:
+            self.source.suspend(now)
+
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+        self._motion = feedback.motion
+        if self.halted and self._going and self._rests:
+            self.halted, self._going = "", False
+            self.source.resume(now, feedback.motion)
+        return ({}, ()) if self.halted else self.source.read(now, feedback)
+
+    def done(self, tick: Tick) -> bool:
+        return not self.halted and math.isinf(self.source.next_change(tick.time)) and self._rests_in(tick.motion)
+
+    def halt(self, now: float, why: str) -> bool:
+        """Away from its path, until it is resumed: never over with that."""
+        if not self.halted:
+            self.source.suspend(now)
+        self.halted, self._going = why, False
+        return False
+
+    # --- the transport; NotNowError says why not
+
+    @property
+    def paused(self) -> bool:
+        return bool(self.halted) or (self.source.phase is SequencePhase.PLAYING and self.source.playback.paused)
+
+    def pause(self, now: float, why: str = "paused") -> None:
+        if self.halted:
+            self._going = False
+        elif self.source.phase is SequencePhase.PLAYING and not self.source.waiting:
+            self.source.playback.pause(now)
+        else:
+            self.halt(now, why)
+
+    def resume(self, now: float) -> None:
+        self.left = False
+        if self.halted:
+            self._going = True
+        elif self.source.waiting or self.source.phase is SequencePhase.ARMED:
+            self.source.go()
+        elif self.source.playback.paused or self.source.playback.changing(now):
+            self.source.playback.resume(now)
+
+    def speed(self, share: float, now: float) -> None:
+        self.source.playback.speed(share, now)
+        self._refuse()
+
+    def seek(self, time: float, now: float) -> None:
+        self._need_pause(now)
+        self.source.playback.seek(time, now)
+
+    def step(self, keys: int, now: float) -> None:
+        self._need_pause(now)
+        self.source.playback.step(keys, now)
+        self._refuse()
+
+    def to_start(self, now: float) -> None:
+        self.seek(self.source.move.opening, now)
+
+    def _need_pause(self, now: float) -> None:
+        playback = self.source.playback
+        if self.halted or not playback.paused or playback.changing(now):
+            why = f"it was halted ({self.halted}): resume it first" if self.halted else "pause the move first"
+            raise NotNowError(why)
+
+    def _refuse(self) -> None:
+        if self.source.playback.refusal:
+            raise NotNowError(self.source.playback.refusal)
+
+    @property
+    def _rests(self) -> bool:
+        return self._rests_in(self._motion)
+
+    def _rests_in(self, motion: Motion) -> bool:
+        return all(not motion[axis].velocity and not motion[axis].acceleration for axis in self.axes)
+
+    def state(self, now: float) -> dict[str, Any]:
+        """For clients: what it does at `now`."""
+        status = run_status(self.source, now)
+        phase = PHASES[self.source.phase]
+        if self.halted or status.paused:
+            phase = "paused"
+        elif self.source.waiting:
+            phase = "waiting"
+        keys = len(self.source.key_times)
+        return {
+            "title": self.title,
+            "phase": phase,
+            "at": None if status.elapsed is None else round(status.elapsed, 3),
+            "duration": round(status.duration, 3),
+            "speed": round(status.speed, 4),
+            "key": status.key.number if status.key else keys,
+            "keys": keys,
+            "pass": status.number,
+            "passes": None if math.isinf(status.passes) else int(status.passes),
+            "attended": self.attended,
+            "why": self.halted or self.source.playback.refusal,
+            "max_speed": round(self.source.playback.at_most, 4),
+        }

@@ -1,0 +1,157 @@
+"""The door of a run by hand: opened with it, attached to its operator, and closed behind it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+from teleop.config.operator_settings import EXPO
+from teleop.config.presets import Presets
+from teleop.config.profile import Profile
+from teleop.core.axes import Axis, Limits
+from teleop.core.events import Action, DeviceCommand, Tick
+from teleop.core.interfaces import Observer, Sink, Source
+from teleop.core.operator_input import Input
+from teleop.devices.rig import Rig
+from teleop.door.address import DoorAddress, new_door
+from teleop.door.ring import RingWriter
+from teleop.door.sockets import CommandSocket
+from teleop.inputs.stick_shaping import shape
+from teleop.manual.operator import Operator
+from teleop.remote.actions import LiveActions
+from teleop.remote.desk import Desk
+from teleop.remote.gateway_child import Gateway, GatewayChild
+from teleop.remote.jobs import JobSource
+from teleop.remote.keys import HandKeys
+from teleop.remote.state import Parts, StatePublisher
+from teleop.remote.stick import RemoteStick
+from teleop.remote.told import Told
+from teleop.remote.works import Works
+
+
+class RemoteHands:
+    """`moves` is the folder of the moves that clients may name.
+
+    `gateway` is what the gateway is told, beside where the door is; None for no gateway.
+    """
+
+    def __init__(self, moves: Path, gateway: Gateway | None) -> None:
+        self._folder, self._gateway = moves, gateway
+        self.address: DoorAddress
+        self.desk: Desk
+        self.child: GatewayChild | None = None
+        self._read = False  # in this tick
+        self._ended = False  # the gateway, since the last tick
+
+    def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits]) -> None:
+        """Open the door, until the stack is left."""
+        self._profile = profile
+        self._limits = limits
+        self.address = stack.enter_context(new_door())
+        self._ring = RingWriter(self.address.ring)
+        stack.callback(self._ring.close)
+        socket = CommandSocket(self.address.commands)
+        stack.callback(socket.close)
+        expo = EXPO if profile.sticks.expo is None else profile.sticks.expo
+        moved = [axis for axis in limits if not axis.is_stick]
+        stick = RemoteStick(dict.fromkeys(moved), lambda value: shape(value, 0.0, expo))
+        self._works = Works(profile, limits, self._folder)
+        stack.callback(self._works.close)
+        self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
+        self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, self.told)
+        self.desk = Desk(socket, stick, self._notify, self._actions)
+        self._actions.desk = self.desk
+
+    @property
+    def inputs(self) -> Sequence[Input]:
+        """After all others: these are outranked by every local one."""
+        return [_Marked(self.desk, self._mark), self.desk.stick]
+
+    @property
+    def beneath(self) -> Source:
+        return self._jobs
+
+    def attach(self, stack: ExitStack, operator: Operator, presets: Presets, rig: Rig) -> tuple[Observer, Sink]:
+        """To the operator of an open rig; from now on the gateway runs. What sees each tick, and the release."""
+        self._operator = self._actions.operator = operator
+        self._actions.presets, self._actions.has_camera = presets, rig.camera is not None
+        parts = Parts(
+            *(self._profile.name, self._limits, operator, presets, rig.connections),
+            *(self.desk, self._jobs, self._keys, rig.camera is not None),
+        )
+        self._publisher = StatePublisher(parts, self._ring)
+        self._clock = rig.clock
+        self._publisher.publish("waiting", rig.clock.now())
+        stack.callback(lambda: self._publisher.publish("over", rig.clock.now()))
+        if self._gateway is not None:
+            settings = {**self._gateway.settings, "door": str(self.address.folder)}
+            passed = self._gateway.passed
+            self.child = GatewayChild(settings, passed, self._heard, operator.notify, self._gateway_ended)
+            stack.callback(self.child.close)
+            self.child.start()
+        return self, self
+
+    # --- what becomes of commands
+
+    def line(self, text: str) -> None:
+        """A line that the operator gets."""
+        self.told.line(text)
+
+    def confirmed(self, command: DeviceCommand) -> None:
+        self.told.confirm(command)
+
+    def camera_answered(self, action: Action, done: bool) -> None:
+        self.told.camera_answered(action, done)
+
+    # --- observer and sink
+
+    def observe(self, tick: Tick) -> None:
+        if self._ended:
+            self._ended = False
+            self.desk.all_gone(tick.time)
+        self._actions.observe(tick)
+        run, self._read = "running" if self._read else "stopping", False
+        self._publisher.publish(run, tick.time, tick)
+        self.desk.flush()
+
+    def write(self, tick: Tick) -> None: ...
+
+    def release(self, now: float) -> float | None:
+        self._jobs.end("the run has ended")
+        self._publisher.publish("releasing", now)
+        self.desk.flush()
+        return None
+
+    def _mark(self) -> None:
+        self._read = True
+
+    def _taken(self) -> Any:
+        return self._operator.taken
+
+    def _notify(self, text: str) -> None:
+        self._operator.notify(text)
+
+    def _heard(self) -> float:
+        """When the gateway was heard last, by the machine's clock."""
+        return self.desk.gateway_at - self._clock.now() + time.monotonic()
+
+    def _gateway_ended(self) -> None:
+        self._ended = True
+
+
+class _Marked:
+    """The desk, with a mark that the operator has read its inputs in this tick: that the run goes on."""
+
+    def __init__(self, desk: Desk, mark: Callable[[], object]) -> None:
+        self._desk, self._mark = desk, mark
+
+    @property
+    def name(self) -> str:
+        return self._desk.name
+
+    def read(self, now: float) -> Any:
+        self._mark()
+        return self._desk.read(now)

@@ -1,0 +1,165 @@
+"""The state of a rig for the ring, made each tick in the control thread: plain values, and only what has changed anew."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from teleop.config.presets import Presets
+from teleop.core.axes import Axis, Limits
+from teleop.core.clock import date
+from teleop.core.events import Tick
+from teleop.devices.connection import Connection
+from teleop.door.ring import RingWriter
+from teleop.door.states import StatePacker
+from teleop.manual.operator import Operator
+from teleop.remote.desk import Desk
+from teleop.remote.jobs import JobSource
+from teleop.remote.keys import HandKeys
+from teleop.remote.play_job import PlayJob
+
+MESSAGES = 10  # of the newest
+LONGEST = 200  # characters of each
+PRESETS = 200  # that a state has room for
+QUIET = 1.5  # s without a frame from a device, after which its link is not ok
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What a state is made of."""
+
+    rig: str
+    limits: Mapping[Axis, Limits]
+    operator: Operator
+    presets: Presets
+    connections: Mapping[str, Connection]
+    desk: Desk
+    jobs: JobSource
+    keys: HandKeys
+    has_camera: bool
+
+
+class StatePublisher:
+    """Writes a state for each tick into the ring."""
+
+    def __init__(self, parts: Parts, ring: RingWriter) -> None:
+        self._parts, self._ring = parts, ring
+        self._packer = StatePacker()
+        self._seldom: Mapping[str, Any] = {}
+        self._of: tuple[object, ...] = ()
+        self._fixed = {axis.value: _facts(axis, of) for axis, of in parts.limits.items()}
+        self._names: Mapping[int, str] | None = None  # another one after each change of a preset
+        self._stopped_at: float | None = None
+        self._recording_since: float | None = None
+        self._tick = Tick(0.0, {}, {}, (), {})
+
+    def publish(self, run: str, now: float, tick: Tick | None = None) -> None:
+        """The state at `now`, in a run that is "waiting", "running", "stopping", "releasing" or "over"."""
+        self._tick = tick or self._tick
+        data = self._packer.pack(self._often(run, now), self._seldom_now(now))
+        self._ring.write(data)
+        self._parts.desk.tick = self._ring.number
+
+    def _often(self, run: str, now: float) -> Mapping[str, Any]:
+        parts = self._parts
+        status, job, control = parts.operator.status, parts.jobs.job, parts.desk.control
+        drivers = {axis: each.name for each in status.inputs for axis in each.moves}
+        if job is not None and not (isinstance(job, PlayJob) and job.paused):
+            drivers = {**dict.fromkeys(job.axes, job.title), **drivers}
+        stick, age = parts.desk.stick, parts.desk.stick.age(now)
+        if status.recording and self._recording_since is None:
+            self._recording_since = now
+        self._recording_since = self._recording_since if status.recording else None
+        if status.stopped and self._stopped_at is None:
+            self._stopped_at = date()
+        self._stopped_at = self._stopped_at if status.stopped else None
+        return {
+            "tick": self._ring.number + 1,
+            "time": now,
+            "clock": date(),
+            "run": run,
+            "axes": {axis.value: self._axis(axis, now, drivers) for axis in parts.limits},
+            "holder": control.name or None,
+            "holder_session": control.holder.session if control.holder else None,
+            "asking": control.asking.name if control.asking else None,
+            "stopped": status.stopped,
+            "stopped_by": parts.operator.stopped_by,
+            "stopped_at": self._stopped_at,
+            "recording": status.recording,
+            "recording_s": round(now - self._recording_since, 2) if self._recording_since is not None else 0.0,
+            "move": job.state(now) if isinstance(job, PlayJob) else None,
+            "links": {name: self._link(connection, now) for name, connection in parts.connections.items()},
+            "sticks": {
+                "missed": stick.missed,
+                "age_ms": None if age is None else round(age * 1000, 1),
+                "armed": stick.armed,
+                "waits_for": stick.waits_for,
+            },
+        }
+
+    def _axis(self, axis: Axis, now: float, drivers: Mapping[Axis, str]) -> Mapping[str, Any]:
+        reading, state = self._tick.reported.get(axis), self._tick.motion.get(axis)
+        return {
+            **self._fixed[axis.value],
+            "measured": None if reading is None else round(reading.position, 4),
+            "measured_age_ms": None if reading is None else round((now - reading.time) * 1000, 1),
+            "commanded": None if state is None else round(state.position, 4),
+            "speed": 0.0 if state is None else round(state.velocity, 4),
+            "driver": drivers.get(axis, ""),
+        }
+
+    def _link(self, connection: Connection, now: float) -> Mapping[str, Any]:
+        age = max(0.0, now - connection.heard)
+        return {"age_ms": round(age * 1000, 1), "ok": age < QUIET}
+
+    def _seldom_now(self, now: float) -> Mapping[str, Any]:  # noqa: ARG002 - made of what has changed
+        parts = self._parts
+        status = parts.operator.status
+        of = (status.messages, status.inputs, status.range, status.follow, parts.keys.changes)
+        if of == self._of and parts.presets.names is self._names:
+            return self._seldom
+        self._of, self._names = of, parts.presets.names
+        names = list(parts.presets.names)[:PRESETS]
+        self._seldom = {
+            "rig": parts.rig,
+            "camera": parts.has_camera,
+            "keys": parts.keys.keys,
+            "presets": {str(number): _preset(parts.presets, number) for number in names},
+            "range": status.range + 1,
+            "ranges": list(status.ranges),
+            "follow": status.follow,
+            "shoot": None,
+            "focus_marks": {},
+            "inputs": [
+                {
+                    "name": each.name,
+                    "drives": [axis.value for axis in each.moves],
+                    "waits_for": each.waits_for,
+                    "trouble": each.trouble,
+                }
+                for each in status.inputs
+            ],
+            "messages": [{"time": at, "text": text[:LONGEST]} for at, text in status.messages[:MESSAGES]],
+        }
+        return self._seldom
+
+
+def _preset(presets: Presets, number: int) -> Mapping[str, Any]:
+    preset = presets.get(number)
+    if preset is None:
+        return {}
+    named = {"name": preset.name} if preset.name else {}
+    return {**{axis.value: position for axis, position in preset.positions.items()}, **named}
+
+
+def _facts(axis: Axis, limits: Limits) -> Mapping[str, Any]:
+    """What never changes. JSON has no infinity: an axis that turns for ever has no ends."""
+    return {
+        "unit": axis.unit,
+        "minimum": limits.minimum if math.isfinite(limits.minimum) else None,
+        "maximum": limits.maximum if math.isfinite(limits.maximum) else None,
+        "max_speed": limits.velocity,
+        "continuous": limits.continuous,
+    }
