@@ -28,7 +28,7 @@ def console(
         Path | None, Parameter(metavar="FILE", help="File of the presets; without it, one for each rig.")
     ] = None,
     take: Take = None,
-    realtime_thread: Annotated[Realtime, Parameter(name="--realtime")] = False,
+    in_real_time: Realtime = False,
     options: Options = DEFAULTS,
 ) -> int:
     """Move a rig from a browser, by touch, keys and moves; no terminal is needed, and Ctrl-C ends it."""
@@ -40,7 +40,7 @@ def console(
     def view(parts: LiveParts) -> ConsoleView:
         return ConsoleView(lambda: parts.operator.status)
 
-    with reached.gateway(bind, options.rig, options.json) as gateway, realtime(realtime_thread, complain):
+    with reached.gateway(bind, options.rig, options.json) as gateway, realtime(in_real_time, complain):
         hands = RemoteHands(reached.moves, gateway)
         run = LiveRun(profile, profile.name, SystemClock(), None, presets=presets, take=take, beside=hands)
         return print_report(run.by_hand(view, signals_to), options.json)

@@ -21,9 +21,14 @@ if TYPE_CHECKING:
 BIND = "127.0.0.1:8470"
 _ADDRESS = re.compile(r"(\[[0-9a-fA-F:.]+\]|[^\s/\[\]:]*):\d+|\d+(\.\d+){3}")
 
+Console = Annotated[
+    str | None,
+    Parameter(metavar="HOST:PORT", help=f"Also serve the console, at {BIND} without an address.", show_default=False),
+]
 Realtime = Annotated[
     bool,
     Parameter(
+        name="--realtime",
         help="Run the control thread in real time (SCHED_FIFO) where that is permitted.",
         negative=(),
         show_default=False,
@@ -92,6 +97,18 @@ class ConsoleOptions:
             number = listener.fileno()
             console = {"settings": settings.as_json(), "listener": number}
             yield Gateway({"console": console}, (number,))
+
+    @contextmanager
+    def beside(self, bind: str | None, rig: str, as_json: bool) -> Iterator[Gateway | None]:
+        """As `gateway`, where a console is asked for; None where it is not. Raises UsageError for its options alone."""
+        if bind is not None:
+            with self.gateway(bind, rig, as_json) as gateway:
+                yield gateway
+            return
+        for name, given in (("--token", self.token), ("--tls", self.tls)):
+            if given:
+                raise UsageError(f"{name}: needs --console")
+        yield None
 
 
 NO_CONSOLE = ConsoleOptions()

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from teleop.app.drone_flight import refuse_offsets
-from teleop.app.live import LiveParts, LiveRun
+from teleop.app.live import Beside, LiveParts, LiveRun
+from teleop.app.realtime import realtime
+from teleop.cli.console_options import NO_CONSOLE, Console, ConsoleOptions, Realtime
 from teleop.cli.drone_run import Understood, ask_to_fly
 from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, Take, the_clock
 from teleop.cli.running import print_report
-from teleop.cli.screens.folded import warn
+from teleop.cli.screens.folded import complain, warn
 from teleop.cli.screens.live_view import LiveView
 from teleop.cli.screens.run_view import RunView, timed
 from teleop.cli.screens.take_summary import take_words
@@ -29,6 +32,9 @@ from teleop.inputs.hid.recording import Recording, read_recording
 from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.recorded_sticks import Sticks, SticksSource, read_sticks
 from teleop.recording.writer import Recorder
+
+if TYPE_CHECKING:
+    from teleop.remote.gateway_child import Gateway
 
 
 def live(
@@ -58,6 +64,9 @@ def live(
     ] = None,
     fast: Fast = False,
     take: Take = None,
+    console: Console = None,
+    reached: ConsoleOptions = NO_CONSOLE,
+    in_real_time: Realtime = False,
     i_understand: Understood = False,
     options: Options = DEFAULTS,
 ) -> int:
@@ -65,7 +74,7 @@ def live(
     profile = options.profile()
     recordings = [read_recording(file, number) for number, file in enumerate(input_recording or [], 1)]
     if learn:
-        _refuse_beside_learn(sticks=sticks, fast=fast, take=take, presets=presets)
+        _refuse_beside_learn(sticks=sticks, fast=fast, take=take, presets=presets, console=console)
         return _learn(profile, options, output, recordings)
     if output is not None:
         raise UsageError("-o: needs --learn")
@@ -78,13 +87,22 @@ def live(
     alone = None if recordings else recorded
     if alone is not None:
         profile = profile.in_use(alone.axes, () if keyboard is None else [Action.RECORD])
+    if console is not None and (recorded is not None or recordings):
+        raise UsageError("--console: not together with --sticks or --input-recording, which move the rig by themselves")
     run = LiveRun(
         profile, title, the_clock(fast, profile), keyboard, recorded, recordings, presets, take, fast, targets
     )
     if alone is not None and keyboard is None:
         ask_to_fly(title, alone.axes, i_understand)
         return _unattended(run, alone, options)
-    return _by_hand(run, options)
+    with reached.beside(console, options.rig, options.json) as gateway, realtime(in_real_time, complain):
+        return _by_hand(run if gateway is None else replace(run, beside=_hands(reached.moves, gateway)), options)
+
+
+def _hands(moves: Path, gateway: Gateway) -> Beside:
+    from teleop.remote.remote_hands import RemoteHands
+
+    return RemoteHands(moves, gateway)
 
 
 def _by_hand(run: LiveRun, options: Options) -> int:

@@ -74,7 +74,7 @@ class Presets:
         return self._presets.get(number)
 
     def store(self, number: int, positions: Mapping[Axis, float], name: str | None = None) -> None:
-        """Positions of these axes, from now on; what the preset had of others, and without a new name its own, stays."""
+        """Positions of these axes, from now on; what the preset had of others stays, and its name without a new one."""
         before = self._presets.get(number, Preset({}))
         rounded = {axis: round(position, DIGITS) + 0.0 for axis, position in positions.items()}
         self._presets[number] = Preset({**before.positions, **rounded}, before.name if name is None else name)

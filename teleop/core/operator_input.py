@@ -59,8 +59,8 @@ class Held:
     when it can: unplugged, silent for 0.2 s. What it held before is then no longer true. `notes` are lines that the
     operator is to read once. `click` is what one step of `steps` is worth, in units; without it they are one step.
     `stop` is why a STOP of this input does not count now, "" where it does, None for an input that has none.
-    `deflected` is whether some control is not at rest, also where two of them cancel each other out. `late` says that it
-    was not heard for a moment: what it moves stops as fast as it may, and goes on when it is heard again.
+    `deflected` is whether some control is not at rest, also where two of them cancel each other out. `late` says that
+    it was not heard for a moment: what it moves stops as fast as it may, and goes on when it is heard again.
     """
 
     deflections: Mapping[Axis, float] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""What a field of a command may be. Each check returns the value as it is used, or raises ValueError with the reason."""
+"""What a field of a command may be: each check returns the value as it is used, or raises ValueError with why not."""
 
 from __future__ import annotations
 

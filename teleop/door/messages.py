@@ -1,7 +1,7 @@
 """Commands and answers as they pass the door: msgpack maps with bounds, checked in full before anything sees them.
 
-A command is `{"id", "session", "person", "time", "do", ...}`, an answer `{"id", "ok" or "error", ...}`. What is unknown,
-malformed or too large is a `CommandError`, which has the reason and whatever of the id could be read.
+A command is `{"id", "session", "person", "time", "do", ...}`, an answer `{"id", "ok" or "error", ...}`. What is
+unknown, malformed or too large is a `CommandError`, which has the reason and whatever of the id could be read.
 """
 
 from __future__ import annotations

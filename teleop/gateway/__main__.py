@@ -37,7 +37,7 @@ def main() -> int:
     try:
         asyncio.run(_serve(json.loads(line)))
     except TeleopError as error:
-        print(error, file=sys.stderr)
+        sys.stderr.write(f"{error}\n")
         return 1
     return 0
 

@@ -26,8 +26,8 @@ LATE = 0.05  # s after which a recall is reported as late
 class Arbitration:
     """`locks` are the inputs in the order of their priority; `notify` takes lines for the operator.
 
-    `drivers` are the inputs that deflect an axis, `deflections` (-1..1) by how much, `recall` what is under way. `taken`
-    are the axes that inputs deflect or have sent somewhere.
+    `drivers` are the inputs that deflect an axis, `deflections` (-1..1) by how much, `recall` what is under way.
+    `taken` are the axes that inputs deflect or have sent somewhere.
     """
 
     def __init__(

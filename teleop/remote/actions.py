@@ -25,18 +25,20 @@ from teleop.remote.works import Works
 
 JOG_TIME = 0.5  # s that a jog takes at least, unless it says otherwise
 CAMERA_TIME = 4.0  # s for the camera's answer
+WAY_TIME = 600.0  # s for a way along the path of a move
 ANSWER_TIME = 2.0  # s for the gimbal's
 SLACK = 1e-6
 
 
 @dataclass
 class _Due:
-    """What is asked of a device, until `done` or `by`."""
+    """What is asked of a device or a move, until `done` or `by`; `failed` is why it will not be, "" unless known."""
 
     asked: Asked
-    done: Callable[[], bool]
+    done: Callable[[float], bool]
     by: float
     missing: str
+    failed: Callable[[], str]
 
 
 class LiveActions:
@@ -61,24 +63,24 @@ class LiveActions:
         self._due: list[_Due] = []
         self._halted = False
         self._do: Mapping[str, Callable[[Asked, float], None]] = {
-            "goto": lambda asked, now: self._go("goto", asked, dict(asked["axes"]), asked.get("seconds")),
+            "goto": lambda asked, _now: self._go("goto", asked, dict(asked["axes"]), asked.get("seconds")),
             "jog": self._jog,
-            "focus": lambda asked, now: self._go("focus", asked, {Axis.FOCUS: asked["to"]}, asked.get("seconds")),
+            "focus": lambda asked, _now: self._go("focus", asked, {Axis.FOCUS: asked["to"]}, asked.get("seconds")),
             "recenter": self._recenter,
             "preset_recall": self._recall,
             "preset_store": self._store,
             "preset_delete": self._delete,
             "set_key": self._set_key,
             "delete_key": self._delete_key,
-            "clear_keys": lambda asked, now: (self.keys.clear(), asked.end())[-1],
+            "clear_keys": self._clear_keys,
             "play": self._play,
-            "pause": lambda asked, now: self._transport(asked, lambda job: job.pause(now)),
+            "pause": lambda asked, now: self._transport(asked, now, lambda job: job.pause(now)),
             "resume": self._resume,
-            "speed": lambda asked, now: self._transport(asked, lambda job: job.speed(asked["share"], now)),
-            "seek": lambda asked, now: self._transport(asked, lambda job: job.seek(asked["at"], now)),
-            "next_key": lambda asked, now: self._transport(asked, lambda job: job.step(1, now)),
-            "previous_key": lambda asked, now: self._transport(asked, lambda job: job.step(-1, now)),
-            "to_start": lambda asked, now: self._transport(asked, lambda job: job.to_start(now)),
+            "speed": lambda asked, now: self._transport(asked, now, lambda job: job.speed(asked["share"], now)),
+            "seek": lambda asked, now: self._transport(asked, now, lambda job: job.seek(asked["at"], now)),
+            "next_key": lambda asked, now: self._transport(asked, now, lambda job: job.step(1, now)),
+            "previous_key": lambda asked, now: self._transport(asked, now, lambda job: job.step(-1, now)),
+            "to_start": lambda asked, now: self._transport(asked, now, lambda job: job.to_start(now)),
             "abort": self._abort,
             "record": lambda asked, now: self._camera(asked, now, Action.RECORD),
             "stop_recording": lambda asked, now: self._camera(asked, now, Action.STOP),
@@ -137,10 +139,10 @@ class LiveActions:
 
     def _look_after(self, now: float) -> None:
         for due in list(self._due):
-            why = self._told.failure(due.asked)
-            if due.done() or why or now > due.by:
+            why = due.failed()
+            if due.done(now) or why or now > due.by:
                 self._due.remove(due)
-                due.asked.end("" if due.done() else why or due.missing)
+                due.asked.end("" if due.done(now) else why or due.missing)
 
     # --- ways
 
@@ -223,6 +225,10 @@ class LiveActions:
             raise Refusal(f"there is no key {asked['number']}")
         asked.end()
 
+    def _clear_keys(self, asked: Asked, now: float) -> None:  # noqa: ARG002
+        self.keys.clear()
+        asked.end()
+
     # --- moves
 
     def _play(self, asked: Asked, now: float) -> None:  # noqa: ARG002
@@ -251,19 +257,22 @@ class LiveActions:
         asked.accept()
         self._jobs.begin(job)
 
-    def _transport(self, asked: Asked, does: Callable[[PlayJob], object]) -> None:
+    def _transport(self, asked: Asked, now: float, does: Callable[[PlayJob], object]) -> None:
+        """Done once the change of speed, or the way along the path, is."""
         job = self._jobs.job
         if not isinstance(job, PlayJob):
             raise Refusal("no move is playing")
         does(job)
-        asked.end()
+        asked.accept()
+        done = lambda now: self._jobs.job is not job or not job.changing(now)  # noqa: E731
+        self._due.append(_Due(asked, done, now + WAY_TIME, "it takes too long", lambda: job.source.playback.refusal))
 
     def _resume(self, asked: Asked, now: float) -> None:
         self._may_move()
         job = self._jobs.job
         if isinstance(job, PlayJob):
             job.owner = asked.command.session
-        self._transport(asked, lambda job: job.resume(now))
+        self._transport(asked, now, lambda job: job.resume(now))
 
     def _abort(self, asked: Asked, now: float) -> None:  # noqa: ARG002
         if self._jobs.job is None:
@@ -279,8 +288,9 @@ class LiveActions:
         asked.accept()
         self._jobs.events.append(action)
         self._told.camera.pop(action, None)
-        done = lambda: self._told.camera.get(action, False)  # noqa: E731
-        self._due.append(_Due(asked, done, now + CAMERA_TIME, "the camera has not done it"))
+        done = lambda _now: self._told.camera.get(action, False)  # noqa: E731
+        failed = lambda: "" if self._told.camera.get(action, True) else "the camera has not done it"  # noqa: E731
+        self._due.append(_Due(asked, done, now + CAMERA_TIME, "no answer of the camera", failed))
 
     def _range(self, asked: Asked, now: float) -> None:  # noqa: ARG002
         ranges = len(self.operator.status.ranges)
@@ -322,8 +332,8 @@ class LiveActions:
         if not message.has_reply:
             asked.end()
             return
-        done = lambda: self._told.confirmed(command)  # noqa: E731
-        self._due.append(_Due(asked, done, now + ANSWER_TIME, "no answer"))
+        done = lambda _now: self._told.confirmed(command)  # noqa: E731
+        self._due.append(_Due(asked, done, now + ANSWER_TIME, "no answer", lambda: self._told.failure(asked)))
 
 
 def _written(value: object) -> str:

@@ -1,7 +1,7 @@
-"""What a client has asked for and what lasts: a way to a place, or a move. It drives the axes beneath the operator's inputs.
+"""What a client has asked for and what lasts: a way to a place, or a move.
 
-One at a time. A STOP ends a way and holds a move where it is; an input that takes an axis of a way ends it too. What
-becomes of each is told to `ended`.
+It drives the axes beneath the operator's inputs, one at a time. A STOP ends a way and holds a move where it is; an
+input that takes an axis of a way ends it too. What becomes of each is told to `ended`.
 """
 
 from __future__ import annotations

@@ -79,6 +79,10 @@ class PlayJob:
     def paused(self) -> bool:
         return bool(self.halted) or (self.source.phase is SequencePhase.PLAYING and self.source.playback.paused)
 
+    def changing(self, now: float) -> bool:
+        """Whether what was asked for last is still under way."""
+        return bool(self.halted and self._going) or (not self.halted and self.source.playback.changing(now))
+
     def pause(self, now: float, why: str = "paused") -> None:
         if self.halted:
             self._going = False

@@ -1,4 +1,4 @@
-"""The state of a rig for the ring, made each tick in the control thread: plain values, and only what has changed anew."""
+"""The state of a rig for the ring, made each tick by the control thread: plain values, some only once they change."""
 
 from __future__ import annotations
 

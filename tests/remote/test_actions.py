@@ -1,0 +1,357 @@
+"""What clients can have a rig do, by the answers, the state and the wire of the simulated gimbal."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from remote_bench import ANNA, BOB, RemoteBench, remote_bench
+from waiting import wait_until
+
+from teleop.dji.gimbal import messages as gimbal
+from teleop.remote import works
+from teleop.remote.desk import MOST
+
+PATIENCE = 5.0  # s of the loop's time
+MOVE = """
+title: There and back
+keyframes:
+  - {at: 0, pan: 0, tilt: 0}
+  - {at: 2s, pan: 20, tilt: 5}
+  - {at: 4s, pan: 0, tilt: 0}
+"""
+
+
+def done(bench: RemoteBench, do: str, **fields: Any) -> dict[str, Any]:
+    """How it ended, once it has."""
+    number = bench.say(do, **fields)
+    end = bench.now + PATIENCE
+    while number not in bench.ends and bench.now < end:
+        bench.tick()
+        if "error" in bench.answers.get(number, {}):
+            return bench.answers[number]
+    return bench.ends[number]
+
+
+def played(bench: RemoteBench, **fields: Any) -> int:
+    """A move that is planned in this process, and has begun."""
+    number = bench.say("play", **fields)
+    bench.tick()
+    wait_until(lambda: bench.hands._works._found, "a plan")
+    bench.tick(2)
+    assert bench.answers[number].get("ok"), bench.answers[number]
+    return number
+
+
+@pytest.fixture
+def planned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Plans in this process: the other one takes a second to start."""
+    from teleop.app.planning import plan_content, plan_file
+
+    class Here:
+        def __init__(self, profile: Any) -> None:
+            self._profile = profile
+
+        def plan(self, what: Any) -> Any:
+            make = plan_file if isinstance(what, str) else plan_content
+            return make(what, self._profile).sequence
+
+        def close(self) -> None: ...
+
+    monkeypatch.setattr(works, "PlanningProcess", Here)
+    (tmp_path / "there.yaml").write_text(MOVE)
+
+
+@pytest.fixture
+def stage(tmp_path: Path, planned: None) -> Iterator[RemoteBench]:
+    with remote_bench(tmp_path) as bench:
+        bench.ask("take_control")
+        bench.seen = {ANNA: 0.0}
+        yield bench
+
+
+# --- ways
+
+
+def test_a_goto_arrives_in_its_time_and_says_when(held: RemoteBench) -> None:
+    begin = held.now
+    assert done(held, "goto", axes={"pan": 20.0, "tilt": -5.0}, seconds=2.0)["ok"]
+    assert held.now - begin == pytest.approx(2.0, abs=0.1)
+    pan = held.state["axes"]["pan"]
+    assert (pan["commanded"], pan["measured"]) == (pytest.approx(20), pytest.approx(20, abs=0.1))
+    assert held.tap.of(gimbal.Position)[-1][1].yaw == pytest.approx(20)
+
+
+@pytest.mark.parametrize(
+    ("do", "fields", "reason"),
+    [
+        ("goto", {"axes": {"pan": 181.0}}, "pan: 181 is outside the soft limits (-180..180)"),
+        ("goto", {"axes": {"roll": 1.0}}, "roll is not an axis of this rig"),
+        ("focus", {"to": 0.5}, "focus is not an axis of this rig"),
+        ("preset_recall", {"number": 3}, "there is no preset 3 yet"),
+        ("delete_key", {"number": 1}, "there is no key 1"),
+        ("play", {"move": "keys"}, "set at least two keys first"),
+        ("pause", {}, "no move is playing"),
+        ("abort", {}, "nothing moves that could be aborted"),
+        ("range", {"number": 9}, "there are 3 speed ranges"),
+        ("message", {"name": "gimbal positoin"}, "gimbal positoin"),
+        ("message", {"name": "gimbal position", "fields": {"yaw": 10}}, "would disturb the commands of the run"),
+        ("follow", {"mode": "me"}, "gimbal follow me"),
+    ],
+)
+def test_what_the_rig_cannot_do_is_refused_with_the_reason(
+    held: RemoteBench, do: str, fields: dict[str, Any], reason: str
+) -> None:
+    answer = held.ask(do, **fields)
+    assert answer["kind"] == "refused"
+    assert reason in answer["error"]
+
+
+def test_jogs_add_up_and_end_at_the_soft_limit(held: RemoteBench) -> None:
+    for _ in range(3):
+        assert "ok" in held.ask("jog", axis="pan", by=1.0)
+    held.run(1)
+    assert held.at() == pytest.approx(3)
+    assert done(held, "jog", axis="tilt", by=-90.0, within=2.0)["ok"]
+    assert held.state["axes"]["tilt"]["commanded"] == pytest.approx(-50)
+    assert "soft limit" in held.ask("jog", axis="tilt", by=-1.0)["error"]
+
+
+def test_an_operator_at_the_rig_ends_a_way(held: RemoteBench) -> None:
+    number = held.say("goto", axes={"pan": 100.0}, seconds=10.0)
+    held.run(1)
+    held.pad.hold(pan=-0.5)
+    held.run(0.5)
+    assert held.ends[number]["error"] == "an operator moved pan"
+    held.pad.hold(pan=0.0)
+    held.run(1)
+    assert held.rests
+
+
+def test_a_new_way_replaces_the_one_under_way(held: RemoteBench) -> None:
+    first = held.say("goto", axes={"pan": 100.0}, seconds=10.0)
+    held.run(1)
+    assert done(held, "goto", axes={"pan": 0.0}, seconds=2.0)["ok"]
+    assert held.ends[first]["error"] == "replaced by goto"
+
+
+def test_presets_and_keys_are_stored_where_the_axes_are(held: RemoteBench) -> None:
+    done(held, "goto", axes={"pan": 12.0}, seconds=1.0)
+    assert "ok" in held.ask("preset_store", number=4, name="wide")
+    assert "ok" in held.ask("set_key")
+    assert held.state["presets"] == {"4": {"pan": 12.0, "tilt": 0.0, "name": "wide"}}
+    assert held.state["keys"] == [{"pan": 12.0, "tilt": 0.0}]
+    assert done(held, "recenter", seconds=1.0)["ok"]
+    assert held.at() == pytest.approx(0)
+    assert done(held, "preset_recall", number=4, seconds=1.0)["ok"]
+    assert held.at() == pytest.approx(12)
+    assert "ok" in held.ask("preset_delete", number=4)
+    assert "ok" in held.ask("clear_keys")
+    assert (held.state["presets"], held.state["keys"]) == ({}, [])
+
+
+# --- devices
+
+
+def test_a_record_is_done_once_the_camera_says_so(held: RemoteBench) -> None:
+    assert done(held, "record")["ok"]
+    held.run(1)
+    assert held.state["recording"]
+    assert held.state["recording_s"] == pytest.approx(1, abs=0.1)
+    assert done(held, "stop_recording")["ok"]
+    assert not held.state["recording"]
+    assert done(held, "shutter")["ok"]
+
+
+def test_a_follow_mode_and_any_message_are_done_once_the_gimbal_confirms(held: RemoteBench) -> None:
+    assert done(held, "follow", mode="lock")["ok"]
+    assert held.state["follow"] == "lock"
+    assert done(held, "message", name="gimbal version")["ok"]
+    held.say("goto", axes={"pan": 50.0}, seconds=5.0)
+    held.run(0.5)
+    assert held.ask("follow", mode="pan")["error"] == "an axis is moving"
+
+
+def test_a_speed_range_is_chosen_by_its_number(held: RemoteBench) -> None:
+    assert "ok" in held.ask("range", number=1)
+    held.tick()
+    assert held.state["range"] == 1
+    held.hold(1.0, pan=1.0)
+    assert held.speed() == pytest.approx(6)
+
+
+# --- moves
+
+
+def test_a_move_of_the_folder_plays_to_its_end(stage: RemoteBench) -> None:
+    number = played(stage, move="there", preroll=0.0)
+    assert stage.state["move"]["title"] == "There and back"
+    stage.run(2)
+    assert stage.at() == pytest.approx(20, abs=1)
+    stage.run(2.5)
+    assert stage.ends[number]["ok"]
+    assert stage.state["move"] is None
+
+
+def test_a_move_that_is_neither_here_nor_shipped_is_refused(stage: RemoteBench) -> None:
+    number = stage.say("play", move="nowhere")
+    stage.tick()
+    wait_until(lambda: stage.hands._works._found, "an answer")
+    stage.tick()
+    assert stage.answers[number]["kind"] == "refused"
+    assert "there is no move 'nowhere'" in stage.answers[number]["error"]
+
+
+def test_the_keys_from_the_hand_play(stage: RemoteBench) -> None:
+    for pan in (0.0, 10.0, 5.0):
+        done(stage, "goto", axes={"pan": pan}, seconds=1.0)
+        stage.ask("set_key")
+    number = played(stage, move="keys", preroll=0.0)
+    stage.run(10)
+    assert stage.ends[number]["ok"]
+    assert stage.at() == pytest.approx(5)
+
+
+def test_the_transport_pauses_on_the_path_seeks_and_goes_on(stage: RemoteBench) -> None:
+    number = played(stage, move="there", preroll=0.0)
+    stage.run(1)
+    assert stage.ask("seek", at=0.5)["error"] == "pause the move first"
+    ended(stage, "pause")
+    assert stage.rests
+    assert stage.state["move"]["phase"] == "paused"
+    ended(stage, "seek", at=2.0)
+    assert stage.at() == pytest.approx(20)
+    ended(stage, "next_key")
+    assert stage.state["move"]["at"] == pytest.approx(4.0)
+    ended(stage, "previous_key")
+    assert stage.state["move"]["at"] == pytest.approx(2.0)
+    ended(stage, "to_start")
+    assert stage.state["move"]["at"] == pytest.approx(0.0)
+    ended(stage, "speed", share=0.5)
+    ended(stage, "resume")
+    stage.run(2)
+    assert stage.state["move"]["speed"] == 0.5
+    stage.run(7)
+    assert stage.ends[number]["ok"]
+
+
+def test_a_stop_holds_a_move_and_a_resume_rejoins_it(stage: RemoteBench) -> None:
+    number = played(stage, move="there", preroll=0.0)
+    stage.run(1)
+    stage.say("stop", BOB)
+    stage.run(1)
+    assert stage.rests
+    assert stage.state["move"]["phase"] == "paused"
+    assert stage.ask("resume")["error"] == "STOP is not cleared"
+    stage.ask("clear")
+    stage.run(0.5)
+    assert stage.rests
+    stage.ask("resume")
+    stage.run(6)
+    assert stage.ends[number]["ok"]
+
+
+def test_an_abort_ends_it(stage: RemoteBench) -> None:
+    number = played(stage, move="there", preroll=0.0)
+    stage.run(1)
+    assert "ok" in stage.ask("abort")
+    stage.run(1)
+    assert stage.rests
+    assert stage.ends[number]["error"] == "aborted by Anna"
+
+
+@pytest.mark.parametrize("gone", ["page silent", "closed", "gateway silent"])
+def test_an_attended_move_pauses_two_seconds_after_its_console_is_gone(stage: RemoteBench, gone: str) -> None:
+    played(stage, move="there", preroll=0.0, passes=9)
+    stage.run(0.5)
+    match gone:
+        case "page silent":
+            stage.seen = {}
+        case "closed":
+            stage.say("closed")
+        case _:
+            stage.quiet = True
+    stage.run(1.5)
+    assert gone == "closed" or stage.state["move"]["phase"] == "playing"
+    paused(stage)
+    assert stage.rests
+    assert any("its console is gone" in line for line in stage.lines)
+
+
+def test_a_move_that_is_not_attended_goes_on(stage: RemoteBench) -> None:
+    number = played(stage, move="there", preroll=0.0, attended=False)
+    stage.quiet = True
+    stage.run(4.5)
+    assert stage.ends[number]["ok"]
+
+
+def test_a_handover_holds_a_move_where_it_is(stage: RemoteBench) -> None:
+    played(stage, move="there", preroll=0.0, passes=9)
+    stage.say("take_control", BOB, ask=True)
+    stage.run(6.5)
+    assert stage.state["holder"] == "Bob"
+    assert stage.rests
+    assert stage.state["move"]["phase"] == "paused"
+    assert "ok" in stage.ask("resume", BOB)
+    stage.run(1)
+    assert not stage.rests
+
+
+# --- what comes from outside
+
+
+def test_a_flood_of_what_is_no_command_is_counted_answered_and_disturbs_nothing(held: RemoteBench) -> None:
+    way = held.say("goto", axes={"pan": 20.0}, seconds=2.0)
+    for _ in range(200):
+        for _ in range(8):
+            held.send(b"\xc1 no msgpack")
+        held.tick()
+    held.run(1)
+    assert held.ends[way]["ok"]
+    assert held.hands.desk.counts.malformed == 1600
+    assert held.hands.desk.counts.faults == 0
+
+
+def test_a_tick_takes_a_bounded_number_of_datagrams(held: RemoteBench) -> None:
+    class Endless:
+        lost = 0
+
+        def receive(self, most: int) -> Any:
+            assert most == MOST
+            return iter(())
+
+    held.hands.desk._socket = Endless()  # type: ignore[assignment]
+    held.tick()
+
+
+def test_a_fault_in_a_command_ends_no_run(held: RemoteBench, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*_: object) -> None:
+        raise RuntimeError("broken")
+
+    monkeypatch.setattr(held.hands.desk.actions, "do", fails)
+    assert "RuntimeError: broken" in held.ask("set_key")["error"]
+    held.run(0.1)
+    assert held.state["run"] == "running"
+
+
+def ended(bench: RemoteBench, do: str, **fields: Any) -> None:
+    number = bench.say(do, **fields)
+    until(bench, lambda: number in bench.ends or "error" in bench.answers.get(number, {}))
+    assert bench.ends[number].get("ok"), (bench.answers[number], bench.ends.get(number))
+
+
+def paused(bench: RemoteBench) -> None:
+    until(bench, lambda: bench.state["move"]["phase"] == "paused" and bench.rests)
+
+
+def until(bench: RemoteBench, holds: Callable[[], object]) -> None:
+    """A change of speed is searched for in a thread: real time too has to go by."""
+    for _ in range(2000):
+        if holds():
+            return
+        bench.tick()
+        time.sleep(0.0005)
+    raise AssertionError(bench.state["move"])
