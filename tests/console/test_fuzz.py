@@ -14,7 +14,7 @@ from console_fuzz import fuzz_http, fuzz_websocket
 def test_http_takes_whatever_comes(tmp_path):
     folder = tmp_path / "moves"
     folder.mkdir()
-    found = asyncio.run(fuzz_http(Random(7), folder, 600))
+    found = asyncio.run(fuzz_http(Random(7), folder, 2000))
     assert {200, 400, 401, 403, 404, 405, 413} <= set(found)
     assert list(tmp_path.iterdir()) == [folder]
 

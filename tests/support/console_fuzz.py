@@ -19,7 +19,7 @@ from teleop.console.settings import ConsoleSettings
 PATHS = """/ /login /ws /index.html /api /api/state /api/command /api/stop /api/login /api/moves /api/moves/reveal
  /api/moves/mine /api/plan /api/takes /api/takes/one /api/takes/one/keys /takes/one/report /takes/one/download
  /vendor/uplot/uPlot.iife.min.js /nope"""
-METHODS = ["GET", "POST", "PUT", "HEAD", "DELETE", "OPTIONS", "PATCH", "TRACE", "get", "", "\u00e9"]
+METHODS = [*["GET", "POST", "POST", "PUT"] * 4, "HEAD", "DELETE", "OPTIONS", "PATCH", "TRACE", "get", "", "\u00e9"]
 COMMANDS: list[Any] = [
     {"do": "goto", "axes": {"pan": 10}, "seconds": 2},
     {"do": "stick", "seq": 1, "time": 1.0, "axes": {"pan": 0.5}},
@@ -72,10 +72,10 @@ def requests(random: Random, count: int) -> Iterator[FuzzRequest]:
 
 
 def messages(random: Random, count: int) -> Iterator[str]:
-    """Texts for a WebSocket, none of which is a STOP."""
+    """Texts for a WebSocket, none of which is a STOP, and none too large."""
     for _ in range(count):
         text = b"".join(_body(random)).decode(errors="replace")
-        yield text.replace("stop", "stoq")
+        yield text[:60_000].replace("stop", "stoq")
 
 
 def _path(random: Random) -> str:
@@ -142,6 +142,7 @@ class FuzzedConsole:
     door: FakeDoor = field(default_factory=FakeDoor)
     now: float = 0.0
     statuses: dict[int, int] = field(default_factory=dict)
+    random: Random = field(default_factory=lambda: Random(3))
 
     def __post_init__(self) -> None:
         self.door.action_seconds = 0.0
@@ -156,12 +157,13 @@ class FuzzedConsole:
     async def ask(self, request: FuzzRequest) -> int:
         """The status of the answer; raises what the console raises."""
         parts = list(request.body)
+        is_cut = self.random.random() < 0.02
         statuses: list[int] = []
 
         async def receive() -> Mapping[str, Any]:
             if not parts:
                 return {"type": "http.disconnect"}
-            return {"type": "http.request", "body": parts.pop(0), "more_body": bool(parts)}
+            return {"type": "http.request", "body": parts.pop(0), "more_body": bool(parts) or is_cut}
 
         async def send(message: Any) -> None:
             if message["type"] == "http.response.start":
