@@ -26,6 +26,7 @@ from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway, GatewayChild
 from teleop.remote.jobs import JobSource
 from teleop.remote.keys import HandKeys
+from teleop.remote.live_shown import LiveShown
 from teleop.remote.state import Parts, StatePublisher
 from teleop.remote.stick import RemoteStick
 from teleop.remote.told import Told
@@ -78,9 +79,9 @@ class RemoteHands:
         """To the operator of an open rig; from now on the gateway runs. What sees each tick, and the release."""
         self._operator = self._actions.operator = operator
         self._actions.presets, self._actions.has_camera = presets, rig.camera is not None
+        shown = LiveShown(operator, presets, self._jobs, self._keys)
         parts = Parts(
-            *(self._profile.name, self._limits, operator, presets, rig.connections),
-            *(self.desk, self._jobs, self._keys, rig.camera is not None),
+            *(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None),
         )
         self._publisher = StatePublisher(parts, self._ring)
         self._clock = rig.clock
