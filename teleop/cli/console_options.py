@@ -59,13 +59,18 @@ class ConsoleOptions:
     token: Annotated[
         str | None, Parameter(metavar="TOKEN", help="Token to log in with; without it one is made where it is needed.")
     ] = None
+    watch_token: Annotated[
+        str | None, Parameter(metavar="TOKEN", help="Token that only watches, and may press STOP; made where needed.")
+    ] = None
     tls: Annotated[
-        bool, Parameter(help="Serve HTTPS, with a certificate that is made once.", negative=(), show_default=False)
+        bool, Parameter(help="Serve HTTPS with a certificate made here.", negative=(), show_default=False)
     ] = False
     certificate: Annotated[
-        Path | None, Parameter(metavar="FILE", help="Certificate (PEM) for HTTPS, instead of one that is made.")
+        Path | None, Parameter(metavar="FILE", help="Serve HTTPS with this certificate (PEM); --key has its key.")
     ] = None
-    key: Annotated[Path | None, Parameter(metavar="FILE", help="Key of that certificate (PEM).")] = None
+    key: Annotated[
+        Path | None, Parameter(metavar="FILE", help="The key of --certificate, if it is in another file.")
+    ] = None
     moves: Annotated[
         Path, Parameter(metavar="FOLDER", help="Folder of the moves and takes that the console shows.")
     ] = Path()
@@ -90,13 +95,13 @@ class ConsoleOptions:
             raise UsageError(f"--moves {self.moves}: is no folder")
         host, port = parse_bind(bind)
         folder = str(self.moves.resolve())
-        asked = ConsoleSettings(host, port, self.token or "", moves=folder, takes=folder, rig=rig)
-        settings = with_tokens(asked)
-        if self.tls or self.certificate is not None:
+        tokens = self.token or "", self.watch_token or ""
+        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, rig=rig)
+        if self.tls or self.certificate or self.key:
             from teleop.console.certificate import with_tls
 
-            settings = with_tls(settings, self.certificate, self.key)
-        listener, settings = listen(settings)
+            asked = with_tls(asked, self.certificate, self.key)
+        listener, settings = listen(with_tokens(asked))
         with listener:
             if as_json:
                 print(json.dumps(reached(settings)), flush=True)
@@ -114,9 +119,9 @@ class ConsoleOptions:
             with self.gateway(bind, rig, as_json) as gateway:
                 yield gateway
             return
-        for name, given in (("--token", self.token), ("--tls", self.tls), ("--certificate", self.certificate)):
-            if given:
-                raise UsageError(f"{name}: needs --console")
+        for name in ("token", "watch_token", "tls", "certificate", "key"):
+            if getattr(self, name):
+                raise UsageError(f"--{name.replace('_', '-')}: needs --console")
         yield None
 
 

@@ -10,11 +10,14 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from difflib import SequenceMatcher
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import yaml
 
 from teleop.config.documents.document import DocumentError, Location
+from teleop.config.documents.list_pairs import pairing
 from teleop.config.documents.yaml_loader import MAX_DEPTH, MAX_NODES, parse_document
 from teleop.config.documents.yaml_nodes import compose
 
@@ -34,11 +37,15 @@ class Commented(dict[str, Any]):
 
 
 class _Edit(NamedTuple):
-    """A value for `path`; `delete`: its key goes. A path behind the end of a list appends to it."""
+    """A value for `path`. `delete`: its entry goes. `insert`: it goes before the entry of a list that is there now.
+
+    A path behind the end of a list appends to it.
+    """
 
     path: Location
     value: Any = None
     delete: bool = False
+    insert: bool = False
 
 
 def edited(text: str, data: Any, name: str) -> str:
@@ -106,13 +113,29 @@ def _differences(old: Any, new: Any, path: Location) -> Iterator[_Edit]:
             else:
                 yield _Edit((*path, key), value)
         yield from (_Edit((*path, key), delete=True) for key in old if key not in new)
-    elif isinstance(old, list) and isinstance(new, list) and old and len(new) >= len(old):
-        for index, value in enumerate(new):
-            yield from (
-                _differences(old[index], value, (*path, index)) if index < len(old) else [_Edit((*path, index), value)]
-            )
+    elif isinstance(old, list) and isinstance(new, list) and old and new:
+        yield from _list_differences(old, new, path)
     elif old != new or isinstance(old, bool) != isinstance(new, bool):
         yield _Edit(path, new)
+
+
+def _list_differences(old: Sequence[Any], new: Sequence[Any], path: Location) -> Iterator[_Edit]:
+    """From the last entry to the first, so that the numbers of those before stay; those that are alike are matched."""
+    alike = SequenceMatcher(None, list(map(repr, old)), list(map(repr, new)), autojunk=False).get_opcodes()
+    for kind, first, end, new_first, new_end in reversed(alike):
+        if kind == "equal":
+            continue
+        pairs = pairing(old[first:end], new[new_first:new_end])
+        bounds = [(-1, -1), *pairs, (end - first, new_end - new_first)]
+        for (before, new_before), (after, new_after) in reversed(list(pairwise(bounds))):
+            at, added = first + after, new[new_first + new_before + 1 : new_first + new_after]
+            if at == len(old):
+                yield from (_Edit((*path, at + index), value) for index, value in enumerate(added))
+            else:
+                yield from (_Edit((*path, at), value, insert=True) for value in reversed(added))
+            yield from (_Edit((*path, index), delete=True) for index in reversed(range(first + before + 1, at)))
+            if before >= 0:
+                yield from _differences(old[first + before], new[new_first + new_before], (*path, first + before))
 
 
 def _applied(text: str, edit: _Edit) -> str:
@@ -125,7 +148,7 @@ def _applied(text: str, edit: _Edit) -> str:
         key_node, node = _child(parent, edit.path[-1])
     if edit.delete:
         return _without(text, parent, edit.path[-1])
-    if node is None:
+    if node is None or edit.insert:
         return _with_new(text, parent, edit.path[-1], edit.value)
     return _with_value(text, parent, key_node, node, edit.value)
 
@@ -153,32 +176,55 @@ def _with_value(text: str, parent: Any, key: Any, node: Any, value: Any) -> str:
 
 
 def _with_new(text: str, parent: Any, key: str | int, value: Any) -> str:
-    """With a new entry at the end of a mapping or a list."""
+    """With a new entry at the end of a mapping, or in a list before the entry `key`."""
     in_list = isinstance(parent, yaml.SequenceNode)
+    if in_list and parent.value and key == 0:
+        return _with_first(text, parent, value)
+    before = parent.value[int(key) - 1 if in_list else -1] if parent.value else None
     if parent.flow_style or not parent.value:
         entry = flow(value) if in_list else f"{flow(key)}: {flow(value)}"
-        at = _end_of_entry(parent.value[-1]) if parent.value else parent.end_mark.index - 1
+        at = _end_of_entry(before) if before else parent.end_mark.index - 1
         return text[:at] + (", " if parent.value else "") + entry + text[at:]
     first = parent.value[0] if in_list else parent.value[0][0]
     column = parent.start_mark.column if in_list else first.start_mark.column
     lines = block([value], column) if in_list else _entry(str(key), value, column)
-    at = _end_of_entry(parent.value[-1])
+    at = _end_of_entry(before)
     if text[at - 1 : at] == "\n":  # behind a block scalar
         return text[:at] + _joined(lines, text).removeprefix(_break(text)) + _break(text) + text[at:]
     at = _line_end(text, at)
     return text[:at] + _joined(lines, text) + text[at:]
 
 
+def _with_first(text: str, parent: Any, value: Any) -> str:
+    """With a new entry before the first one of a list."""
+    begin = _begin(text, parent, 0)
+    if parent.flow_style:
+        return f"{text[:begin]}{flow(value)}, {text[begin:]}"
+    column = parent.start_mark.column
+    lines = _joined(block([value], column), text).removeprefix(_break(text)).lstrip(" ")
+    return f"{text[:begin]}{lines}{_break(text)}{' ' * column}{text[begin:]}"
+
+
+def _begin(text: str, parent: Any, index: int) -> int:
+    """Where an entry begins: of a block's list at its dash."""
+    entry = parent.value[index]
+    if not isinstance(parent, yaml.SequenceNode):
+        return entry[0].start_mark.index
+    begin = entry.start_mark.index
+    return begin if parent.flow_style else text.rindex("-", 0, begin)
+
+
 def _without(text: str, parent: Any, key: str | int) -> str:
-    """Without an entry of a mapping that has others."""
-    index = next(index for index, (node, _) in enumerate(parent.value) if node.value == key)
-    begin, end = parent.value[index][0].start_mark.index, _end_of_entry(parent.value[index])
+    """Without an entry of a mapping or a list that has others."""
+    in_list = isinstance(parent, yaml.SequenceNode)
+    index = int(key) if in_list else next(i for i, (node, _) in enumerate(parent.value) if node.value == key)
+    begin, end = _begin(text, parent, index), _end_of_entry(parent.value[index])
     line = text.rfind("\n", 0, begin) + 1
     if not parent.flow_style and not text[line:begin].strip():
         behind = end if text[end - 1 : end] == "\n" else _line_end(text, end) + len(_break(text))
         return text[:line] + text[behind:]
     if index + 1 < len(parent.value):
-        return text[:begin] + text[parent.value[index + 1][0].start_mark.index :]
+        return text[:begin] + text[_begin(text, parent, index + 1) :]
     return text[: _end_of_entry(parent.value[index - 1])] + text[end:]
 
 

@@ -120,3 +120,58 @@ def test_whatever_becomes_of_one_key_the_others_keep_their_bytes(old: dict[str, 
 @given(value=values)
 def test_a_value_in_one_line_is_that_value(value: Any) -> None:
     assert loaded(f"a: {flow(value)}\n") == {"a": value}
+
+
+KEYS = """\
+keyframes:
+  # the door
+  - {at: 0, pan: 0}   # start
+  # the window
+  - at: 2s            # w
+    pan: 10
+    tilt: 1
+
+  # the end
+  - {at: 5, pan: 20}  # stop
+fit: stretch
+"""
+
+
+def changed(text: str, change: Any) -> str:
+    data = loaded(text)
+    change(data["keyframes"])
+    return edited(text, data, "m.yaml")
+
+
+def test_an_entry_taken_from_a_list_takes_no_comment_of_another() -> None:
+    without = KEYS.replace("  - at: 2s            # w\n    pan: 10\n    tilt: 1\n", "")
+    assert changed(KEYS, lambda keys: keys.pop(1)) == without
+    assert changed(KEYS, lambda keys: keys.pop(0)) == KEYS.replace("  - {at: 0, pan: 0}   # start\n", "")
+    assert changed(KEYS, lambda keys: keys.pop(2)) == KEYS.replace("  - {at: 5, pan: 20}  # stop\n", "")
+
+
+def test_an_entry_put_into_a_list_moves_the_others_as_they_are() -> None:
+    new = {"at": 1, "pan": 5}
+    after_first = KEYS.replace("# start\n", "# start\n  - {at: 1, pan: 5}\n")
+    assert changed(KEYS, lambda keys: keys.insert(1, new)) == after_first
+    first = KEYS.replace("  - {at: 0", "  - {at: 1, pan: 5}\n  - {at: 0")
+    assert changed(KEYS, lambda keys: keys.insert(0, new)) == first
+    two = KEYS.replace("# stop\n", "# stop\n  - {at: 1, pan: 5}\n  - {at: 1, pan: 5}\n")
+    assert changed(KEYS, lambda keys: keys.extend([new, dict(new)])) == two
+
+
+def test_a_changed_entry_keeps_its_own_comment() -> None:
+    def drag(keys: list[Any]) -> None:
+        keys[1]["pan"] = 12.5
+
+    assert changed(KEYS, drag) == KEYS.replace("pan: 10", "pan: 12.5")
+
+
+FRAMES = st.lists(st.fixed_dictionaries({"at": st.integers(0, 9)}, optional={"pan": st.integers(-9, 9)}), max_size=6)
+
+
+@settings(max_examples=150)
+@given(FRAMES, FRAMES, st.booleans())
+def test_any_list_becomes_any_other(old: list[Any], new: list[Any], in_flow: bool) -> None:
+    text = f"keyframes: {flow(old)}\n" if in_flow or not old else "\n".join(block({"keyframes": old}, 0)) + "\n"
+    assert loaded(edited(f"# a\n{text}# z\n", {"keyframes": new}, "m.yaml")) == {"keyframes": new}

@@ -1,0 +1,21 @@
+/**
+ * The shapes of what the server sends, as JSDoc types; there is no code in it. docs/reference has them in words.
+ *
+ * @typedef {{measured: number|null, measured_age_ms: number|null, commanded: number|null, speed: number, unit: string,
+ *   minimum: number|null, maximum: number|null, max_speed: number, continuous: boolean, driver: string, expo?: number}} AxisState
+ * @typedef {{title: string, name?: string, phase: string, at: number|null, duration: number, speed: number, max_speed?: number, why?: string,
+ *   key: number|null, keys: number, pass: number, passes: number|null, errors?: Object<string, number>[]}} MoveState
+ * @typedef {{frames_done: number, frames: number, eta: number|null, missed: number, paused: boolean, clip_s?: number,
+ *   interval_s?: number, intervals?: number[], battery?: number|null}} ShootState
+ * @typedef {Object<string, number|string>} Positions
+ * @typedef {{name: string, drives: string[], waits_for: string, trouble: string}} InputState
+ * @typedef {{rig: string, tick: number, time: number, clock: number, age_ms: number, run: string, axes: Object<string, AxisState>,
+ *   holder: string|null, holder_session: string|null, asking: any, stopped: boolean, stopped_by: string, stopped_at: number|null,
+ *   recording: boolean, recording_s: number, camera: boolean, move: MoveState|null, shoot: ShootState|null,
+ *   keys: Object<string, number>[], presets: Object<string, Positions>, range: number, ranges: number[], follow: string,
+ *   focus_marks: Object<string, number>, inputs: InputState[], links: Object<string, {age_ms: number|null, ok: boolean}>,
+ *   sticks: {missed: number, age_ms: number|null, armed: boolean, waits_for: string}, messages: {time: number, text: string}[],
+ *   fov?: [number, number]}} State
+ * @typedef {{ok?: boolean, error?: string, kind?: string, holder?: string}} Answer
+ */
+export {};

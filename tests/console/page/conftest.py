@@ -1,0 +1,34 @@
+"""One browser and one server for each file of tests of the page."""
+
+from __future__ import annotations
+
+import pytest
+from page_bench import CHROMIUM, PageServer, chrome
+
+
+@pytest.fixture(scope="module")
+def browser():
+    if CHROMIUM is None:
+        pytest.skip("Chromium is not installed")
+    with chrome() as browser:
+        yield browser
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    with PageServer(tmp_path_factory.mktemp("console")) as server:
+        yield server
+
+
+@pytest.fixture
+def rig(server):
+    return server.anew()
+
+
+@pytest.fixture
+def visit(browser, server, rig):
+    """Opens a page on the server; what went wrong in any page fails the test."""
+    browser.errors.clear()
+    yield lambda *args, **options: browser.open(server.url + options.pop("at", ""), *args, **options)
+    browser.close()
+    assert browser.errors == []
