@@ -7,6 +7,7 @@ has ended, whatever ended it. All of it happens in a thread of its own; nothing 
 from __future__ import annotations
 
 import json
+import os
 import select
 import subprocess
 import sys
@@ -126,7 +127,7 @@ class GatewayChild:
         assert process.stderr is not None
         if process.stderr.closed or not select.select([process.stderr], [], [], wait)[0]:
             return
-        text = process.stderr.read1(65536).decode(errors="replace")
+        text = os.read(process.stderr.fileno(), 65536).decode(errors="replace")
         if not text:
             self._over.wait(wait)  # closed, while it still runs
         for line in text.splitlines():

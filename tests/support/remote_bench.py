@@ -17,17 +17,19 @@ from teleop.app.run import commands
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile, load_profile
 from teleop.core.axes import Axis
-from teleop.core.clock import SystemClock, VirtualClock
+from teleop.core.clock import VirtualClock
 from teleop.core.control_loop import ControlLoop
-from teleop.core.interfaces import Observer
+from teleop.core.interfaces import Clock, Observer
 from teleop.core.run_state import RunState
 from teleop.core.timing import PERIOD
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.rig import open_rig
+from teleop.door.messages import packed
 from teleop.door.ring import RingReader
 from teleop.door.sockets import client_socket
 from teleop.door.states import StateUnpacker
 from teleop.manual.operator import Operator
+from teleop.remote.gateway_child import Gateway
 from teleop.remote.remote_hands import RemoteHands
 
 PROFILE = """
@@ -51,7 +53,7 @@ class RemoteBench:
         hands: RemoteHands,
         operator: Operator,
         pad: FakeInput,
-        clock: VirtualClock | SystemClock,
+        clock: Clock,
         tap: Tap,
     ) -> None:
         self.loop, self.hands, self.operator, self.pad, self.clock, self.tap = loop, hands, operator, pad, clock, tap
@@ -87,7 +89,7 @@ class RemoteBench:
         """Send a command; its id. It is taken in the next tick."""
         number = next(self._ids)
         message: Mapping[str, Any] = {"do": do, "id": number, "session": session, "person": session.title(), **fields}
-        self.sent[number] = msgpack.packb(message)
+        self.sent[number] = packed(message)
         self.send(self.sent[number])
         return number
 
@@ -102,13 +104,13 @@ class RemoteBench:
         self._seq[session] = self._seq.get(session, -1) + 1 + skip
         sent = (self.now - late) * 1000 + 5e8  # by a clock of its own
         message = {"do": "stick", "id": 0, "session": session, "seq": self._seq[session], "time": sent, "axes": axes}
-        self.send(msgpack.packb(message))
+        self.send(packed(message))
 
     def hold(self, seconds: float, session: str = ANNA, **axes: float) -> None:
         """A finger down for so long: 50 messages a second."""
         end = self.now + seconds
         while self.now < end - 1e-6:
-            self.stick(session, **axes)
+            self.stick(session, 0.0, 0, **axes)
             self.tick(2)
 
     def release(self, session: str = ANNA) -> None:
@@ -150,12 +152,15 @@ class RemoteBench:
 
 @contextmanager
 def remote_bench(
-    folder: Path, clock: VirtualClock | SystemClock | None = None, observer: Observer | None = None
+    folder: Path,
+    clock: Clock | None = None,
+    observer: Observer | None = None,
+    gateway: Gateway | None = None,
 ) -> Iterator[RemoteBench]:
     """On the virtual clock unless another is given; `observer` sees each tick before the door does."""
     with ExitStack() as stack:
         clock, profile, pad = clock or VirtualClock(), _profile(folder), FakeInput()
-        hands = RemoteHands(folder, None)
+        hands = RemoteHands(folder, gateway)
         hands.open(stack, profile, profile.limits)
         presets = Presets(folder / "presets.yaml")
         stack.callback(presets.close)
