@@ -26,6 +26,7 @@ from teleop.planner.keyframes.mesh import Indices, mesh
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.keyframes.sparse import Columns, Entries
 from teleop.planner.keyframes.tension import Tension
+from teleop.planner.median import median
 from teleop.planner.polynomial import BERNSTEIN, GRAM_ACCELERATION, GRAM_JERK, GRAM_VELOCITY, HERMITE, Array
 
 HEADROOM = 0.95  # share of V, A and J, so that each sample is one legal step from the last (planning page, "B")
@@ -127,7 +128,7 @@ class QuadraticProgram:
         """The weighted squares of jerk, acceleration and velocity, as the solver's P (upper triangle) and q."""
         jerk, acceleration = self._smoothness()
         velocity = velocity_weights(self.segment, self.rule.tension)[self.interval] / self.widths
-        middle = np.median(jerk + velocity)
+        middle = median(jerk + velocity)
         velocity = np.clip(velocity / middle, 0.0, CLIP)
         acceleration = np.clip(acceleration / middle, 0.0, CLIP)
         jerk = np.clip(jerk / middle, np.maximum(1 / CLIP, SMOOTHING * np.maximum(velocity, acceleration)), CLIP)
