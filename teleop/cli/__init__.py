@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 import io
 import logging
+import os
 import sys
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
@@ -79,6 +80,7 @@ for _flag in ("--help", "--version"):
 def main(arguments: Sequence[str] | None = None) -> None:
     """The `teleop` command; exits with one of the codes above."""
     gc.set_threshold(LOADING)
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it has none here, and looking for them takes time
     process.own()
     _printable()
     try:
