@@ -18,7 +18,7 @@ from cyclopts import App, CycloptsError, Group
 
 import teleop
 from teleop.cli.examples import examples
-from teleop.cli.screens.folded import spelled
+from teleop.cli.screens.folded import spelled, tell
 from teleop.cli.signals import process
 from teleop.cli.typed_triggers import joined
 from teleop.config.documents.document import DocumentError, UnplayableError
@@ -131,5 +131,7 @@ def _notify(error: Exception) -> None:
         print(spelled("\n".join(error.problems[:MOST_SAID])), file=sys.stderr)
         if more := len(error.problems[MOST_SAID:]) + error.more:
             print(f"teleop: and {more} more", file=sys.stderr)
+        for verdict in getattr(error, "__notes__", ()):
+            tell(verdict)
     else:
         print(spelled(f"teleop: {error}"), file=sys.stderr)

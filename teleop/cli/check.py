@@ -13,10 +13,11 @@ from cyclopts import Parameter
 from teleop.app.check import MoveCheck
 from teleop.app.check import check as check_plan
 from teleop.app.planning import Plan
-from teleop.cli.check_verdict import verdict
+from teleop.cli.check_verdict import refusal, verdict
 from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
 from teleop.cli.screens.folded import tell
 from teleop.cli.shipped_files import named
+from teleop.config.documents.document import DocumentError
 
 
 def check(
@@ -26,7 +27,13 @@ def check(
     options: Options = DEFAULTS,
 ) -> int:
     """Check a sequence against a rig: every error with its line, or what the move asks of each axis."""
-    plan = options.plan(named("check", file, options.json))
+    file = named("check", file, options.json)
+    try:
+        plan = options.plan(file)
+    except DocumentError as error:
+        if not options.json:
+            error.add_note(refusal(error, options))
+        raise
     if plan.timelapse is not None:
         print_warnings(plan.sequence.warnings)
     found = check_plan(plan)
