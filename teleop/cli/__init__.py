@@ -82,7 +82,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     gc.set_threshold(LOADING)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it has none here, and looking for them takes time
     process.own()
-    _printable()
+    printable()
     try:
         code = run(sys.argv[1:] if arguments is None else arguments)
     finally:
@@ -91,7 +91,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     sys.exit(code)
 
 
-def _printable() -> None:
+def printable() -> None:
     """No character that the terminal or a pipe cannot have ends in a traceback."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
