@@ -50,8 +50,9 @@ def watch_preview(file: str, options: Options, output: Path, write: Callable[[Wa
                     looked = {**folders, **read}
                 time.sleep(EVERY)
         finally:
+            was_written = beside.exists()  # a signal may have come before its version was known here
             beside.unlink(missing_ok=True)
-            if version:
+            if was_written:
                 with suppress(DocumentError):  # it was shown when it was found
                     write(None)
     return 0
