@@ -91,7 +91,7 @@ def play(session: Session, move: Move, take: Path | None, speed: float, passes: 
     if learns is not None:
         from teleop.app.learning import observe_passes
 
-        observers.append(observe_passes(learns, source))
+        observers.append(observe_passes(learns, source, session.rig))
     if session.program.stopped:
         return _report(move.compiled, monitor, "STOPPED: call clear() first, then play again", None)
     reason, result, facts = "", Result.INTERRUPTED, facts_of(move.compiled)

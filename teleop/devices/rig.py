@@ -93,6 +93,12 @@ class Rig:
         return {axis: response for of_device in found for axis, response in of_device.items()}
 
     @property
+    def relied_on(self) -> Mapping[Axis, Response]:
+        """Those of the responses by which speeds are corrected: none where the profile's delay counts."""
+        found = [device.control.relied_on for device in self._devices if device.control is not None]
+        return {axis: response for of_device in found for axis, response in of_device.items()}
+
+    @property
     def changed(self) -> Collection[Axis]:
         """The axes that have answered otherwise than was known of them before."""
         return {axis for device in self._devices if device.control is not None for axis in device.control.changed}

@@ -73,6 +73,11 @@ class SpeedControl:
             estimator.sent(*self.latest[axis])
 
     @property
+    def relied_on(self) -> Mapping[Axis, Response]:
+        """Those of the responses by which speeds are corrected: none where the profile's delay counts."""
+        return self.responses if isinstance(self._correction, AdaptiveCorrection) else {}
+
+    @property
     def responses(self) -> Mapping[Axis, Response]:
         """Of the axes that have moved enough to be sure of them."""
         return {axis: estimator.response for axis, estimator in self.estimators.items() if estimator.sure}
