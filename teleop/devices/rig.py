@@ -114,8 +114,11 @@ class Rig:
         controls = [device.control for device in self._devices if device.control and axis in device.moves]
         return controls[0].estimators[axis].obeys(since) if controls else None
 
-    def foresee(self, foreseen: Foreseen) -> None:
-        """Have what is sent speeds led by a plan that is known ahead: where it will be at a time of the loop's."""
+    def foresee(self, foreseen: Foreseen | None) -> None:
+        """Have what is sent speeds led by a plan that is known ahead: where it will be at a time of the loop's.
+
+        None ends that.
+        """
         for device in self._devices:
             if device.control is not None:
                 device.control.foresee(foreseen)

@@ -56,8 +56,8 @@ class SpeedControl:
                     self.changed.add(axis)
                     self.lines.append(f"{axis} answers otherwise than before: it is identified anew")
 
-    def foresee(self, foreseen: Foreseen) -> None:
-        """Look ahead by `foreseen` from now on."""
+    def foresee(self, foreseen: Foreseen | None) -> None:
+        """Look ahead by `foreseen` from now on; None is a hand's doing again."""
         if isinstance(self._correction, AdaptiveCorrection):
             self._correction.foreseen = foreseen
 
