@@ -172,7 +172,7 @@ class _Traces:
     def found(self) -> AxisResponse:
         """Raises DeviceError when no response explains the readings.
 
-        After a STOP the move has begun anew; what was read before it, and while a hand was free to turn the axis, is out.
+        After a STOP the move has begun anew: what was read before, while a hand may have turned the axis, is out.
         """
         self._readings = [each for each in self._readings if each.time >= self._move.begin]
         response = self._response()
