@@ -161,8 +161,22 @@ def test_a_file_is_never_replaced_by_another_run(
     assert shot.play("--learn", "--passes", "2") == 2
     assert "move.learned.json already exists" in capsys.readouterr().err
     assert (tmp_path / "move.learned.json").read_text() == "kept"
-    assert shot.play("--learn", "--passes", "2", move="a.mcap") == 2
-    assert "teleop take keyframes" in capsys.readouterr().err
+
+
+def test_a_recorded_take_can_be_learned_too(
+    shot: Shot, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+):
+    monkeypatch.chdir(tmp_path)
+    assert shot.play("--take", "hand.mcap", "--json") == 0
+    capsys.readouterr()
+    move = str(tmp_path / "hand.mcap")
+    assert shot.play("--learn", "--passes", "2", "--json", move=move) == 0
+    learned = json.loads(capsys.readouterr().out)["learning"]
+    first, second = (each["axes"]["pan"]["rms"] for each in learned["passes"])
+    assert second <= max(first / 4, 0.05)
+    assert learned["file"] == "hand.learned.json"
+    assert shot.play("--learned", "hand.learned.json", "--json", move=move) == 0
+    assert json.loads(capsys.readouterr().out)["axes"]["pan"]["rms"] <= max(first / 4, 0.06)
 
 
 def test_a_take_of_corrected_passes_has_the_plan_and_its_report_is_against_that(
