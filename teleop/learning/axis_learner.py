@@ -23,7 +23,7 @@ from teleop.planner.trajectory import Track
 
 WORTH = 0.8  # of the present RMS: a promise of more than that is none
 LEAST = 0.01  # units: a promise of less is none
-NOISY = 1.25  # times the noise of the readings: an RMS of less is nothing else
+NOISY = 1.6  # times the noise of the readings: an RMS of less is hardly anything else, and a trial may be worse
 NEAR = 1.5 * STEP  # s from a reading: further away nothing is known
 TRIALS = 2  # worse ones in a row, after which learning ends
 
