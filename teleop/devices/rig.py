@@ -88,8 +88,9 @@ class Rig:
 
     @property
     def responses(self) -> Mapping[Axis, Response]:
-        """How each axis answers that is sent speeds and has moved enough to be sure of it."""
-        found = [device.control.responses for device in self._devices if device.control is not None]
+        """How each axis answers that a gimbal moves, and that has moved enough to be sure of it."""
+        seen = [each for device in self._devices for each in (device.control, device.watch) if each is not None]
+        found = [each.responses for each in seen]
         return {axis: response for of_device in found for axis, response in of_device.items()}
 
     @property
