@@ -15,6 +15,7 @@ import pytest
 import websockets
 from console_bench import TOKEN
 from fake_door import FakeDoor
+from websockets.typing import Origin
 
 from teleop.console import websocket as page_socket
 from teleop.console.certificate import with_tls
@@ -65,7 +66,9 @@ def test_pages_and_a_websocket_on_a_port_that_was_picked():
             with pytest.raises(websockets.InvalidStatus, match="401"):
                 await websockets.connect(f"ws://{base}/ws")
             with pytest.raises(websockets.InvalidStatus, match="403"):
-                await websockets.connect(f"ws://{base}/ws", additional_headers=bearer, origin="http://evil.example")
+                await websockets.connect(
+                    f"ws://{base}/ws", additional_headers=bearer, origin=Origin("http://evil.example")
+                )
 
     asyncio.run(scenario())
 
@@ -84,7 +87,7 @@ def test_a_client_that_reads_nothing_is_held_back_then_dropped_and_others_are_no
                 "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n".encode()
             )
             await reader.readuntil(b"\r\n\r\n")
-            writer.transport.pause_reading()
+            reader._transport.pause_reading()  # type: ignore[attr-defined]
             sent = 0
             async with websockets.connect(f"ws://127.0.0.1:{settings.port}/ws") as other:
                 while not door.closed_sessions:
