@@ -176,8 +176,10 @@ class LiveActions:
         if axis not in self._limits or axis.is_stick:
             raise Refusal(f"{axis} is not an axis of this rig that can be jogged")
         limits = self._limits[axis]
-        jogged = isinstance(job, WayJob) and job.title == "jog" and set(job.axes) == {axis}
-        start = job.targets[axis] if jogged else at_rest(self._motion[axis], limits).position
+        if isinstance(job, WayJob) and job.title == "jog" and set(job.axes) == {axis}:
+            start = job.targets[axis]
+        else:
+            start = at_rest(self._motion[axis], limits).position
         target = min(max(start + asked["by"], limits.minimum), limits.maximum)
         if target == start:
             raise Refusal(f"{axis} is at its soft limit")

@@ -58,8 +58,8 @@ def planned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
             self._profile = profile
 
         def plan(self, what: Any) -> Any:
-            make = plan_file if isinstance(what, str) else plan_content
-            return make(what, self._profile).sequence
+            plan = plan_file(what, self._profile) if isinstance(what, str) else plan_content(what, self._profile)
+            return plan.sequence
 
         def close(self) -> None: ...
 
