@@ -64,10 +64,16 @@ function Health() {
     <${Chip} tone=${trip.median === null ? "" : trip.median > 150 ? "warn" : "good"} name="Round trip" title="median and worst of the last 10 s">
       ${milliseconds(trip.median)} / ${milliseconds(trip.worst)}<//>
     ${Object.entries(links.value).map(([name, each]) => html`<${Chip} tone=${each.ok ? "good" : "bad"} name=${name}>${each.ok ? milliseconds(each.age_ms) : "no answer"}<//>`)}
-    ${inputs.value.map((each) => html`<${Chip} tone=${each.trouble ? "bad" : each.waits_for ? "warn" : "good"} name=${each.name}
-      title=${each.trouble || each.waits_for}>${each.trouble || each.waits_for || (each.drives.length ? each.drives.join(", ") : "ready")}<//>`)}
+    ${inputs.value.filter((each) => each.name !== "console" && each.name !== holder.value).map((each) => html`<${Input} each=${each} />`)}
     <${Chip} tone=${missed.value ? "warn" : ""} name="Missed">${missed.value}<//>
     ${camera.value && html`<${Chip} tone=${recording.value ? "rec" : ""} name="REC">${recording.value ? minutes(recordingTime.value) : "off"}<//>`}`;
+}
+
+/** An input of the rig's own: a joystick, keys. @param {{each: import("./types.js").InputState}} props */
+function Input({ each }) {
+  const why = (each.trouble || each.waits_for).replace(`${each.name}: `, ""), absent = why === "not plugged in";
+  return html`<${Chip} tone=${absent ? "" : each.trouble ? "bad" : each.waits_for ? "warn" : "good"} name=${each.name} title=${why}>
+    ${why || (each.drives.length ? each.drives.join(", ") : "ready")}<//>`;
 }
 
 function Tabs() {
