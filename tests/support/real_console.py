@@ -21,7 +21,7 @@ class RealConsole:
         environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "XDG_STATE_HOME": str(folder / "state")}
         folder.chmod(0o700)
         self.folder = folder
-        command = [str(Path(sys.executable).with_name("teleop")), "console", "--rig", rig, "--bind", "127.0.0.1:0", "--json", *options]
+        command = [str(Path(sys.executable).with_name("teleop")), "console", "--rig", rig, "--bind", "127.0.0.1:0", "--json", "--realtime", *options]
         self._process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=folder, env=environment
         )
@@ -30,7 +30,7 @@ class RealConsole:
         self.token = started["token"]
         self.page = started["url"]
         self.url = started["url"].split("#")[0].removesuffix("login")
-        until(lambda: self.state is not None)
+        assert self.state
 
     def __enter__(self) -> Self:
         return self
@@ -53,23 +53,31 @@ class RealConsole:
             return json.load(answer)
 
     @property
-    def state(self) -> dict[str, Any] | None:
-        """The newest state; None while there is no gateway that answers."""
+    def state(self) -> dict[str, Any]:
+        """The newest state, once there is a gateway that answers."""
+        return until(self._state)
+
+    def _state(self) -> dict[str, Any] | None:
+        assert self._process.poll() is None, self._process.stdout and self._process.stdout.read()
         try:
             return self.request("api/state")
         except OSError:
             return None
 
+    @property
+    def lives(self) -> bool:
+        return self._process.poll() is None
+
     def axis(self, name: str) -> dict[str, Any]:
-        return until(lambda: self.state)["axes"][name]
+        return self.state["axes"][name]
 
     @property
     def gateway(self) -> int:
         """The process id of the gateway: the control process's child that serves."""
-        children = Path(f"/proc/{self._process.pid}/task/{self._process.pid}/children").read_text().split()
-        return next(int(each) for each in children if b"teleop.gateway" in Path(f"/proc/{each}/cmdline").read_bytes())
+        tasks = Path(f"/proc/{self._process.pid}/task").iterdir()
+        children = [int(each) for task in tasks for each in (task / "children").read_text().split()]
+        return next(each for each in children if b"teleop.gateway" in Path(f"/proc/{each}/cmdline").read_bytes())
 
     @property
     def rests(self) -> bool:
-        state = self.state
-        return state is not None and all(abs(axis["speed"]) < 1e-6 for axis in state["axes"].values())
+        return all(abs(axis["speed"]) < 1e-6 for axis in self.state["axes"].values())

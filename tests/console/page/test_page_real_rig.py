@@ -6,6 +6,7 @@ import os
 import signal
 import urllib.error
 import urllib.request
+from contextlib import ExitStack
 
 import pytest
 from page_bench import PHONE, take_control, until
@@ -14,11 +15,19 @@ from real_console import RealConsole
 
 
 @pytest.fixture(scope="module")
-def console(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("rig")
-    (folder / "mine.yaml").write_text(MOVE)
-    with RealConsole(folder) as console:
-        yield console
+def consoles():
+    with ExitStack() as stack:
+        yield stack, []
+
+
+@pytest.fixture
+def console(consoles, tmp_path):
+    """One for all tests; a new one where a stall of this computer has ended it, as it has to."""
+    stack, made = consoles
+    if not made or not made[-1].lives:
+        made.append(stack.enter_context(RealConsole(tmp_path)))
+    (made[-1].folder / "mine.yaml").write_text(MOVE)
+    return made[-1]
 
 
 @pytest.fixture
@@ -27,7 +36,7 @@ def visit(browser, console):
     yield lambda *args, **options: browser.open(console.url, *args, **options)
     browser.close()
     assert browser.errors == []
-    until(lambda: console.state and console.state["holder"] is None)
+    until(lambda: console.state.get("holder") is None)
 
 
 MOVE = """\
