@@ -18,7 +18,7 @@ const Chip = ({ tone = "", name, children, testid, title }) =>
     <b data-testid=${testid}>${children}</b></span>`;
 
 export function Bar() {
-  return html`<header class="bar">
+  return html`<header class="bar"><h1 class="unseen">teleop console</h1>
     <div class="brand"><b>teleop</b><span>${rig.value || hello.value.rig}</span></div>
     <${Tabs} />
     <div class="chips"><${Control} /><div class="health" tabindex="0" role="group" aria-label="Health"><${Health} /></div></div>
@@ -28,9 +28,9 @@ export function Bar() {
 
 function Stop() {
   const now = stopped.value;
-  return html`<button class="stop ${stopping.value ? "sending" : ""}" data-testid="stop" aria-label="STOP all axes"
+  return html`<button class="stop ${stopping.value ? "sending" : ""}" data-testid="stop"
     onPointerDown=${(/** @type {PointerEvent} */ e) => e.button <= 0 && stop()} onClick=${stop}>
-    <b>STOP</b>${stopping.value ? html`<small>sending</small>` : now && html`<small>latched</small>`}
+    <b>STOP</b><span class="unseen">all axes</span>${stopping.value ? html`<small>sending</small>` : now && html`<small>latched</small>`}
   </button>`;
 }
 
