@@ -48,6 +48,8 @@ def unlike(expected: dict[str, Any], found: dict[str, Any]) -> list[str]:
         if any(abs(a - b) > NEAR for a, b in zip(old["box"], new["box"], strict=True)):
             lines.append(f"{name} was at {old['box']}, is at {new['box']}")
         for what in ("ink", "ground"):
-            if len(old[what]) != len(new[what]) or any(abs(a - b) > DARKER for a, b in zip(old[what], new[what], strict=True)):
+            if len(old[what]) != len(new[what]) or any(
+                abs(a - b) > DARKER for a, b in zip(old[what], new[what], strict=True)
+            ):
                 lines.append(f"{name}: {what} was {old[what]}, is {new[what]}")
     return lines

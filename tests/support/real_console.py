@@ -21,7 +21,17 @@ class RealConsole:
         environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "XDG_STATE_HOME": str(folder / "state")}
         folder.chmod(0o700)
         self.folder = folder
-        command = [str(Path(sys.executable).with_name("teleop")), "console", "--rig", rig, "--bind", "127.0.0.1:0", "--json", "--realtime", *options]
+        command = [
+            str(Path(sys.executable).with_name("teleop")),
+            "console",
+            "--rig",
+            rig,
+            "--bind",
+            "127.0.0.1:0",
+            "--json",
+            "--realtime",
+            *options,
+        ]
         self._process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=folder, env=environment
         )

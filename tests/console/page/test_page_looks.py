@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import json
+import math
 import os
 import re
 from pathlib import Path
@@ -10,16 +12,24 @@ from pathlib import Path
 import pytest
 from page_bench import LANDSCAPE, LAPTOP, LARGE, PHONE, SMALL, take_control
 from page_looks import look, unlike
+from PIL import Image
 from playwright.sync_api import expect
 
 DATA = Path(__file__).parents[2] / "data"
 AXE = (DATA / "axe/axe.min.js").read_text(encoding="utf-8")
+DOCS = DATA.parents[1] / "docs/pictures"
 LOOKS = DATA / "console_looks.json"
 TABS = ("live", "move", "shoot", "takes")
 SHOOT = {
     "frames_done": 83, "frames": 240, "eta": 1_790_003_000.0, "missed": 1, "paused": False,
     "interval_s": 30.0, "clip_s": 10.0, "intervals": [10, 10, 12, 15, 20, 28, 30, 30], "battery": 78,
 }  # fmt: skip
+PICTURES = {
+    "live on a laptop": "console-laptop",
+    "live on a phone": "console-phone",
+    "move on a laptop": "console-move",
+}
+"""Those of the docs, by the screen that they show."""
 MOVE = """\
 title: Slow reveal
 keyframes:
@@ -40,7 +50,10 @@ def staged(visit, server, rig):
     rig.at.update(pan=30.08, tilt=-12.3, roll=3.2, focus=0.42)
     rig.more.update(
         presets={"1": {"pan": 10.0, "tilt": -3.2, "name": "wide"}, "2": {"pan": -60, "tilt": 20, "roll": 10}},
-        keys=[{"pan": 0.0, "tilt": 1.0, "roll": 0.0, "focus": 0.2}, {"pan": 30.0, "tilt": 10.0, "roll": 0.0, "focus": 0.4}],
+        keys=[
+            {"pan": 0.0, "tilt": 1.0, "roll": 0.0, "focus": 0.2},
+            {"pan": 30.0, "tilt": 10.0, "roll": 0.0, "focus": 0.4},
+        ],
         inputs=[{"name": "pad", "drives": [], "waits_for": "center its sticks", "trouble": ""}],
     )
 
@@ -83,14 +96,33 @@ def test_axe_finds_no_violation_on_a_phone_that_is_stopped_and_lost(staged, rig)
         ("shoot on a laptop", "shoot", LAPTOP),
     ],
 )
-def test_the_screen_looks_as_it_did(staged, name, tab, size):
+def test_the_screen_looks_as_it_did(staged, rig, name, tab, size):
     page = staged(tab, size, touch=size != LAPTOP)
     page.wait_for_function("document.fonts.status === 'loaded'")
     expected, found = json.loads(LOOKS.read_text(encoding="utf-8")), look(page)
     if os.environ.get("PAGE_LOOKS") == "write":
-        LOOKS.write_text(json.dumps({**expected, name: found}, indent=None).replace("}}, ", "}},\n") + "\n", encoding="utf-8")
+        if name in PICTURES:
+            photograph(page, rig, PICTURES[name])
+        LOOKS.write_text(
+            json.dumps({**expected, name: found}, indent=None).replace("}}, ", "}},\n") + "\n", encoding="utf-8"
+        )
     else:
         assert unlike(expected[name], found) == []
+
+
+def photograph(page, rig, picture):
+    """A picture for the docs, of a rig that has moved in the last 20 s."""
+    for step in range(100):
+        rig.frozen = 12.0 + 0.21 * step
+        rig.at.update(
+            pan=30.08 - 22 * math.sin((99 - step) / 16),
+            tilt=-12.3 + 9 * math.sin((99 - step) / 23),
+            focus=0.42 + 0.003 * (99 - step),
+        )
+        page.wait_for_timeout(40)
+    page.wait_for_timeout(300)
+    image = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+    image.quantize(96, dither=Image.Dither.NONE).save(DOCS / f"{picture}.png", optimize=True)
 
 
 @pytest.mark.parametrize("size", [LAPTOP, PHONE, LANDSCAPE, SMALL, LARGE])
@@ -114,13 +146,17 @@ def test_what_a_finger_presses_is_large_enough(staged, size):
 
 def test_every_control_is_in_reach_of_the_keyboard(staged):
     page = staged("live")
-    wanted = page.locator("button:enabled:visible, input:enabled:visible, select:enabled:visible, [role=application]").count()
+    wanted = page.locator(
+        "button:enabled:visible, input:enabled:visible, select:enabled:visible, [role=application]"
+    ).count()
     page.locator("body").click(position={"x": 2, "y": 2})
     seen = set()
     for _ in range(3 * wanted):
         page.keyboard.press("Tab")
-        seen.add(page.evaluate("""() => { const all = [...document.querySelectorAll('*')];
-            return document.activeElement.matches('button, input, select, [role=application]') ? all.indexOf(document.activeElement) : null }"""))
+        seen.add(
+            page.evaluate("""() => { const all = [...document.querySelectorAll('*')];
+            return document.activeElement.matches('button, input, select, [role=application]') ? all.indexOf(document.activeElement) : null }""")
+        )
     assert len(seen - {None}) == wanted
 
 

@@ -73,7 +73,9 @@ def test_a_drag_moves_the_gimbal_and_a_release_brings_it_to_rest(moving, console
     moving.mouse.up()
     until(lambda: console.rests)
     at = console.axis("pan")
-    until(lambda: abs(float(moving.get_by_test_id("measured-pan").inner_text()) - console.axis("pan")["measured"]) < 0.02)
+    until(
+        lambda: abs(float(moving.get_by_test_id("measured-pan").inner_text()) - console.axis("pan")["measured"]) < 0.02
+    )
     assert console.axis("pan")["commanded"] == at["commanded"]
 
 
