@@ -163,7 +163,11 @@ def test_someone_elses_later_change_is_not_overwritten(editor, server):
     assert (server.moves / "across.yaml").read_text() == other
 
 
-def test_a_plan_of_20_keys_is_there_soon_after_letting_go(editor, server, visit):
+PLANS = """performance.getEntriesByType('resource')
+    .filter((each) => each.name.endsWith('/api/plan')).map((each) => each.duration)"""
+
+
+def test_a_plan_of_20_keys_is_asked_for_once_when_a_key_is_let_go(editor, server, visit, record_property):
     keys = "\n".join(f"  - {{at: {2 * n}, pan: {(-1) ** n * 10 + n}, tilt: {n % 5}}}" for n in range(20))
     (server.moves / "across.yaml").write_text(f"title: Twenty\nkeyframes:\n{keys}\n")
     page = visit()
@@ -173,9 +177,8 @@ def test_a_plan_of_20_keys_is_there_soon_after_letting_go(editor, server, visit)
     page.evaluate("performance.clearResourceTimings()")
     page.mouse.up()
     expect(page.locator(".curves.planning")).to_have_count(0)
-    took = "performance.getEntriesByType('resource').filter((each) => each.name.endsWith('/api/plan')).map((each) => each.duration)"
-    until(lambda: page.evaluate(took))
-    print("plan of 20 keys:", page.evaluate(took))  # a figure: 150 ms are asked for on an idle machine
+    (took,) = until(lambda: page.evaluate(PLANS))
+    record_property("plan_of_20_keys_ms", took)  # 150 ms are asked for, on an idle machine
 
 
 def test_a_phone_edits_too(editor):
