@@ -52,8 +52,8 @@ function Mark({ name, value, set, go }) {
     if (value === undefined) set();
     else go();
   };
-  const action = value === undefined ? "set it here" : `go to ${position(value, "")}; hold to set it here`;
-  return html`<button disabled=${!fresh.value || !mine.value || (value !== undefined && !able.value)} aria-label=${`Focus mark ${name}: ${action}`} data-testid=${`focus-mark-${name}`}
+  const shown = value === undefined ? "set" : position(value, ""), action = value === undefined ? "set the focus mark here" : "go to the focus mark; hold to set it here";
+  return html`<button disabled=${!fresh.value || !mine.value || (value !== undefined && !able.value)} aria-label=${`${name} ${shown}: ${action}`} data-testid=${`focus-mark-${name}`}
     onPointerDown=${begin} onPointerUp=${end} onPointerLeave=${end} onPointerCancel=${end} onClick=${tap} onContextMenu=${(/** @type {Event} */ e) => e.preventDefault()}>
-    <b>${name}</b><span>${value === undefined ? "set" : position(value, "")}</span></button>`;
+    <b>${name}</b>${" "}<span>${shown}</span></button>`;
 }

@@ -50,10 +50,11 @@ function Tile({ number, preset, seconds }) {
   };
   const at = (/** @type {string} */ axis) => Number(preset?.[axis] ?? 0);
   const named = preset ? axes.value.filter((axis) => axis in preset).map((axis) => `${axis} ${short(at(axis), 1)}`).join(", ") : "empty";
+  const shown = preset?.name ?? (preset ? `${short(at("pan"), 0)}° ${short(at("tilt"), 0)}°` : "");
   return html`<button class="tile ${preset ? "" : "empty"} ${pressing.value ? "pressing" : ""}" data-testid=${`preset-${number}`}
-      disabled=${!mine.value || !fresh.value || (preset && !able.value)} aria-label=${`Preset ${number}${preset?.name ? ` ${preset.name}` : ""}: ${named}. Hold to store.`}
+      disabled=${!mine.value || !fresh.value || (preset && !able.value)} aria-label=${`Preset ${number} ${shown}: ${named}. Hold to store.`}
       onPointerDown=${begin} onPointerUp=${end} onPointerCancel=${end} onPointerLeave=${end} onClick=${tap} onContextMenu=${(/** @type {Event} */ e) => e.preventDefault()}>
     ${preset ? html`<${Attitude} pan=${at("pan")} tilt=${at("tilt")} roll=${at("roll")} label="" />` : html`<span class="none" aria-hidden="true">+</span>`}
-    <span class="tile-name"><b>${number}</b>${preset?.name ?? (preset ? `${short(at("pan"), 0)}° ${short(at("tilt"), 0)}°` : "")}</span>
+    <span class="tile-name"><b>${number}</b>${" "}${shown}</span>
   </button>`;
 }

@@ -146,7 +146,9 @@ def test_the_keys_of_the_terminal_work(visit, rig):
         (".", "shutter", {}),
     ):
         page.keyboard.press(key)
-        until(lambda name=name, fields=fields: commands(rig, name) and fields.items() <= commands(rig, name)[-1].items())
+        until(
+            lambda name=name, fields=fields: commands(rig, name) and fields.items() <= commands(rig, name)[-1].items()
+        )
     for first, second, name, fields in (
         ("s", "3", "preset_store", {"number": 3}),
         ("f", "y", "follow", {"mode": "yaw"}),
@@ -154,7 +156,9 @@ def test_the_keys_of_the_terminal_work(visit, rig):
     ):
         page.keyboard.press(first)
         page.keyboard.press(second)
-        until(lambda name=name, fields=fields: commands(rig, name) and fields.items() <= commands(rig, name)[-1].items())
+        until(
+            lambda name=name, fields=fields: commands(rig, name) and fields.items() <= commands(rig, name)[-1].items()
+        )
     page.get_by_role("button", name="Recenter").focus()
     count = len(commands(rig, "recenter"))
     page.keyboard.press(" ")  # STOP, also where a button has the focus

@@ -82,7 +82,9 @@ def test_a_page_that_is_hidden_in_mid_drag_releases_the_stick(held, rig):
 
 
 def test_a_script_that_hangs_in_mid_drag_comes_back_as_a_watcher_and_moves_nothing(held, rig):
-    held.evaluate("setTimeout(() => { const end = Date.now() + 2000; while (Date.now() < end); window.hung = performance.now() })")
+    held.evaluate(
+        "setTimeout(() => { const end = Date.now() + 2000; while (Date.now() < end); window.hung = performance.now() })"
+    )
     held.get_by_test_id("take-control").wait_for()
     held.mouse.move(9, 9)
     ended_at = held.evaluate("window.hung")
