@@ -18,9 +18,9 @@ import numpy as np
 from teleop.app.planning import Plan, plan_file
 from teleop.config.documents.document import Document, DocumentError, mapping, sequence
 from teleop.config.documents.yaml_loader import parse_document
+from teleop.config.named_files import NAME, NamedFiles
 from teleop.config.profile import Profile, load_profile
 from teleop.config.resources import is_bare
-from teleop.console.named_files import NAME, NamedFiles
 from teleop.core.axes import Axis, Limits
 from teleop.core.errors import TeleopError
 from teleop.planner.keyframes.findings import Overshooting, Unsolved
