@@ -44,10 +44,11 @@ class BesideLive(Protocol):
 
 @dataclass(frozen=True)
 class Running:
-    """A run that moves by itself, as those beside it see it; `guard` is None until it begins."""
+    """A run that moves by itself, for those beside it; `guard` is None until it begins, `show` is its screen's."""
 
     title: str
     guard: Callable[[], StopGuard | None]
+    show: Callable[[str], object]
     source: SequenceSource | None = None
     progress: Progress | None = None
 

@@ -104,14 +104,14 @@ class SequenceRun:
                 recorder.status = played
             repeatability = Repeatability(source.place, planned) if source.cycle.compared else None
             observers, sinks = commands(rig, axes, self._heard(self.notify))
-            if self.beside is not None:
-                running = Running(self.sequence.title, lambda: guard, self.source)
-                observers.append(self.beside.attach(stack, running))
             keys = None if self.keys is None else stack.enter_context(self.keys)
             observers += [each for each in (keys, trim, repeatability, self._observed(), played) if each is not None]
             status_of = partial(run_status, source) if controls is None else controls.status
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             screen = make_screen(self.limits, shown, recorder)
+            if self.beside is not None:
+                running = Running(self.sequence.title, lambda: guard, screen.notify, self.source)
+                observers.append(self.beside.attach(stack, running))
             aboard.board(rig, axes, screen.notify, by_script=True)
             if guard:
                 guard.notify = self._heard(screen.notify)

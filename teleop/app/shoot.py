@@ -76,10 +76,10 @@ class ShootRun:
                 else both(lambda line: screen.notify(line), beside.line)
             )
             shooting = self._shooting(stack, journal, observers, told, warn)
-            if beside is not None:
-                running = Running(timelapse.title, lambda: shooting.guard, progress=shooting.progress)
-                observers.append(beside.attach(stack, running))
             screen = make_screen(shooting, path, recorder)
+            if beside is not None:
+                running = Running(timelapse.title, lambda: shooting.guard, screen.notify, progress=shooting.progress)
+                observers.append(beside.attach(stack, running))
             tracking = TrackingErrorMonitor(lambda: shooting.begin)
             observers += [tracking, screen]
             begun(path)

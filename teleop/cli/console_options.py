@@ -110,7 +110,7 @@ class ConsoleOptions:
                     tell(line)
             number = listener.fileno()
             console = {"settings": settings.as_json(), "listener": number}
-            yield Gateway({"console": console}, (number,))
+            yield Gateway({"console": console}, (number,), invitation(settings)[0])
 
     @contextmanager
     def beside(self, bind: str | None, rig: str, as_json: bool) -> Iterator[Gateway | None]:

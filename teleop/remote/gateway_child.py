@@ -28,10 +28,11 @@ LINES = 20  # of its errors that are passed on, at most
 
 
 class Gateway(NamedTuple):
-    """What the gateway is told when it starts, and the descriptors that it inherits."""
+    """What the gateway is told when it starts, the descriptors that it inherits, and a line on how it is reached."""
 
     settings: Mapping[str, Any]
     passed: Sequence[int] = ()
+    greeting: str = ""
 
 
 class GatewayChild:

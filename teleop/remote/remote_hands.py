@@ -64,7 +64,7 @@ class RemoteHands:
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
         self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, self.told)
         self.desk = Desk(socket, stick, self._notify, self._actions)
-        self._actions.desk = self.desk
+        self._actions.desk = self._actions.devices.desk = self.desk
 
     @property
     def inputs(self) -> Sequence[Input]:
@@ -78,7 +78,7 @@ class RemoteHands:
     def attach(self, stack: ExitStack, operator: Operator, presets: Presets, rig: Rig) -> tuple[Observer, Sink]:
         """To the operator of an open rig; from now on the gateway runs. What sees each tick, and the release."""
         self._operator = self._actions.operator = operator
-        self._actions.presets, self._actions.has_camera = presets, rig.camera is not None
+        self._actions.presets, self._actions.devices.has_camera = presets, rig.camera is not None
         shown = LiveShown(operator, presets, self._jobs, self._keys)
         parts = Parts(
             *(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None),
@@ -93,6 +93,7 @@ class RemoteHands:
             self.child = GatewayChild(settings, passed, self._heard, operator.notify, self._gateway_ended)
             stack.callback(self.child.close)
             self.child.start()
+            operator.notify(self._gateway.greeting)
         return self, self
 
     # --- what becomes of commands

@@ -18,7 +18,8 @@ from teleop.door.address import new_door
 from teleop.door.ring import RingWriter
 from teleop.door.sockets import CommandSocket
 from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
-from teleop.remote.desk import Asked, Desk, Refusal
+from teleop.remote.asked import Asked, Refusal
+from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway, GatewayChild
 from teleop.remote.move_state import move_state
 from teleop.remote.state import Parts, StatePublisher
@@ -74,6 +75,7 @@ class RunHands:
             child = GatewayChild(settings, self._gateway.passed, self._heard, self.line, self._gateway_ended)
             stack.callback(child.close)
             child.start()
+            running.show(self._gateway.greeting)
         return self
 
     def line(self, text: str) -> None:
