@@ -1,6 +1,7 @@
 """How a screen looks, in a way that no font changes: where its parts are, in shares of the screen, and of what colors.
 
-A test that fails prints what is unlike. After a wanted change: `PAGE_LOOKS=write pytest -n 0 tests/console/page/test_page_looks.py`.
+A test that fails prints what is unlike. After a wanted change, `PAGE_LOOKS=write pytest -n 0` on the test keeps the
+new look and makes the pictures of the docs.
 """
 
 from __future__ import annotations
@@ -14,10 +15,11 @@ DARKER = 24  # of 255, of a color
 
 SCRIPT = """() => {
   const parts = {};
-  const shown = (each) => { const box = each.getBoundingClientRect(); return box.width > 0 && box.height > 0 && box.top < innerHeight };
+  const shown = (box) => box.width > 0 && box.height > 0 && box.top < innerHeight;
   const color = (text) => (text.match(/[\\d.]+/g) || []).map(Number);
-  for (const each of document.querySelectorAll('.card, .stick, .stop, .tabs, .chips, .diamond, .curves, .tile, .attitude')) {
-    if (!shown(each)) continue;
+  const kinds = '.card, .stick, .stop, .tabs, .chips, .diamond, .curves, .tile, .attitude';
+  for (const each of document.querySelectorAll(kinds)) {
+    if (!shown(each.getBoundingClientRect())) continue;
     const kind = [...each.classList].filter((name) => !/^(ink|held|off|pressing)/.test(name)).join('.') || each.tagName;
     const style = getComputedStyle(each), box = each.getBoundingClientRect();
     let name = kind, number = 2;
@@ -45,11 +47,13 @@ def unlike(expected: dict[str, Any], found: dict[str, Any]) -> list[str]:
     lines += [f"{name} is new" for name in found if name not in expected]
     for name in expected.keys() & found.keys():
         old, new = expected[name], found[name]
-        if any(abs(a - b) > NEAR for a, b in zip(old["box"], new["box"], strict=True)):
+        if _differ(old["box"], new["box"], NEAR):
             lines.append(f"{name} was at {old['box']}, is at {new['box']}")
         for what in ("ink", "ground"):
-            if len(old[what]) != len(new[what]) or any(
-                abs(a - b) > DARKER for a, b in zip(old[what], new[what], strict=True)
-            ):
+            if len(old[what]) != len(new[what]) or _differ(old[what], new[what], DARKER):
                 lines.append(f"{name}: {what} was {old[what]}, is {new[what]}")
     return lines
+
+
+def _differ(old: list[float], new: list[float], most: float) -> bool:
+    return any(abs(a - b) > most for a, b in zip(old, new, strict=True))

@@ -6,11 +6,11 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import urllib.request
 from pathlib import Path
 from typing import Any, Self
 
+from command import TELEOP
 from page_bench import until
 
 
@@ -21,19 +21,13 @@ class RealConsole:
         environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "XDG_STATE_HOME": str(folder / "state")}
         folder.chmod(0o700)
         self.folder = folder
-        command = [
-            str(Path(sys.executable).with_name("teleop")),
-            "console",
-            "--rig",
-            rig,
-            "--bind",
-            "127.0.0.1:0",
-            "--json",
-            "--realtime",
-            *options,
-        ]
+        options = ("--rig", rig, "--bind", "127.0.0.1:0", "--json", "--realtime", *options)
         self._process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=folder, env=environment
+            [TELEOP, "console", *options],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            cwd=folder,
+            env=environment,
         )
         assert self._process.stdout is not None
         started = json.loads(self._process.stdout.readline())

@@ -99,6 +99,18 @@ def test_numbers_are_typed_and_undone_and_done_again(editor, server):
     assert re.search(r"pan: 25, tilt: 5, hold: 0\.5, pass: stop\} +# the door", text), text
 
 
+def test_what_is_being_typed_stays_while_a_plan_arrives(editor):
+    page = editor()
+    cell = page.get_by_label("pan of key 2")
+    cell.fill("25")
+    cell.press("Enter")
+    page.get_by_label("tilt of key 2").fill("7.5")
+    expect(page.locator(".curves.planning")).to_have_count(0)
+    page.wait_for_timeout(100)
+    page.get_by_label("tilt of key 2").press("Enter")
+    expect(page.get_by_test_id("key-tilt-2")).to_have_value("7.5")
+
+
 def test_a_key_is_moved_by_the_keyboard(editor):
     page = editor()
     key = page.get_by_test_id("key-pan-2")

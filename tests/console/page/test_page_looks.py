@@ -1,4 +1,4 @@
-"""How the page looks and who can use it: axe-core, five screens pinned by geometry and colors, every size, the first paint."""
+"""How the page looks and who can use it: axe-core, five screens by geometry and colors, every size, the first paint."""
 
 from __future__ import annotations
 
@@ -42,6 +42,19 @@ cues:
 """
 
 
+CONTROLS = ", ".join(f"{each}:visible" for each in ("button:enabled", "input:enabled", "select:enabled", ".disc"))
+FOCUSED = """() => {
+    const now = document.activeElement;
+    return now.matches('button, input, select, .disc') ? [...document.querySelectorAll('*')].indexOf(now) : null;
+}"""
+WIDER = """[document.documentElement, ...document.querySelectorAll('main, .card:not(.head)')]
+    .filter((each) => each.scrollWidth > each.clientWidth + 1).map((each) => each.className)"""
+SIZES = """[...document.querySelectorAll('main button, .tabs button:not(.keys-help)')].map((each) => {
+    const box = each.getBoundingClientRect();
+    return [each.ariaLabel || each.textContent, box.width, box.height];
+})"""
+
+
 @pytest.fixture
 def staged(visit, server, rig):
     """A page of a rig that stands still, with something of everything."""
@@ -50,10 +63,7 @@ def staged(visit, server, rig):
     rig.at.update(pan=30.08, tilt=-12.3, roll=3.2, focus=0.42)
     rig.more.update(
         presets={"1": {"pan": 10.0, "tilt": -3.2, "name": "wide"}, "2": {"pan": -60, "tilt": 20, "roll": 10}},
-        keys=[
-            {"pan": 0.0, "tilt": 1.0, "roll": 0.0, "focus": 0.2},
-            {"pan": 30.0, "tilt": 10.0, "roll": 0.0, "focus": 0.4},
-        ],
+        keys=[dict.fromkeys(rig.at, 0.2), {"pan": 30.0, "tilt": 10.0, "roll": 0.0, "focus": 0.4}],
         inputs=[{"name": "pad", "drives": [], "waits_for": "center its sticks", "trouble": ""}],
     )
 
@@ -103,9 +113,8 @@ def test_the_screen_looks_as_it_did(staged, rig, name, tab, size):
     if os.environ.get("PAGE_LOOKS") == "write":
         if name in PICTURES:
             photograph(page, rig, PICTURES[name])
-        LOOKS.write_text(
-            json.dumps({**expected, name: found}, indent=None).replace("}}, ", "}},\n") + "\n", encoding="utf-8"
-        )
+        text = json.dumps({**expected, name: found}).replace("}}, ", "}},\n")
+        LOOKS.write_text(text + "\n", encoding="utf-8")
     else:
         assert unlike(expected[name], found) == []
 
@@ -114,23 +123,21 @@ def photograph(page, rig, picture):
     """A picture for the docs, of a rig that has moved in the last 20 s."""
     for step in range(100):
         rig.frozen = 12.0 + 0.21 * step
+        left = 99 - step
         rig.at.update(
-            pan=30.08 - 22 * math.sin((99 - step) / 16),
-            tilt=-12.3 + 9 * math.sin((99 - step) / 23),
-            focus=0.42 + 0.003 * (99 - step),
+            pan=30.08 - 22 * math.sin(left / 16), tilt=-12.3 + 9 * math.sin(left / 23), focus=0.42 + left / 333
         )
         page.wait_for_timeout(40)
     page.wait_for_timeout(300)
     image = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
-    image.quantize(96, dither=Image.Dither.NONE).save(DOCS / f"{picture}.png", optimize=True)
+    image.quantize(224, dither=Image.Dither.NONE).save(DOCS / f"{picture}.png", optimize=True)
 
 
 @pytest.mark.parametrize("size", [LAPTOP, PHONE, LANDSCAPE, SMALL, LARGE])
 @pytest.mark.parametrize("tab", TABS)
 def test_nothing_is_wider_than_the_screen_and_stop_is_in_view(staged, tab, size):
     page = staged(tab, size, touch=size not in (LAPTOP, LARGE))
-    assert page.evaluate("[document.documentElement, ...document.querySelectorAll('main, .card:not(.head)')]"
-                         ".filter((each) => each.scrollWidth > each.clientWidth + 1).map((each) => each.className)") == []  # fmt: skip
+    assert page.evaluate(WIDER) == []
     stop = page.get_by_test_id("stop").bounding_box()
     assert min(stop["width"], stop["height"]) >= 72
     assert stop["x"] + stop["width"] <= size[0]
@@ -139,24 +146,18 @@ def test_nothing_is_wider_than_the_screen_and_stop_is_in_view(staged, tab, size)
 @pytest.mark.parametrize("size", [PHONE, LANDSCAPE, SMALL])
 def test_what_a_finger_presses_is_large_enough(staged, size):
     page = staged("live", size, touch=True)
-    sizes = page.evaluate("""[...document.querySelectorAll('main button, .tabs button:not(.keys-help)')].map((each) => {
-        const box = each.getBoundingClientRect(); return [each.ariaLabel || each.textContent, box.width, box.height] })""")
+    sizes = page.evaluate(SIZES)
     assert [each for each in sizes if min(each[1:]) < 32] == []
 
 
 def test_every_control_is_in_reach_of_the_keyboard(staged):
     page = staged("live")
-    wanted = page.locator(
-        "button:enabled:visible, input:enabled:visible, select:enabled:visible, [role=application]"
-    ).count()
+    wanted = page.locator(CONTROLS).count()
     page.locator("body").click(position={"x": 2, "y": 2})
     seen = set()
     for _ in range(3 * wanted):
         page.keyboard.press("Tab")
-        seen.add(
-            page.evaluate("""() => { const all = [...document.querySelectorAll('*')];
-            return document.activeElement.matches('button, input, select, [role=application]') ? all.indexOf(document.activeElement) : null }""")
-        )
+        seen.add(page.evaluate(FOCUSED))
     assert len(seen - {None}) == wanted
 
 
@@ -167,12 +168,13 @@ def test_nothing_moves_by_itself_for_who_wants_less_motion(visit, rig):
     assert page.locator(".chip.rec .dot").evaluate("(each) => getComputedStyle(each).animationName") == "none"
 
 
-def test_the_page_is_painted_within_a_second_and_loads_nothing_from_elsewhere(visit, server):
+def test_the_page_is_small_and_loads_nothing_from_elsewhere(visit, server, record_property):
     page = visit()
     expect(page.get_by_test_id("age")).not_to_have_text("--")
     painted = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
     loaded = page.evaluate("performance.getEntriesByType('resource').map((each) => [each.name, each.encodedBodySize])")
-    print(f"first paint after {painted:.0f} ms, {sum(size for _, size in loaded) / 1000:.0f} kB")
+    record_property("first_paint_ms", painted)  # under 1 s is asked for, on an idle machine
+    assert painted > 0
     assert all(name.startswith((server.url, server.url.replace("http", "ws"))) for name, _ in loaded)
     assert sum(size for _, size in loaded) < 300_000
 

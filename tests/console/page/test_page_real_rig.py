@@ -1,4 +1,4 @@
-"""The page on the real thing: `teleop console` with the simulated gimbal, its gateway stopped, killed and shut to strangers."""
+"""The page on `teleop console` with the simulated gimbal: its gateway stopped, killed, and shut to strangers."""
 
 from __future__ import annotations
 
@@ -73,9 +73,8 @@ def test_a_drag_moves_the_gimbal_and_a_release_brings_it_to_rest(moving, console
     moving.mouse.up()
     until(lambda: console.rests)
     at = console.axis("pan")
-    until(
-        lambda: abs(float(moving.get_by_test_id("measured-pan").inner_text()) - console.axis("pan")["measured"]) < 0.02
-    )
+    shown = moving.get_by_test_id("measured-pan")
+    until(lambda: abs(float(shown.inner_text()) - console.axis("pan")["measured"]) < 0.02)
     assert console.axis("pan")["commanded"] == at["commanded"]
 
 
