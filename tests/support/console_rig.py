@@ -1,6 +1,6 @@
 """A rig for tests of the page alone: it answers the console's commands as the door does, with plain kinematics.
 
-It stands for `gateway.door_client.DoorClient`. Its clock is set by hand in pictures, so that they are the same each time.
+It stands for `gateway.door_client.DoorClient`. For pictures its clock is set by hand: they are the same each time.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from console_rig import ConsoleRig
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
 from teleop.console.server import serve
 from teleop.console.settings import ConsoleSettings, listen
@@ -20,6 +20,7 @@ from teleop.console.settings import ConsoleSettings, listen
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 LAPTOP, PHONE, LANDSCAPE, SMALL, LARGE = (1280, 800), (390, 844), (844, 390), (360, 640), (3840, 2160)
 PATIENCE = 20_000  # ms: a busy machine is slow, and no test asserts on its speed
+expect.set_options(timeout=PATIENCE)
 
 
 class PageServer:

@@ -76,7 +76,7 @@ function frustum(place, [across, up]) {
  */
 export function Attitude({ pan = 0, tilt = 0, roll = 0, fov = null, label }) {
   const place = camera(pan, tilt, roll), view = fov ? frustum(place, fov) : null;
-  return html`<svg class="attitude" viewBox=${fov ? "-1.6 -1.3 3.2 2.5" : "-0.95 -0.85 1.9 1.6"} role="img" aria-label=${label}>
+  return html`<svg class="attitude" viewBox=${fov ? "-1.72 -1.3 3.44 2.5" : "-0.95 -0.85 1.9 1.6"} ...${label ? { role: "img", "aria-label": label } : { "aria-hidden": "true" }}>
     ${fov && html`<g class="ground"><${Ground} /></g>`}
     ${view && html`<path class="rays" d=${view.rays} /><path class="frame" d=${view.frame} />`}
     ${shapes(place).map((shape) => html`<path class=${shape.name} d=${shape.d} />`)}

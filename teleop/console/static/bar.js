@@ -18,7 +18,7 @@ const Chip = ({ tone = "", name, children, testid, title }) =>
     <b data-testid=${testid}>${children}</b></span>`;
 
 export function Bar() {
-  return html`<header class="bar">
+  return html`<header class="bar"><h1 class="unseen">teleop console</h1>
     <div class="brand"><b>teleop</b><span>${rig.value || hello.value.rig}</span></div>
     <${Tabs} />
     <div class="chips"><${Control} /><div class="health" tabindex="0" role="group" aria-label="Health"><${Health} /></div></div>
@@ -28,9 +28,9 @@ export function Bar() {
 
 function Stop() {
   const now = stopped.value;
-  return html`<button class="stop ${stopping.value ? "sending" : ""}" data-testid="stop" aria-label="STOP all axes"
+  return html`<button class="stop ${stopping.value ? "sending" : ""}" data-testid="stop"
     onPointerDown=${(/** @type {PointerEvent} */ e) => e.button <= 0 && stop()} onClick=${stop}>
-    <b>STOP</b>${stopping.value ? html`<small>sending</small>` : now && html`<small>latched</small>`}
+    <b>STOP</b><span class="unseen">all axes</span>${stopping.value ? html`<small>sending</small>` : now && html`<small>latched</small>`}
   </button>`;
 }
 
@@ -64,10 +64,16 @@ function Health() {
     <${Chip} tone=${trip.median === null ? "" : trip.median > 150 ? "warn" : "good"} name="Round trip" title="median and worst of the last 10 s">
       ${milliseconds(trip.median)} / ${milliseconds(trip.worst)}<//>
     ${Object.entries(links.value).map(([name, each]) => html`<${Chip} tone=${each.ok ? "good" : "bad"} name=${name}>${each.ok ? milliseconds(each.age_ms) : "no answer"}<//>`)}
-    ${inputs.value.map((each) => html`<${Chip} tone=${each.trouble ? "bad" : each.waits_for ? "warn" : "good"} name=${each.name}
-      title=${each.trouble || each.waits_for}>${each.trouble || each.waits_for || (each.drives.length ? each.drives.join(", ") : "ready")}<//>`)}
+    ${inputs.value.filter((each) => each.name !== "console" && each.name !== holder.value).map((each) => html`<${Input} each=${each} />`)}
     <${Chip} tone=${missed.value ? "warn" : ""} name="Missed">${missed.value}<//>
     ${camera.value && html`<${Chip} tone=${recording.value ? "rec" : ""} name="REC">${recording.value ? minutes(recordingTime.value) : "off"}<//>`}`;
+}
+
+/** An input of the rig's own: a joystick, keys. @param {{each: import("./types.js").InputState}} props */
+function Input({ each }) {
+  const why = (each.trouble || each.waits_for).replace(`${each.name}: `, ""), absent = why === "not plugged in";
+  return html`<${Chip} tone=${absent ? "" : each.trouble ? "bad" : each.waits_for ? "warn" : "good"} name=${each.name} title=${why}>
+    ${why || (each.drives.length ? each.drives.join(", ") : "ready")}<//>`;
 }
 
 function Tabs() {

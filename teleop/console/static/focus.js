@@ -2,6 +2,7 @@
 import { html, useRef, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
 import { able, fresh, mine, notify, part, state } from "./store.js";
+import { NumberField } from "./number_field.js";
 import { position } from "./format.js";
 
 const LONG = 700; // ms
@@ -24,8 +25,7 @@ export function FocusCard() {
     notify(`focus mark ${name} set at ${position(now, "")}`);
   };
   return html`<section class="card focus"><h2>Focus <span>${position(now, "")}</span>
-      <label>in <input type="number" min="0" max="60" step="0.1" value=${seconds.value} aria-label="Seconds of a focus pull"
-        onChange=${(/** @type {any} */ e) => (seconds.value = Math.max(Number(e.target.value) || 0, 0))} /> s</label></h2>
+      <label>in <${NumberField} label="Seconds of a focus pull" min=${0} max=${60} step=${0.1} value=${seconds.value} set=${(/** @type {number} */ value) => (seconds.value = value)} /> s</label></h2>
     <div class="slider">
       <div class="track" aria-hidden="true"><i class="fill" style=${{ width: at(now) }}></i>
         ${Object.entries(marks).map(([name, value]) => html`<i class="notch" style=${{ left: at(value) }}>${name}</i>`)}
@@ -52,8 +52,8 @@ function Mark({ name, value, set, go }) {
     if (value === undefined) set();
     else go();
   };
-  const action = value === undefined ? "set it here" : `go to ${position(value, "")}; hold to set it here`;
-  return html`<button disabled=${!fresh.value || !mine.value || (value !== undefined && !able.value)} aria-label=${`Focus mark ${name}: ${action}`} data-testid=${`focus-mark-${name}`}
+  const shown = value === undefined ? "set" : position(value, ""), action = value === undefined ? "set the focus mark here" : "go to the focus mark; hold to set it here";
+  return html`<button disabled=${!fresh.value || !mine.value || (value !== undefined && !able.value)} aria-label=${`${name} ${shown}: ${action}`} data-testid=${`focus-mark-${name}`}
     onPointerDown=${begin} onPointerUp=${end} onPointerLeave=${end} onPointerCancel=${end} onClick=${tap} onContextMenu=${(/** @type {Event} */ e) => e.preventDefault()}>
-    <b>${name}</b><span>${value === undefined ? "set" : position(value, "")}</span></button>`;
+    <b>${name}</b>${" "}<span>${shown}</span></button>`;
 }

@@ -27,7 +27,7 @@ export function Keys() {
     <div class="row">
       <button class="primary" data-testid="set-key" disabled=${off} onClick=${set}>Set key</button>
       <button disabled=${list.length < 2} onClick=${edit}>Edit as a move</button>
-      <button disabled=${off || !list.length} onClick=${() => command("clear_keys")}>Clear keys</button>
+      <button disabled=${off || !list.length} onClick=${() => command("clear_keys")}>Clear</button>
     </div>
   </section>`;
 }

@@ -3,6 +3,7 @@ import { html, useRef, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
 import { able, axes, fresh, mine, notify, part } from "./store.js";
 import { Attitude } from "./attitude.js";
+import { NumberField } from "./number_field.js";
 import { short } from "./format.js";
 
 const LONG = 700; // ms of a press that stores
@@ -14,13 +15,12 @@ export function Presets() {
   const seconds = useSignal(Number(localStorage.getItem(KEPT)) || 2);
   const numbers = [...new Set([...Array.from({ length: SHOWN }, (_, n) => n), ...Object.keys(presets.value).map(Number)])].sort((a, b) => a - b);
   const order = [...numbers.filter((n) => n > 0), ...numbers.filter((n) => n === 0)];
-  const change = (/** @type {any} */ event) => {
-    const value = Math.min(Math.max(Number(event.target.value) || 2, 0.1), 600);
+  const change = (/** @type {number} */ value) => {
     seconds.value = value;
     localStorage.setItem(KEPT, String(value));
   };
   return html`<section class="card presets"><h2>Presets <span>tap recalls, hold stores</span>
-      <label>in <input type="number" min="0.1" max="600" step="0.1" value=${seconds.value} onChange=${change} aria-label="Seconds of a recall" /> s</label></h2>
+      <label>in <${NumberField} label="Seconds of a recall" min=${0.1} max=${600} step=${0.1} value=${seconds.value} set=${change} /> s</label></h2>
     <ul class="tiles" tabindex="0" aria-label="Presets">${order.map((number) => html`<li key=${number}><${Tile} number=${number} preset=${presets.value[number]} seconds=${seconds.value} /></li>`)}</ul>
   </section>`;
 }
@@ -50,10 +50,11 @@ function Tile({ number, preset, seconds }) {
   };
   const at = (/** @type {string} */ axis) => Number(preset?.[axis] ?? 0);
   const named = preset ? axes.value.filter((axis) => axis in preset).map((axis) => `${axis} ${short(at(axis), 1)}`).join(", ") : "empty";
+  const shown = preset?.name ?? (preset ? `${short(at("pan"), 0)}° ${short(at("tilt"), 0)}°` : "");
   return html`<button class="tile ${preset ? "" : "empty"} ${pressing.value ? "pressing" : ""}" data-testid=${`preset-${number}`}
-      disabled=${!mine.value || !fresh.value || (preset && !able.value)} aria-label=${`Preset ${number}${preset?.name ? ` ${preset.name}` : ""}: ${named}. Hold to store.`}
+      disabled=${!mine.value || !fresh.value || (preset && !able.value)} aria-label=${`Preset ${number} ${shown}: ${named}. Hold to store.`}
       onPointerDown=${begin} onPointerUp=${end} onPointerCancel=${end} onPointerLeave=${end} onClick=${tap} onContextMenu=${(/** @type {Event} */ e) => e.preventDefault()}>
     ${preset ? html`<${Attitude} pan=${at("pan")} tilt=${at("tilt")} roll=${at("roll")} label="" />` : html`<span class="none" aria-hidden="true">+</span>`}
-    <span class="tile-name"><b>${number}</b>${preset?.name ?? (preset ? `${short(at("pan"), 0)}° ${short(at("tilt"), 0)}°` : "")}</span>
+    <span class="tile-name"><b>${number}</b>${" "}${shown}</span>
   </button>`;
 }

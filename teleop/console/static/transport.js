@@ -3,6 +3,7 @@ import { html, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
 import { able, fresh, mine, part } from "./store.js";
 import { clock, short } from "./format.js";
+import { NumberField } from "./number_field.js";
 import { Icon } from "./icons.js";
 import { chosen, playable, preferred } from "./moves.js";
 import { keys } from "./keys.js";
@@ -37,11 +38,11 @@ export function Transport({ compact = false, open, blocked = "" }) {
         <option value="keys">keys from the hand</option>${playable.value.map((each) => html`<option value=${each.name}>${each.name}</option>`)}</select></label>`}
       <label>Speed <select value=${String(now?.speed ?? 1)} disabled=${off || !playing} onChange=${(/** @type {any} */ e) => command("speed", { share: Number(e.target.value) })}>
         ${speeds(now).map((share) => html`<option value=${String(share)}>${Math.round(100 * share)} %</option>`)}</select></label>
-      <label>Preroll <input type="number" min="0" max="60" step="1" value=${wait.value} onChange=${(/** @type {any} */ e) => {
-        wait.value = Math.max(Number(e.target.value) || 0, 0);
+      <label>Preroll <${NumberField} min=${0} max=${60} value=${wait.value} set=${(/** @type {number} */ value) => {
+        wait.value = value;
         localStorage.setItem(preroll.key, String(wait.value));
       }} /> s</label>
-      <label>Passes <input type="number" min="1" max="99" step="1" value=${passes.value} onChange=${(/** @type {any} */ e) => (passes.value = Math.max(Math.round(Number(e.target.value)) || 1, 1))} /></label>
+      <label>Passes <${NumberField} min=${1} max=${999} value=${passes.value} set=${(/** @type {number} */ value) => (passes.value = Math.round(value))} /></label>
       <button aria-pressed=${loop.value} onClick=${() => (loop.value = !loop.value)}>Loop</button>
     </div>
     ${!compact && now?.errors && html`<${Errors} errors=${now.errors} />`}

@@ -12,6 +12,11 @@ def commands(rig, name):
     return [each for each in rig.commands if each["do"] == name]
 
 
+def was_asked(rig, name, fields):
+    found = commands(rig, name)
+    return found and fields.items() <= found[-1].items()
+
+
 def test_stop_from_a_watcher_is_obeyed_and_says_who_and_when(visit, rig):
     operator, watcher = visit(at="?name=laptop"), visit(PHONE, touch=True, at="?name=phone")
     take_control(operator)
@@ -146,7 +151,7 @@ def test_the_keys_of_the_terminal_work(visit, rig):
         (".", "shutter", {}),
     ):
         page.keyboard.press(key)
-        until(lambda name=name, fields=fields: commands(rig, name) and fields.items() <= commands(rig, name)[-1].items())
+        until(lambda name=name, fields=fields: was_asked(rig, name, fields))
     for first, second, name, fields in (
         ("s", "3", "preset_store", {"number": 3}),
         ("f", "y", "follow", {"mode": "yaw"}),
@@ -154,7 +159,7 @@ def test_the_keys_of_the_terminal_work(visit, rig):
     ):
         page.keyboard.press(first)
         page.keyboard.press(second)
-        until(lambda name=name, fields=fields: commands(rig, name) and fields.items() <= commands(rig, name)[-1].items())
+        until(lambda name=name, fields=fields: was_asked(rig, name, fields))
     page.get_by_role("button", name="Recenter").focus()
     count = len(commands(rig, "recenter"))
     page.keyboard.press(" ")  # STOP, also where a button has the focus

@@ -1,4 +1,4 @@
-"""Sticks of the page: 50 messages a second while a finger is down, three zeros at release, and no way to lose a hand."""
+"""Sticks of the page: 50 messages a second while a finger is down, three zeros at release, no way to lose a hand."""
 
 from __future__ import annotations
 
@@ -6,6 +6,13 @@ import pytest
 from page_bench import PHONE, take_control, until
 
 ZERO = {"pan": 0, "tilt": 0}
+
+
+HANG = """setTimeout(() => {
+    const end = Date.now() + 2000;
+    while (Date.now() < end);
+    window.hung = performance.now();
+})"""
 
 
 def press(page, testid="stick-pan-tilt", dx=0.25, dy=-0.1):
@@ -82,7 +89,7 @@ def test_a_page_that_is_hidden_in_mid_drag_releases_the_stick(held, rig):
 
 
 def test_a_script_that_hangs_in_mid_drag_comes_back_as_a_watcher_and_moves_nothing(held, rig):
-    held.evaluate("setTimeout(() => { const end = Date.now() + 2000; while (Date.now() < end); window.hung = performance.now() })")
+    held.evaluate(HANG)
     held.get_by_test_id("take-control").wait_for()
     held.mouse.move(9, 9)
     ended_at = held.evaluate("window.hung")

@@ -5,6 +5,7 @@ import { able, notify } from "../store.js";
 import { clock, short } from "../format.js";
 import { Icon } from "../icons.js";
 import { listMoves, moves, preferred } from "../moves.js";
+import { NumberField } from "../number_field.js";
 import { Transport } from "../transport.js";
 import { axis, canRedo, canUndo, doc, insert, open, plan, planning, positionsAt, redo, save, stretch, undo, unsaved } from "./document.js";
 import { axesOfMove, Curves } from "./curves.js";
@@ -62,7 +63,7 @@ function Scrubber({ at }) {
       onKeyDown=${keys} onInput=${(/** @type {any} */ e) => (at.value = Number(e.target.value))} />
     <div class="row"><output class="time">${clock(time)}</output>
       <button disabled=${!able.value || at.value === null || !end} onClick=${go}>Go here</button>
-      <label>in <input type="number" min="0" max="600" step="0.5" value=${seconds.value} aria-label="Seconds to go here" onChange=${(/** @type {any} */ e) => (seconds.value = Math.max(Number(e.target.value) || 0, 0))} /> s</label>
+      <label>in <${NumberField} label="Seconds to go here" min=${0} max=${600} step=${0.5} value=${seconds.value} set=${(/** @type {number} */ value) => (seconds.value = value)} /> s</label>
       <button disabled=${at.value === null || !end || !!doc.value?.fixed} onClick=${() => insert(time)}>Key here</button></div></div>`;
 }
 

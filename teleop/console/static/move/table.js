@@ -1,6 +1,6 @@
 // The keys as numbers to type: time, positions, dwell, pass and ease of each.
 import { html } from "../vendor/preact/preact.min.js";
-import { short } from "../format.js";
+import { NumberField } from "../number_field.js";
 import { doc, edit, plan, positionsAt, room, selected } from "./document.js";
 import { axesOfMove, isShare } from "./curves.js";
 
@@ -27,10 +27,10 @@ function Row({ keyframe, index, names, off }) {
   const eases = [...new Set([...EASES, ...(typeof keyframe.ease === "string" ? [keyframe.ease] : [])])];
   return html`<tr class=${selected.value === number ? "selected" : ""} onFocusIn=${() => (selected.value = number)}>
     <th scope="row">${number}</th>
-    <td><${Num} label=${`Time of key ${number}`} value=${keyframe.at} step="0.1" off=${off} set=${time} /></td>
-    ${names.map((name) => html`<td class=${bad.has(name) ? "bad" : ""}>${keyframe[name] !== null && typeof keyframe[name] === "object" ? "…" : html`<${Num} label=${`${name} of key ${number}`}
-      value=${keyframe[name]} step=${isShare(name) ? "0.01" : "1"} off=${off} empty=${true} set=${(/** @type {number|null} */ value) => set(name, value)} />`}</td>`)}
-    <td><${Num} label=${`Dwell of key ${number}`} value=${keyframe.hold ?? 0} step="0.5" off=${off} set=${(/** @type {number} */ hold) => set("hold", hold > 0 ? hold : null)} /></td>
+    <td><${NumberField} label=${`Time of key ${number}`} value=${keyframe.at} step=${0.1} off=${off} set=${time} /></td>
+    ${names.map((name) => html`<td class=${bad.has(name) ? "bad" : ""}>${keyframe[name] !== null && typeof keyframe[name] === "object" ? "…" : html`<${NumberField} label=${`${name} of key ${number}`}
+      value=${keyframe[name]} step=${isShare(name) ? 0.01 : 1} off=${off} empty=${true} set=${(/** @type {number|null} */ value) => set(name, value)} />`}</td>`)}
+    <td><${NumberField} label=${`Dwell of key ${number}`} value=${keyframe.hold ?? 0} min=${0} step=${0.5} off=${off} set=${(/** @type {number} */ hold) => set("hold", hold > 0 ? hold : null)} /></td>
     <td><select aria-label=${`Pass of key ${number}`} value=${keyframe.pass ?? "through"} disabled=${off} onChange=${(/** @type {any} */ e) => set("pass", e.target.value === "stop" ? "stop" : null)}>
       <option value="through">through</option><option value="stop">stop</option></select></td>
     <td>${typeof keyframe.ease === "object" && keyframe.ease !== null ? "own" : html`<select aria-label=${`Ease of key ${number}`} value=${keyframe.ease ?? ""} disabled=${off} onChange=${(/** @type {any} */ e) => set("ease", e.target.value || null)}>
@@ -47,15 +47,4 @@ function add(index) {
     const { hold: _, ease: __, pass: ___, ...same } = here;
     keys.splice(index + 1, 0, { ...same, ...(next ? positionsAt(at) : {}), at: Math.round(at * 100) / 100 });
   });
-}
-
-/** A number that counts once it is typed. @param {{label: string, value: any, step: string, off: boolean, empty?: boolean, set: (value: any) => void}} props */
-function Num({ label, value, step, off, empty = false, set }) {
-  const change = (/** @type {any} */ event) => {
-    const text = event.target.value.trim().replace(",", "."), number = Number(text);
-    if (text === "" && empty) set(null);
-    else if (text !== "" && Number.isFinite(number)) set(number);
-    else event.target.value = value ?? "";
-  };
-  return html`<input type="number" step=${step} aria-label=${label} value=${typeof value === "number" ? short(value, 4) : ""} disabled=${off} onChange=${change} />`;
 }
