@@ -28,6 +28,7 @@ MOST = 0.1  # of the range of all keys: the most
 LOOSER = 1.1  # times the least overshoot: what the smoothest way may use
 ROOM = 0.02  # of what is tolerated, beside that
 NONE = 1e-3  # of what is tolerated: less is the solver's tolerance
+DOUBTFUL = 0.8, 2.0  # of what is tolerated: between these the least overshoot is found exactly
 SUM = 0.01  # weight of all overshoots beside that of the largest
 FINEST = Rule(pieces=8, directed=False, fine=True)
 
@@ -78,8 +79,13 @@ def _least(segment: Segment, limits: Limits) -> Array | None:
     blocks.append(Rows(-ones[:, None], slacks[:, None], np.zeros(count)))
     blocks.append(Rows(np.stack([ones, -ones], axis=1), np.stack([slacks, largest], axis=1), np.zeros(count)))
     linear = np.concatenate([np.zeros(unknowns), SUM / count * ones, [1.0]])
-    solution = minimize(zero(len(linear)), linear, *stacked(blocks, len(linear)), quickly=True)
-    return None if solution is None else np.maximum(solution[unknowns:-1], 0.0) * weight
+    none = zero(len(linear))
+    system = stacked(blocks, len(linear))
+    for quickly in (True, False):
+        solution = minimize(none, linear, *system, quickly=quickly)
+        if solution is not None and not (quickly and DOUBTFUL[0] < solution[-1] < DOUBTFUL[1]):
+            return np.maximum(solution[unknowns:-1], 0.0) * weight
+    return None
 
 
 def _weight(segment: Segment) -> Array:

@@ -1,7 +1,7 @@
-"""The keys of a planned move, found in how its jerk changes: for a take that a sequence made.
+"""The keys of a move of even speed, found in how its jerk changes: for a take that a sequence made.
 
-A plan has a knot at each key and in the middle between two keys, and its jerk jumps at each knot. A hand at a stick
-leaves no such pattern; what is found there is tried like any other keys, and fails.
+Such a plan has a knot at each key and in the middle between two keys, and its jerk jumps at each knot. A hand at a
+stick leaves no such pattern; what is found there is tried like any other keys, and fails.
 """
 
 from __future__ import annotations
