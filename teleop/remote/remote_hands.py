@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Action, DeviceCommand, Tick
 from teleop.core.interfaces import Observer, Sink, Source
-from teleop.core.operator_input import Input
+from teleop.core.operator_input import Held, Input
 from teleop.devices.rig import Rig
 from teleop.door.address import DoorAddress, new_door
 from teleop.door.ring import RingWriter
@@ -68,8 +69,8 @@ class RemoteHands:
 
     @property
     def inputs(self) -> Sequence[Input]:
-        """After all others: these are outranked by every local one."""
-        return [_Marked(self.desk, self._mark), self.desk.stick]
+        """After all others: it is outranked by every local one."""
+        return [_Hand(self.desk, self._mark)]
 
     @property
     def beneath(self) -> Source:
@@ -144,16 +145,17 @@ class RemoteHands:
         self._ended = True
 
 
-class _Marked:
-    """The desk, with a mark that the operator has read its inputs in this tick: that the run goes on."""
+class _Hand:
+    """What clients press, and the stick of the one who has control, as one input; `mark` is called at each read."""
 
     def __init__(self, desk: Desk, mark: Callable[[], object]) -> None:
         self._desk, self._mark = desk, mark
 
     @property
     def name(self) -> str:
-        return self._desk.name
+        return self._desk.stick.name
 
-    def read(self, now: float) -> Any:
+    def read(self, now: float) -> Held:
         self._mark()
-        return self._desk.read(now)
+        pressed = self._desk.read(now)
+        return replace(self._desk.stick.read(now), presses=pressed.presses)
