@@ -11,21 +11,19 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
 
 from teleop.app.absent_devices import open_present
+from teleop.app.beside import BesideLive, both
 from teleop.app.drone_flight import Aboard, is_flown
 from teleop.app.kept_responses import KeptResponses
 from teleop.app.operator_inputs import open_devices
 from teleop.app.run import RunReport, Screen, Signals, commands, run
 from teleop.app.stop_inputs import open_stop_inputs
 from teleop.app.target_file import TargetFile
-from teleop.config.presets import Presets, default_file, read_presets
+from teleop.config.presets import default_file, read_presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
-from teleop.core.events import Action, DeviceCommand
 from teleop.core.interfaces import Clock, Observer, Sink, Source
-from teleop.core.operator_input import Input
 from teleop.core.run_status import RunStatus
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.connection import Connection
@@ -40,29 +38,6 @@ from teleop.manual.stop_guard import Relay, StopGuard
 from teleop.manual.target_marks import TargetMarks
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 from teleop.recording.writer import Recorder, recording
-
-
-class Beside(Protocol):
-    """Hands beside those at the rig, outranked by them: inputs, and what drives the axes beneath all inputs."""
-
-    @property
-    def inputs(self) -> Sequence[Input]: ...
-
-    @property
-    def beneath(self) -> Source: ...
-
-    def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits]) -> None: ...
-
-    def attach(self, stack: ExitStack, operator: Operator, presets: Presets, rig: Rig) -> tuple[Observer, Sink]: ...
-
-    def line(self, text: str) -> None:
-        """A line that a device or a link gives the operator."""
-        ...
-
-    def confirmed(self, command: DeviceCommand) -> None: ...
-
-    def camera_answered(self, action: Action, done: bool) -> None: ...
-
 
 NO_INPUT = "live: no joystick and no terminal: plug in a joystick, run it on a terminal, or give --sticks"
 
@@ -98,7 +73,7 @@ class LiveRun:
     take: Path | None = None
     virtual: bool = False
     targets: Path | None = None
-    beside: Beside | None = None
+    beside: BesideLive | None = None
 
     def by_hand(self, make_screen: Callable[[LiveParts], Screen], signals: Signals) -> RunReport:
         """Until the operator or what is recorded ends it. Raises TeleopError for what keeps it from beginning."""
@@ -201,16 +176,6 @@ class LiveRun:
         observers, sinks = commands(rig, axes, notify, confirmed)
         camera = CameraAnswers(rig.camera, notify, answered, lenient=lenient)
         return [*observers, camera, *([] if self.keyboard is None else [self.keyboard])], sinks
-
-
-def both(first: Callable[..., object], second: Callable[..., object]) -> Callable[..., object]:
-    """Calls one after the other."""
-
-    def call(*arguments: object) -> None:
-        first(*arguments)
-        second(*arguments)
-
-    return call
 
 
 def _until_end(sticks: Sticks | None, recordings: Sequence[Recording]) -> Sticks:

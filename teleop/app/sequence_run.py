@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from teleop.app.beside import BesideRun, Running, both
 from teleop.app.drone_flight import Aboard, is_flown
 from teleop.app.kept_responses import KeptResponses
 from teleop.app.operator_inputs import open_devices
@@ -19,11 +20,12 @@ from teleop.app.trim_writer import TrimWriter
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.interfaces import Clock
+from teleop.core.operator_input import Input
 from teleop.core.run_status import RunStatus
 from teleop.devices.rig import open_rig
 from teleop.inputs.keyboard import Keyboard
 from teleop.manual.live_offset import LiveOffset
-from teleop.manual.stop_guard import Relay, StopGuard, Together
+from teleop.manual.stop_guard import KEYS_PERIOD, Relay, StopGuard, Together
 from teleop.monitors.repeatability import Repeatability
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 from teleop.planner.offset_limits import trim_limits
@@ -73,6 +75,7 @@ class SequenceRun:
     take: Path | None = None
     patient: bool = False
     learner: PassLearner | None = None
+    beside: BesideRun | None = None
 
     @property
     def axes(self) -> list[Axis]:
@@ -86,6 +89,8 @@ class SequenceRun:
         """Play it to its end. Raises TeleopError for what keeps it from beginning."""
         source, axes, aboard = self.source, self.axes, Aboard()
         with ExitStack() as stack:
+            if self.beside is not None:
+                self.beside.open(stack, self.profile, self.limits, self.clock)
             controls, guard, trim = self._controls(stack)
             recorder = stack.enter_context(self._recording(aboard))
             if source.cycle.trigger is not None:
@@ -98,15 +103,18 @@ class SequenceRun:
             if recorder and played:
                 recorder.status = played
             repeatability = Repeatability(source.place, planned) if source.cycle.compared else None
-            observers, sinks = commands(rig, axes, self.notify)
+            observers, sinks = commands(rig, axes, self._heard(self.notify))
             keys = None if self.keys is None else stack.enter_context(self.keys)
             observers += [each for each in (keys, trim, repeatability, self._observed(), played) if each is not None]
             status_of = partial(run_status, source) if controls is None else controls.status
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             screen = make_screen(self.limits, shown, recorder)
+            if self.beside is not None:
+                running = Running(self.sequence.title, lambda: guard, screen.notify, self.source)
+                observers.append(self.beside.attach(stack, running))
             aboard.board(rig, axes, screen.notify, by_script=True)
             if guard:
-                guard.notify = screen.notify
+                guard.notify = self._heard(screen.notify)
             tracking = TrackingErrorMonitor(lambda: source.begin, planned)
             stopped = lambda: guard.reason if guard else ""  # noqa: E731 - one of several arguments
             if self.learner:
@@ -117,6 +125,10 @@ class SequenceRun:
                 self.learner.notify = self.notify  # the screen is gone
                 self.learner.finish()
             return SequenceReport(report, trim, repeatability)
+
+    def _heard(self, notify: Callable[[str], object]) -> Callable[[str], object]:
+        """Lines for the operator are for those beside the run too."""
+        return notify if self.beside is None else both(notify, self.beside.line)
 
     def _observed(self) -> PassObserver | None:
         """What sees the passes for the learner."""
@@ -139,20 +151,28 @@ class SequenceRun:
         if self.share < 1:
             return self._trim_controls(stack)
         opened = [] if self.patient else open_stop_inputs(stack, self.profile, self.clock, self.warn)
-        relays = [Relay(each) for each in (*opened, *([] if self.keys is None else [self.keys]))]
+        relays = [Relay(each) for each in (*opened, *([] if self.keys is None else [self.keys]), *self._beside_inputs)]
         if not relays:
             return None, None, None
         controls = PlaybackControls(self.source, Together(relays))
-        return controls, StopGuard(controls, relays), None
+        return controls, self._guard(controls, relays), None
+
+    @property
+    def _beside_inputs(self) -> Sequence[Input]:
+        return () if self.beside is None else self.beside.inputs
+
+    def _guard(self, controls: PlaybackControls, relays: Sequence[Relay]) -> StopGuard:
+        poll = KEYS_PERIOD if self.beside is None else self.beside.poll
+        return StopGuard(controls, relays, poll=poll)
 
     def _trim_controls(self, stack: ExitStack) -> tuple[PlaybackControls, StopGuard, TrimWriter]:
         devices, note = open_devices(stack, self.profile, self.clock, self.keys is not None, NO_INPUT)
         keys = None if self.keys is None else Relay(self.keys)
-        relays = [*map(Relay, devices), *([] if keys is None else [keys])]
+        relays = [*map(Relay, devices), *([] if keys is None else [keys]), *map(Relay, self._beside_inputs)]
         limits = trim_limits(self.sequence.move, self.limits, self.share)
         trimming = LiveOffset(limits, relays, self.profile.sticks)
         if note:
             trimming.notify(note)
         trim = TrimWriter(trimming, self.trimmed)
         controls = PlaybackControls(self.source, keys, trimming, trim.keep)
-        return controls, StopGuard(controls, relays), trim
+        return controls, self._guard(controls, relays), trim

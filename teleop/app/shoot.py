@@ -7,8 +7,9 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
+from teleop.app.beside import BesideRun, Running, both
 from teleop.app.run import Screen, Signals, undisturbed
-from teleop.app.shoot_runner import Ended, InDoubt, Shooting, camera_link
+from teleop.app.shoot_runner import LOOK, Ended, InDoubt, Shooting, camera_link
 from teleop.app.stop_inputs import open_stop_inputs
 from teleop.config.profile import Profile
 from teleop.core.interfaces import Clock, Observer
@@ -48,6 +49,7 @@ class ShootRun:
     take: Path | None = None
     virtual: bool = False
     by_hand: bool = False
+    beside: BesideRun | None = None
 
     def perform(
         self, make_screen: MakeScreen, signals: Signals, begun: Callable[[Path], object], warn: Callable[[str], object]
@@ -65,8 +67,19 @@ class ShootRun:
             recorder = self._recorder(stack)
             keys = None if self.keys is None else stack.enter_context(self.keys)
             observers: list[Observer] = [each for each in (recorder, keys) if each is not None]
-            shooting = self._shooting(stack, journal, observers, lambda line: screen.notify(line), warn)
+            beside = self.beside
+            if beside is not None:
+                beside.open(stack, self.profile, timelapse.limits, self.clock)
+            told = (
+                (lambda line: screen.notify(line))
+                if beside is None
+                else both(lambda line: screen.notify(line), beside.line)
+            )
+            shooting = self._shooting(stack, journal, observers, told, warn)
             screen = make_screen(shooting, path, recorder)
+            if beside is not None:
+                running = Running(timelapse.title, lambda: shooting.guard, screen.notify, progress=shooting.progress)
+                observers.append(beside.attach(stack, running))
             tracking = TrackingErrorMonitor(lambda: shooting.begin)
             observers += [tracking, screen]
             begun(path)
@@ -91,8 +104,10 @@ class ShootRun:
         warn: Callable[[str], object],
     ) -> Shooting:
         inputs = [] if self.virtual else open_stop_inputs(stack, self.profile, self.clock, warn)
+        beside = self.beside
         return Shooting(
             *(self.timelapse, self.profile, self.clock, journal, notify, observers, self.keys, self.in_doubt),
-            inputs=inputs,
+            inputs=[*inputs, *([] if beside is None else beside.inputs)],
             by_hand=self.by_hand,
+            look=LOOK if beside is None else beside.poll,
         )

@@ -79,7 +79,9 @@ class Shooting:
         executor: Executor | None = None,
         inputs: Sequence[Input] = (),
         by_hand: bool = False,
+        look: float = LOOK,
     ) -> None:
+        self._look = look
         self._timelapse, self._profile, self._clock, self._journal = timelapse, profile, clock, journal
         self._notify, self._observers, self._in_doubt = notify, observers, in_doubt
         self._executor = executor
@@ -145,7 +147,7 @@ class Shooting:
         keys = Together(relays) if relays else None
         source = self._source_of(mover, first, keys)
         self._source = source
-        guard = StopGuard(source, relays, self._notify, LOOK, self.guard.stopped_by if self.guard else "")
+        guard = StopGuard(source, relays, self._notify, self._look, self.guard.stopped_by if self.guard else "")
         self.guard = guard
         self._runs += 1
         try:

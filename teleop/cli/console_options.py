@@ -59,9 +59,18 @@ class ConsoleOptions:
     token: Annotated[
         str | None, Parameter(metavar="TOKEN", help="Token to log in with; without it one is made where it is needed.")
     ] = None
+    watch_token: Annotated[
+        str | None, Parameter(metavar="TOKEN", help="Token that only watches, and may press STOP; made where needed.")
+    ] = None
     tls: Annotated[
-        bool, Parameter(help="Serve HTTPS with a certificate made for it.", negative=(), show_default=False)
+        bool, Parameter(help="Serve HTTPS with a certificate made here.", negative=(), show_default=False)
     ] = False
+    certificate: Annotated[
+        Path | None, Parameter(metavar="FILE", help="Serve HTTPS with this certificate (PEM); --key has its key.")
+    ] = None
+    key: Annotated[
+        Path | None, Parameter(metavar="FILE", help="The key of --certificate, if it is in another file.")
+    ] = None
     moves: Annotated[
         Path, Parameter(metavar="FOLDER", help="Folder of the moves and takes that the console shows.")
     ] = Path()
@@ -86,7 +95,12 @@ class ConsoleOptions:
             raise UsageError(f"--moves {self.moves}: is no folder")
         host, port = parse_bind(bind)
         folder = str(self.moves.resolve())
-        asked = ConsoleSettings(host, port, self.token or "", moves=folder, takes=folder, rig=rig)
+        tokens = self.token or "", self.watch_token or ""
+        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, rig=rig)
+        if self.tls or self.certificate or self.key:
+            from teleop.console.certificate import with_tls
+
+            asked = with_tls(asked, self.certificate, self.key)
         listener, settings = listen(with_tokens(asked))
         with listener:
             if as_json:
@@ -96,7 +110,7 @@ class ConsoleOptions:
                     tell(line)
             number = listener.fileno()
             console = {"settings": settings.as_json(), "listener": number}
-            yield Gateway({"console": console}, (number,))
+            yield Gateway({"console": console}, (number,), invitation(settings)[0])
 
     @contextmanager
     def beside(self, bind: str | None, rig: str, as_json: bool) -> Iterator[Gateway | None]:
@@ -105,9 +119,9 @@ class ConsoleOptions:
             with self.gateway(bind, rig, as_json) as gateway:
                 yield gateway
             return
-        for name, given in (("--token", self.token), ("--tls", self.tls)):
-            if given:
-                raise UsageError(f"{name}: needs --console")
+        for name in ("token", "watch_token", "tls", "certificate", "key"):
+            if getattr(self, name):
+                raise UsageError(f"--{name.replace('_', '-')}: needs --console")
         yield None
 
 

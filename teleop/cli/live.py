@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from teleop.app.beside import BesideLive
 from teleop.app.drone_flight import refuse_offsets
-from teleop.app.live import Beside, LiveParts, LiveRun
+from teleop.app.live import LiveParts, LiveRun
 from teleop.app.realtime import realtime
 from teleop.cli.console_options import NO_CONSOLE, Console, ConsoleOptions, Realtime
 from teleop.cli.drone_run import Understood, ask_to_fly
@@ -99,7 +100,7 @@ def live(
         return _by_hand(run if gateway is None else replace(run, beside=_hands(reached.moves, gateway)), options)
 
 
-def _hands(moves: Path, gateway: Gateway) -> Beside:
+def _hands(moves: Path, gateway: Gateway) -> BesideLive:
     from teleop.remote.remote_hands import RemoteHands
 
     return RemoteHands(moves, gateway)

@@ -11,16 +11,19 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from teleop.app.beside import BesideRun
 from teleop.app.clocks import clock_for, real_links
 from teleop.app.planning import Plan, is_take
 from teleop.app.play import attended, devices_in_use, following, source_of
+from teleop.app.realtime import realtime
 from teleop.app.sequence_run import SequenceRun
+from teleop.cli.console_options import NO_CONSOLE, Console, ConsoleOptions, Realtime
 from teleop.cli.drone_run import Understood, ask_to_fly
 from teleop.cli.key_terminal import key_terminal
 from teleop.cli.learned_options import NOT_LEARNED, LearnedOptions, LearningReport
 from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
 from teleop.cli.running import EXIT_CODES, Extra, print_report
-from teleop.cli.screens.folded import after_the_run, warn
+from teleop.cli.screens.folded import after_the_run, complain, warn
 from teleop.cli.screens.repeatability_table import PassesReport
 from teleop.cli.screens.run_rows import NO_KEYS, RUN_HINTS
 from teleop.cli.screens.run_view import RunView
@@ -49,6 +52,7 @@ from teleop.sequence.trim_export import TrimmedFile
 
 if TYPE_CHECKING:
     from teleop.learning.pass_learner import PassLearner
+    from teleop.remote.gateway_child import Gateway
 
 Fast = Annotated[
     bool,
@@ -75,6 +79,9 @@ def play(
     learning: LearnedOptions = NOT_LEARNED,
     fast: Fast = False,
     take: Take = None,
+    console: Console = None,
+    reached: ConsoleOptions = NO_CONSOLE,
+    in_real_time: Realtime = False,
     i_understand: Understood = False,
     options: Options = DEFAULTS,
 ) -> int:
@@ -87,11 +94,22 @@ def play(
     shooting.check(file, plan.timelapse is not None)
     if plan.timelapse is not None and plan.is_flown:
         raise DocumentError([f"{file}: a timelapse cannot fly a drone: leave out the stick axes"])
-    if plan.timelapse is not None and not shooting.rehearse:
-        return _shoot(file, plan, Ordered(speed, staging, trim, learning), shooting, fast, take, options)
-    if plan.timelapse is not None:
+    ordered = Ordered(speed, staging, trim, learning)
+    if fast and console is not None:
+        raise UsageError("--console: a browser is in real time; leave out --fast")
+    if plan.timelapse is not None and shooting.rehearse:
         print_warnings(plan.sequence.warnings)
-    return _play(file, plan, Ordered(speed, staging, trim, learning), fast, take, i_understand, options)
+    with reached.beside(console, options.rig, options.json) as gateway, realtime(in_real_time, complain):
+        beside = None if gateway is None else _hands(gateway)
+        if plan.timelapse is not None and not shooting.rehearse:
+            return _shoot(file, plan, ordered, shooting, fast, take, options, beside)
+        return _play(file, plan, ordered, fast, take, i_understand, options, beside)
+
+
+def _hands(gateway: Gateway) -> BesideRun:
+    from teleop.remote.run_hands import RunHands
+
+    return RunHands(gateway)
 
 
 @dataclass(frozen=True)
@@ -108,7 +126,14 @@ AS_WRITTEN = Ordered("100%", NO_STAGING, NO_TRIM, NOT_LEARNED)
 
 
 def _shoot(
-    file: str, plan: Plan, ordered: Ordered, shooting: ShootOptions, fast: bool, take: Path | None, options: Options
+    file: str,
+    plan: Plan,
+    ordered: Ordered,
+    shooting: ShootOptions,
+    fast: bool,
+    take: Path | None,
+    options: Options,
+    beside: BesideRun | None,
 ) -> int:
     from teleop.cli.shooting.shoot import shoot
 
@@ -116,11 +141,18 @@ def _shoot(
         raise DocumentError([f"{file} is a timelapse: --speed, --trim and the options of passes need --rehearse"])
     assert plan.timelapse is not None
     profile = devices_in_use(plan, shoots=True)
-    return shoot(file, plan.timelapse, profile, the_clock(fast, profile), shooting, take, options)
+    return shoot(file, plan.timelapse, profile, the_clock(fast, profile), shooting, take, options, beside)
 
 
 def _play(
-    file: str, plan: Plan, ordered: Ordered, fast: bool, take: Path | None, understood: bool, options: Options
+    file: str,
+    plan: Plan,
+    ordered: Ordered,
+    fast: bool,
+    take: Path | None,
+    understood: bool,
+    options: Options,
+    beside: BesideRun | None,
 ) -> int:
     staging, trim = ordered.staging, ordered.trim
     profile = devices_in_use(plan, shoots=False)
@@ -159,6 +191,7 @@ def _play(
             take,
             fast,
             learns,
+            beside,
         )
         return _performed(run, options, lessons)
 

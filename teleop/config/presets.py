@@ -63,6 +63,7 @@ class Presets:
         self._file = file
         self._presets = dict(presets or {})
         self.names: Mapping[int, str] = {}
+        self.changes = 0
         self._messages = deque(messages)
         self._changed = threading.Condition()
         self._unsaved: Mapping[int, Preset] | None = None
@@ -101,6 +102,7 @@ class Presets:
             self._writer.join(WRITE_TIMEOUT)
 
     def _save(self) -> None:
+        self.changes += 1
         self._name()
         with self._changed:
             self._unsaved = dict(self._presets)

@@ -36,6 +36,8 @@ def with_tls(settings: ConsoleSettings, certificate: Path | None = None, key: Pa
     Raises UsageError for files that are no certificate and its key.
     """
     if certificate is None:
+        if key is not None:
+            raise UsageError("--key: needs --certificate")
         certificate, key = _kept(_names(settings))
     try:
         ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER).load_cert_chain(certificate, key)

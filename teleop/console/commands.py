@@ -13,6 +13,7 @@ from teleop.console.door import KINDS, Door
 from teleop.console.json_body import Refusal, read_object
 from teleop.console.sessions import HttpSession, HttpSessions
 from teleop.console.stopping import stop
+from teleop.door.messages import INTERNAL
 
 Plan = Callable[[Mapping[str, Any]], Awaitable[Mapping[str, Any]]]
 WATCHERS = "this login only watches: log in with the token to operate"
@@ -76,7 +77,12 @@ def pass_stick(door: Door, message: Mapping[str, Any], session: str) -> None:
 
 
 def check_command(command: Mapping[str, Any]) -> None:
-    """Raises Refusal (400) for a message without a command; the door checks the rest."""
+    """Raises Refusal (400) for a message without a command, or with one of the gateway's own; the door checks the rest.
+
+    `alive` says that others are there: a client that could send it would hold up the dead man of others.
+    """
+    if command.get("do") in INTERNAL:
+        raise Refusal(400, f"do: unknown command {command['do']!r}")
     if not isinstance(command.get("do"), str):
         raise Refusal(400, 'do: name a command, as in {"do": "goto", "axes": {"pan": 10}, "seconds": 2}')
 

@@ -8,6 +8,8 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast
 
+from starlette.requests import ClientDisconnect
+
 if TYPE_CHECKING:
     from starlette.requests import Request
 
@@ -51,14 +53,17 @@ async def read_object(request: Request, most_bytes: int = MOST_BYTES, most_depth
 async def _body(request: Request, most_bytes: int) -> bytes:
     length = request.headers.get("content-length", "0")
     too_large = Refusal(413, f"too large: at most {most_bytes} bytes")
-    if length.isdigit() and int(length[:20]) > most_bytes:
+    if length.isascii() and length.isdigit() and int(length[:20]) > most_bytes:
         raise too_large
     parts, size = [], 0
-    async for part in request.stream():
-        size += len(part)
-        if size > most_bytes:
-            raise too_large
-        parts.append(part)
+    try:
+        async for part in request.stream():
+            size += len(part)
+            if size > most_bytes:
+                raise too_large
+            parts.append(part)
+    except ClientDisconnect:
+        raise Refusal(400, "the body is cut off") from None
     return b"".join(parts)
 
 

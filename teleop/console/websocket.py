@@ -150,6 +150,7 @@ class Client:
                 raise GoneError(TOO_LARGE)
             self._door.seen(self._session)
             self._take(text)
+            await asyncio.sleep(0)  # a burst of messages does not keep the answers
 
     def _take(self, text: str) -> None:
         """One message. Above the rate only STOP is obeyed."""

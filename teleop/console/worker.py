@@ -42,6 +42,7 @@ class WorkerProcess:
 
     def __init__(self) -> None:
         self._process: asyncio.subprocess.Process | None = None
+        self._killed: set[asyncio.Task[int]] = set()
         self._turn = asyncio.Lock()
 
     async def start(self) -> None:
@@ -67,10 +68,9 @@ class WorkerProcess:
 
     async def close(self) -> None:
         """End it."""
-        process = self._process
         self._kill()
-        if process is not None:
-            await process.wait()
+        if self._killed:
+            await asyncio.wait(self._killed)
 
     async def _done(self, line: bytes) -> Any:
         process = await self._running()
@@ -96,6 +96,9 @@ class WorkerProcess:
         if self._process is not None and self._process.returncode is None:
             with suppress(ProcessLookupError):
                 self._process.kill()
+            task = asyncio.create_task(self._process.wait())
+            self._killed.add(task)
+            task.add_done_callback(self._killed.discard)
         self._process = None
 
 

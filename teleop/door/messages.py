@@ -132,8 +132,7 @@ def checked(message: object) -> DoorCommand:
     number = message.get("id")
     known = number if isinstance(number, int) and not isinstance(number, bool) and 0 <= number <= MOST_ID else None
     do = message.get("do")
-    shape = SHAPES.get(do) if isinstance(do, str) else None
-    if shape is None:
+    if not isinstance(do, str) or (shape := SHAPES.get(do)) is None:
         raise CommandError(f"do: unknown command {str(do)[:40]!r}", known)
     values: dict[str, Any] = {}
     checks = {**shape.required, **shape.optional, **_ENVELOPE}
@@ -158,7 +157,7 @@ def checked(message: object) -> DoorCommand:
 def packed(message: Mapping[str, Any]) -> bytes:
     """A command or an answer as a datagram. Raises CommandError for one that is too large or has other things in it."""
     try:
-        data: bytes = msgpack.packb(message)
+        data = bytes(msgpack.packb(message) or b"")
     except (TypeError, ValueError, OverflowError, RecursionError) as error:
         raise CommandError(f"cannot be sent: {error}") from None
     if len(data) > LARGEST:

@@ -47,8 +47,10 @@ async def _serve(settings: dict[str, Any]) -> None:
     loop = asyncio.get_running_loop()
     threading.Thread(target=_watch_parent, args=(loop, ended), name="parent", daemon=True).start()
     async with DoorClient(DoorAddress(Path(settings["door"]))) as door:
-        waiting = loop.create_task(ended.wait())
-        served = [loop.create_task(_console(settings["console"], door))] if "console" in settings else []
+        waiting: asyncio.Task[Any] = loop.create_task(ended.wait())
+        served: list[asyncio.Task[Any]] = (
+            [loop.create_task(_console(settings["console"], door))] if "console" in settings else []
+        )
         done, _ = await asyncio.wait([*served, waiting], return_when=asyncio.FIRST_COMPLETED)
         for task in (*served, waiting):
             task.cancel()

@@ -179,6 +179,11 @@ class StopGuard:
         return self._hold is not Hold.FREE
 
     @property
+    def paused(self) -> bool:
+        """Whether an operator has to continue before an axis moves again."""
+        return self._hold in (Hold.PAUSED, Hold.CLEARED)
+
+    @property
     def stop(self) -> str:
         """Of a STOP that is not cleared: "stopping" while an axis still moves, then "stopped"; else ""."""
         return stop_state(self._hold is Hold.STOPPED, self._motion)

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any
 
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.errors import TeleopError
-from teleop.core.events import Action, DeviceCommand, Tick
+from teleop.core.events import Action, Tick
 from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
-from teleop.remote.desk import Asked, Desk, Refusal
+from teleop.remote.asked import Asked, Refusal
+from teleop.remote.desk import Desk
+from teleop.remote.device_actions import DeviceActions, Due, DueList
 from teleop.remote.jobs import JobSource, WayJob
 from teleop.remote.keys import MOST as MOST_KEYS
 from teleop.remote.keys import HandKeys
@@ -24,21 +23,8 @@ from teleop.remote.told import Told
 from teleop.remote.works import Works
 
 JOG_TIME = 0.5  # s that a jog takes at least, unless it says otherwise
-CAMERA_TIME = 4.0  # s for the camera's answer
 WAY_TIME = 600.0  # s for a way along the path of a move
-ANSWER_TIME = 2.0  # s for the gimbal's
 SLACK = 1e-6
-
-
-@dataclass
-class _Due:
-    """What is asked of a device or a move, until `done` or `by`; `failed` is why it will not be, "" unless known."""
-
-    asked: Asked
-    done: Callable[[float], bool]
-    by: float
-    missing: str
-    failed: Callable[[], str]
 
 
 class LiveActions:
@@ -54,13 +40,13 @@ class LiveActions:
         told: Told,
     ) -> None:
         self._profile, self._limits, self._jobs, self.keys, self._works = profile, limits, jobs, keys, works
-        self._told = told
         self.operator: Operator
         self.presets: Presets
         self.desk: Desk
-        self.has_camera = False
         self._motion: Motion = {}
-        self._due: list[_Due] = []
+        self._due = DueList()
+        has_gimbal = any(sink.type == "gimbal" for sink in profile.sinks)
+        self.devices = DeviceActions(jobs, told, self._due, lambda: self.rests, has_gimbal)
         self._halted = False
         self._do: Mapping[str, Callable[[Asked, float], None]] = {
             "goto": lambda asked, _now: self._go("goto", asked, dict(asked["axes"]), asked.get("seconds")),
@@ -82,12 +68,12 @@ class LiveActions:
             "previous_key": lambda asked, now: self._transport(asked, now, lambda job: job.step(-1, now)),
             "to_start": lambda asked, now: self._transport(asked, now, lambda job: job.to_start(now)),
             "abort": self._abort,
-            "record": lambda asked, now: self._camera(asked, now, Action.RECORD),
-            "stop_recording": lambda asked, now: self._camera(asked, now, Action.STOP),
-            "shutter": lambda asked, now: self._camera(asked, now, Action.SHUTTER),
+            "record": lambda asked, now: self.devices.camera(asked, now, Action.RECORD),
+            "stop_recording": lambda asked, now: self.devices.camera(asked, now, Action.STOP),
+            "shutter": lambda asked, now: self.devices.camera(asked, now, Action.SHUTTER),
             "range": self._range,
-            "follow": self._follow,
-            "message": self._message,
+            "follow": self.devices.follow,
+            "message": self.devices.message,
         }
 
     # --- what the desk asks
@@ -100,7 +86,7 @@ class LiveActions:
     def busy(self, session: str) -> bool:
         job = self._jobs.job
         own = job is not None and job.owner == session and not (isinstance(job, PlayJob) and job.paused)
-        return own or self._works.planning or any(each.asked.command.session == session for each in self._due)
+        return own or self._works.planning or self._due.of(session)
 
     def do(self, asked: Asked, now: float) -> None:
         action = self._do.get(asked.command.do)
@@ -119,7 +105,7 @@ class LiveActions:
         """Also what each tick has to look at."""
         self._take_stop(now)
         self._works.deliver(now)
-        self._look_after(now)
+        self._due.look(now)
         job = self._jobs.job
         if isinstance(job, PlayJob) and job.attended and not job.left and not job.paused and sessions(job.owner):
             job.left = True
@@ -136,13 +122,6 @@ class LiveActions:
             self._jobs.halt(now, f"STOP by {self.operator.stopped_by}")
             self._works.drop("STOPPED")
         self._halted = stopped
-
-    def _look_after(self, now: float) -> None:
-        for due in list(self._due):
-            why = due.failed()
-            if due.done(now) or why or now > due.by:
-                self._due.remove(due)
-                due.asked.end("" if due.done(now) else why or due.missing)
 
     # --- ways
 
@@ -176,8 +155,10 @@ class LiveActions:
         if axis not in self._limits or axis.is_stick:
             raise Refusal(f"{axis} is not an axis of this rig that can be jogged")
         limits = self._limits[axis]
-        jogged = isinstance(job, WayJob) and job.title == "jog" and set(job.axes) == {axis}
-        start = job.targets[axis] if jogged else at_rest(self._motion[axis], limits).position
+        if isinstance(job, WayJob) and job.title == "jog" and set(job.axes) == {axis}:
+            start = job.targets[axis]
+        else:
+            start = at_rest(self._motion[axis], limits).position
         target = min(max(start + asked["by"], limits.minimum), limits.maximum)
         if target == start:
             raise Refusal(f"{axis} is at its soft limit")
@@ -265,7 +246,7 @@ class LiveActions:
         does(job)
         asked.accept()
         done = lambda now: self._jobs.job is not job or not job.changing(now)  # noqa: E731
-        self._due.append(_Due(asked, done, now + WAY_TIME, "it takes too long", lambda: job.source.playback.refusal))
+        self._due.add(Due(asked, done, now + WAY_TIME, "it takes too long", lambda: job.source.playback.refusal))
 
     def _resume(self, asked: Asked, now: float) -> None:
         self._may_move()
@@ -280,63 +261,9 @@ class LiveActions:
         self._jobs.end(f"aborted by {asked.command.name}")
         asked.end()
 
-    # --- devices
-
-    def _camera(self, asked: Asked, now: float, action: Action) -> None:
-        if not self.has_camera:
-            raise Refusal("this rig has no camera")
-        asked.accept()
-        self._jobs.events.append(action)
-        self._told.camera.pop(action, None)
-        done = lambda _now: self._told.camera.get(action, False)  # noqa: E731
-        failed = lambda: "" if self._told.camera.get(action, True) else "the camera has not done it"  # noqa: E731
-        self._due.append(_Due(asked, done, now + CAMERA_TIME, "no answer of the camera", failed))
-
     def _range(self, asked: Asked, now: float) -> None:  # noqa: ARG002
         ranges = len(self.operator.status.ranges)
         if asked["number"] > ranges:
             raise Refusal(f"there are {ranges} speed ranges")
         self.desk.press(asked.command.name, Command.RANGE, asked["number"])
         asked.end()
-
-    def _follow(self, asked: Asked, now: float) -> None:
-        self._tell(asked, now, f"gimbal follow {asked['mode']}", {})
-
-    def _message(self, asked: Asked, now: float) -> None:
-        self._tell(asked, now, asked["name"], asked.get("fields", {}))
-
-    def _tell(self, asked: Asked, now: float, name: str, fields: Mapping[str, Any]) -> None:
-        """A command of a device's own: at rest, and none that the stream of the run would take back."""
-        from teleop.dji.gimbal.command_table import RIG, find, is_taken_back
-        from teleop.dji.message import FieldError
-
-        words = [*name.replace(".", " ").split(), *(f"{key}={_written(value)}" for key, value in fields.items())]
-        try:
-            message = find(words)
-            message.check()
-        except FieldError as error:
-            raise Refusal(f"{name}: {error}") from None
-        if is_taken_back(message):
-            raise Refusal(f"{name}: would disturb the commands of the run")
-        if not any(sink.type == "gimbal" for sink in self._profile.sinks):
-            raise Refusal("this rig has no gimbal")
-        if not self.rests:
-            raise Refusal("an axis is moving")
-        bare = [word for word in words if "=" not in word]
-        full = " ".join(bare) if bare[0] in RIG.devices else RIG.full_name(words)
-        device, _, rest = full.partition(" ")
-        command = DeviceCommand(device, rest, tuple(word for word in words if "=" in word))
-        asked.accept()
-        self._told.watch(asked, command)
-        self.desk.press(asked.command.name, Command.TELL, 0, command)
-        if not message.has_reply:
-            asked.end()
-            return
-        done = lambda _now: self._told.confirmed(command)  # noqa: E731
-        self._due.append(_Due(asked, done, now + ANSWER_TIME, "no answer", lambda: self._told.failure(asked)))
-
-
-def _written(value: object) -> str:
-    if isinstance(value, bool):
-        return str(int(value))
-    return f"{value:g}" if isinstance(value, float) and math.isfinite(value) else str(value)

@@ -57,6 +57,8 @@ class Control:
     def take(self, person: Person, now: float, ask: bool = False, brief: bool = False) -> bool:
         """Whether the control is the person's; False for one that has asked. Raises Denied."""
         if self.holder is None or (self.holder.session == person.session and self._next is None):
+            if self.holder is None and not brief:
+                self._notify(f"{person.name} has control")
             self._give(person, now, brief and (self.holder is None or self.brief))
             return True
         if not ask:
@@ -100,7 +102,7 @@ class Control:
             self._next, self.asking, self._asked = self.asking, None, math.inf
             self.leaving, self._end = True, now + HANDOVER
         if self.holder is not None and not self.leaving and now - self._used >= IDLE:
-            self._notify(f"{self.name} has done nothing for {IDLE:g} s: control is free")
+            self._notify(f"{self.name} has done nothing for {IDLE:g} s")
             self.leaving, self._end = True, now + HANDOVER
         if self.leaving and (now >= self._end or (rests and not (busy and self._next is None))):
             self._pass(now)
@@ -111,13 +113,15 @@ class Control:
         return self._next is not None
 
     def _pass(self, now: float) -> None:
-        following, before = self._next or self.asking, self.name
+        following, before, brief = self._next or self.asking, self.name, self.brief
         self.holder = self.asking = self._next = None
         self.leaving, self.brief, self._asked, self._end = False, False, math.inf, math.inf
         self.changes += 1
         if following is not None:
             self._give(following, now, False)
             self._notify(f"{before} has passed control to {following.name}")
+        elif not brief:
+            self._notify(f"{before} has control no longer: it is free")
 
     def _give(self, person: Person, now: float, brief: bool) -> None:
         self.holder, self.leaving, self.brief = person, False, brief

@@ -7,6 +7,7 @@ has ended, whatever ended it. All of it happens in a thread of its own; nothing 
 from __future__ import annotations
 
 import json
+import os
 import select
 import subprocess
 import sys
@@ -27,10 +28,11 @@ LINES = 20  # of its errors that are passed on, at most
 
 
 class Gateway(NamedTuple):
-    """What the gateway is told when it starts, and the descriptors that it inherits."""
+    """What the gateway is told when it starts, the descriptors that it inherits, and a line on how it is reached."""
 
     settings: Mapping[str, Any]
     passed: Sequence[int] = ()
+    greeting: str = ""
 
 
 class GatewayChild:
@@ -62,7 +64,8 @@ class GatewayChild:
     def close(self) -> None:
         """End the child and the thread."""
         self._over.set()
-        self._thread.join(LEAVING + 1.0)
+        if self._thread.is_alive():
+            self._thread.join(LEAVING + 1.0)
 
     def _run(self) -> None:
         # The child dies with the thread that started it (PR_SET_PDEATHSIG), so one thread starts them all.
@@ -125,7 +128,7 @@ class GatewayChild:
         assert process.stderr is not None
         if process.stderr.closed or not select.select([process.stderr], [], [], wait)[0]:
             return
-        text = process.stderr.read1(65536).decode(errors="replace")
+        text = os.read(process.stderr.fileno(), 65536).decode(errors="replace")
         if not text:
             self._over.wait(wait)  # closed, while it still runs
         for line in text.splitlines():

@@ -7,7 +7,7 @@ goes on when it is asked to, from where it was. One that is `attended` pauses wh
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 from teleop.core.axes import Axis, Motion
@@ -16,19 +16,9 @@ from teleop.core.events import Tick, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand
 from teleop.remote.jobs import Ended
+from teleop.remote.move_state import move_state
 from teleop.sequence.phases import SequencePhase
-from teleop.sequence.progress import run_status
 from teleop.sequence.source import SequenceSource
-
-PHASES: Mapping[SequencePhase, str] = {
-    SequencePhase.EASING: "easing",
-    SequencePhase.PREROLL: "preroll",
-    SequencePhase.ARMED: "armed",
-    SequencePhase.PLAYING: "playing",
-    SequencePhase.REJOINING: "rejoining",
-    SequencePhase.RETURNING: "returning",
-    SequencePhase.OVER: "resting",
-}
 
 
 class NotNowError(TeleopError):
@@ -135,24 +125,4 @@ class PlayJob:
 
     def state(self, now: float) -> dict[str, Any]:
         """For clients: what it does at `now`."""
-        status = run_status(self.source, now)
-        phase = PHASES[self.source.phase]
-        if self.halted or status.paused:
-            phase = "paused"
-        elif self.source.waiting:
-            phase = "waiting"
-        keys = len(self.source.key_times)
-        return {
-            "title": self.title,
-            "phase": phase,
-            "at": None if status.elapsed is None else round(status.elapsed, 3),
-            "duration": round(status.duration, 3),
-            "speed": round(status.speed, 4),
-            "key": status.key.number if status.key else keys,
-            "keys": keys,
-            "pass": status.number,
-            "passes": None if math.isinf(status.passes) else int(status.passes),
-            "attended": self.attended,
-            "why": self.halted or self.source.playback.refusal,
-            "max_speed": round(self.source.playback.at_most, 4),
-        }
+        return move_state(self.title, self.source, now, self.halted, self.attended)

@@ -26,6 +26,7 @@ from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway, GatewayChild
 from teleop.remote.jobs import JobSource
 from teleop.remote.keys import HandKeys
+from teleop.remote.live_shown import LiveShown
 from teleop.remote.state import Parts, StatePublisher
 from teleop.remote.stick import RemoteStick
 from teleop.remote.told import Told
@@ -63,7 +64,7 @@ class RemoteHands:
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
         self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, self.told)
         self.desk = Desk(socket, stick, self._notify, self._actions)
-        self._actions.desk = self.desk
+        self._actions.desk = self._actions.devices.desk = self.desk
 
     @property
     def inputs(self) -> Sequence[Input]:
@@ -77,10 +78,10 @@ class RemoteHands:
     def attach(self, stack: ExitStack, operator: Operator, presets: Presets, rig: Rig) -> tuple[Observer, Sink]:
         """To the operator of an open rig; from now on the gateway runs. What sees each tick, and the release."""
         self._operator = self._actions.operator = operator
-        self._actions.presets, self._actions.has_camera = presets, rig.camera is not None
+        self._actions.presets, self._actions.devices.has_camera = presets, rig.camera is not None
+        shown = LiveShown(operator, presets, self._jobs, self._keys)
         parts = Parts(
-            *(self._profile.name, self._limits, operator, presets, rig.connections),
-            *(self.desk, self._jobs, self._keys, rig.camera is not None),
+            *(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None),
         )
         self._publisher = StatePublisher(parts, self._ring)
         self._clock = rig.clock
@@ -92,6 +93,7 @@ class RemoteHands:
             self.child = GatewayChild(settings, passed, self._heard, operator.notify, self._gateway_ended)
             stack.callback(self.child.close)
             self.child.start()
+            operator.notify(self._gateway.greeting)
         return self, self
 
     # --- what becomes of commands

@@ -3,27 +3,52 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
-from teleop.config.presets import Presets
 from teleop.core.axes import Axis, Limits
 from teleop.core.clock import date
 from teleop.core.events import Tick
 from teleop.devices.connection import Connection
 from teleop.door.ring import RingWriter
 from teleop.door.states import StatePacker
-from teleop.manual.operator import Operator
+from teleop.manual.status import OperatorStatus
 from teleop.remote.desk import Desk
-from teleop.remote.jobs import JobSource
-from teleop.remote.keys import HandKeys
-from teleop.remote.play_job import PlayJob
 
 MESSAGES = 10  # of the newest
 LONGEST = 200  # characters of each
 PRESETS = 200  # that a state has room for
 QUIET = 1.5  # s without a frame from a device, after which its link is not ok
+
+
+class Shown(Protocol):
+    """What a state has beside the axes and who has control."""
+
+    @property
+    def status(self) -> OperatorStatus: ...
+
+    @property
+    def stopped_by(self) -> str: ...
+
+    @property
+    def changes(self) -> object:
+        """Another value after each change of the keys and presets."""
+        ...
+
+    @property
+    def keys(self) -> Sequence[Mapping[str, float]]: ...
+
+    @property
+    def presets(self) -> Mapping[str, Mapping[str, Any]]: ...
+
+    def drivers(self) -> Mapping[Axis, str]:
+        """What moves an axis that no input does."""
+        ...
+
+    def move(self, now: float) -> Mapping[str, Any] | None: ...
+
+    def shoot(self, now: float) -> Mapping[str, Any] | None: ...
 
 
 @dataclass(frozen=True)
@@ -32,12 +57,9 @@ class Parts:
 
     rig: str
     limits: Mapping[Axis, Limits]
-    operator: Operator
-    presets: Presets
+    shown: Shown
     connections: Mapping[str, Connection]
     desk: Desk
-    jobs: JobSource
-    keys: HandKeys
     has_camera: bool
 
 
@@ -50,7 +72,6 @@ class StatePublisher:
         self._seldom: Mapping[str, Any] = {}
         self._of: tuple[object, ...] = ()
         self._fixed = {axis.value: _facts(axis, of) for axis, of in parts.limits.items()}
-        self._names: Mapping[int, str] | None = None  # another one after each change of a preset
         self._stopped_at: float | None = None
         self._recording_since: float | None = None
         self._tick = Tick(0.0, {}, {}, (), {})
@@ -58,16 +79,14 @@ class StatePublisher:
     def publish(self, run: str, now: float, tick: Tick | None = None) -> None:
         """The state at `now`, in a run that is "waiting", "running", "stopping", "releasing" or "over"."""
         self._tick = tick or self._tick
-        data = self._packer.pack(self._often(run, now), self._seldom_now(now))
+        data = self._packer.pack(self._often(run, now), self._seldom_now())
         self._ring.write(data)
         self._parts.desk.tick = self._ring.number
 
     def _often(self, run: str, now: float) -> Mapping[str, Any]:
-        parts = self._parts
-        status, job, control = parts.operator.status, parts.jobs.job, parts.desk.control
-        drivers = {axis: each.name for each in status.inputs for axis in each.moves}
-        if job is not None and not (isinstance(job, PlayJob) and job.paused):
-            drivers = {**dict.fromkeys(job.axes, job.title), **drivers}
+        parts, shown = self._parts, self._parts.shown
+        status, control = shown.status, parts.desk.control
+        drivers = {**shown.drivers(), **{axis: each.name for each in status.inputs for axis in each.moves}}
         stick, age = parts.desk.stick, parts.desk.stick.age(now)
         if status.recording and self._recording_since is None:
             self._recording_since = now
@@ -85,11 +104,12 @@ class StatePublisher:
             "holder_session": control.holder.session if control.holder else None,
             "asking": control.asking.name if control.asking else None,
             "stopped": status.stopped,
-            "stopped_by": parts.operator.stopped_by,
+            "stopped_by": shown.stopped_by,
             "stopped_at": self._stopped_at,
             "recording": status.recording,
             "recording_s": round(now - self._recording_since, 2) if self._recording_since is not None else 0.0,
-            "move": job.state(now) if isinstance(job, PlayJob) else None,
+            "move": shown.move(now),
+            "shoot": shown.shoot(now),
             "links": {name: self._link(connection, now) for name, connection in parts.connections.items()},
             "sticks": {
                 "missed": stick.missed,
@@ -114,23 +134,21 @@ class StatePublisher:
         age = max(0.0, now - connection.heard)
         return {"age_ms": round(age * 1000, 1), "ok": age < QUIET}
 
-    def _seldom_now(self, now: float) -> Mapping[str, Any]:  # noqa: ARG002 - made of what has changed
-        parts = self._parts
-        status = parts.operator.status
-        of = (status.messages, status.inputs, status.range, status.follow, parts.keys.changes)
-        if of == self._of and parts.presets.names is self._names:
+    def _seldom_now(self) -> Mapping[str, Any]:
+        parts, shown = self._parts, self._parts.shown
+        status = shown.status
+        of = (status.messages, status.inputs, status.range, status.follow, shown.changes)
+        if of == self._of:
             return self._seldom
-        self._of, self._names = of, parts.presets.names
-        names = list(parts.presets.names)[:PRESETS]
+        self._of = of
         self._seldom = {
             "rig": parts.rig,
             "camera": parts.has_camera,
-            "keys": parts.keys.keys,
-            "presets": {str(number): _preset(parts.presets, number) for number in names},
+            "keys": list(shown.keys),
+            "presets": dict(list(shown.presets.items())[:PRESETS]),
             "range": status.range + 1,
             "ranges": list(status.ranges),
             "follow": status.follow,
-            "shoot": None,
             "focus_marks": {},
             "inputs": [
                 {
@@ -144,14 +162,6 @@ class StatePublisher:
             "messages": [{"time": at, "text": text[:LONGEST]} for at, text in status.messages[:MESSAGES]],
         }
         return self._seldom
-
-
-def _preset(presets: Presets, number: int) -> Mapping[str, Any]:
-    preset = presets.get(number)
-    if preset is None:
-        return {}
-    named = {"name": preset.name} if preset.name else {}
-    return {**{axis.value: position for axis, position in preset.positions.items()}, **named}
 
 
 def _facts(axis: Axis, limits: Limits) -> Mapping[str, Any]:

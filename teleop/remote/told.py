@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from teleop.core.events import Action, DeviceCommand
 
 if TYPE_CHECKING:
-    from teleop.remote.desk import Asked
+    from teleop.remote.asked import Asked
 
 DONE = (": done", ": sent; this command has no reply")
 

@@ -11,7 +11,7 @@ from typing import Any
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.errors import TeleopError
-from teleop.remote.desk import Asked, Refusal
+from teleop.remote.asked import Asked, Refusal
 from teleop.remote.moves import move_file
 from teleop.remote.planning_process import PlanningProcess
 from teleop.remote.play_job import PlayJob

@@ -33,7 +33,7 @@ def test_commands_come_in_the_order_of_use(capsys: pytest.CaptureFixture[str], m
     lines = shown(capsys, monkeypatch, "")
     names = [line.split()[1] for line in lines if line.startswith("│ ") and not line.startswith("│ -")]
     assert names == list(COMMANDS)
-    assert names[:6] == ["play", "live", "check", "preview", "list", "copy"]
+    assert names[:7] == ["play", "live", "console", "check", "preview", "list", "copy"]
     assert any("--install-completion" in line for line in lines)
 
 

@@ -60,9 +60,12 @@ def test_another_holder_is_409_with_the_name(bench):
     ("fields", "status"),
     [
         ({"do": "goto", "axes": {"pan": 999}}, 422),
-        ({"do": "goto", "axes": {"nose": 1}}, 422),
+        ({"do": "goto", "axes": {"nose": 1}}, 400),
         ({"do": "dance"}, 400),
         ({"do": 3}, 400),
+        ({"do": ["alive"]}, 400),
+        ({"do": "alive", "seen": {"other": 0}}, 400),
+        ({"do": "closed"}, 400),
         ({}, 400),
         ({"do": "goto", "axes": {"pan": 1}, "wait": "yes"}, 400),
         ({"do": "stick", "seq": 1}, 400),

@@ -9,7 +9,6 @@ from typing import Any
 
 import pytest
 from remote_bench import ANNA, BOB, RemoteBench, remote_bench
-from waiting import wait_until
 
 from teleop.dji.gimbal import messages as gimbal
 from teleop.remote import works
@@ -39,11 +38,14 @@ def done(bench: RemoteBench, do: str, **fields: Any) -> dict[str, Any]:
 def played(bench: RemoteBench, **fields: Any) -> int:
     """A move that is planned in this process, and has begun."""
     number = bench.say("play", **fields)
-    bench.tick()
-    wait_until(lambda: bench.hands._works._found, "a plan")
-    bench.tick(2)
+    planned_or_not(bench, number)
     assert bench.answers[number].get("ok"), bench.answers[number]
     return number
+
+
+def planned_or_not(bench: RemoteBench, number: int) -> None:
+    """The plan is made in a thread: real time too has to go by."""
+    until(bench, lambda: bench.answers.get(number, {"planning": True}).get("planning") is None)
 
 
 @pytest.fixture
@@ -56,8 +58,8 @@ def planned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
             self._profile = profile
 
         def plan(self, what: Any) -> Any:
-            make = plan_file if isinstance(what, str) else plan_content
-            return make(what, self._profile).sequence
+            plan = plan_file(what, self._profile) if isinstance(what, str) else plan_content(what, self._profile)
+            return plan.sequence
 
         def close(self) -> None: ...
 
@@ -198,9 +200,7 @@ def test_a_move_of_the_folder_plays_to_its_end(stage: RemoteBench) -> None:
 
 def test_a_move_that_is_neither_here_nor_shipped_is_refused(stage: RemoteBench) -> None:
     number = stage.say("play", move="nowhere")
-    stage.tick()
-    wait_until(lambda: stage.hands._works._found, "an answer")
-    stage.tick()
+    planned_or_not(stage, number)
     assert stage.answers[number]["kind"] == "refused"
     assert "there is no move 'nowhere'" in stage.answers[number]["error"]
 

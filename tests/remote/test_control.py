@@ -55,7 +55,11 @@ def test_a_holder_that_does_nothing_loses_control_after_a_minute() -> None:
     assert control.holds(ANNA)
     control.step(IDLE, rests=True, busy=False)
     assert control.holder is None
-    assert lines == ["Anna has done nothing for 60 s: control is free"]
+    assert lines == [
+        "Anna has control",
+        "Anna has done nothing for 60 s",
+        "Anna has control no longer: it is free",
+    ]
 
 
 def test_a_holder_whose_action_goes_on_is_not_idle() -> None:

@@ -13,11 +13,10 @@ import time
 from collections.abc import AsyncIterator, Mapping
 from typing import Any
 
+from teleop.door.messages import CommandError, checked
+
 NEEDS_NO_CONTROL = ("take_control", "release_control", "stop")
 AXES = {"pan": (-180.0, 180.0, "deg"), "tilt": (-45.0, 125.0, "deg"), "roll": (-30.0, 30.0, "deg"), "focus": (0, 1, "")}
-KNOWN = """take_control release_control deny_control stop clear stick jog goto preset_recall preset_store preset_delete
- set_key delete_key clear_keys play pause resume speed seek next_key previous_key to_start abort record stop_recording
- shutter recenter follow focus range shoot message"""
 
 
 class FakeDoor:
@@ -113,8 +112,10 @@ class FakeDoor:
             self.stopped, self.stopped_by, self.stopped_at = True, name, time.time()
             self.tick += 1
             return {"ok": True, "id": 0}
-        if do not in KNOWN.split():
-            return {"error": f"do: unknown command {do!r}", "kind": "invalid"}
+        try:
+            checked({**command, "id": 1, "session": session, "person": name})
+        except CommandError as error:
+            return {"error": str(error), "kind": "invalid"}
         if self.holder_session not in (None, session) and do not in NEEDS_NO_CONTROL[1:]:
             return {"error": f"{self.holder} has control", "kind": "busy", "holder": self.holder}
         if self.holder_session is None and do not in NEEDS_NO_CONTROL and not brief:
@@ -168,8 +169,7 @@ class FakeDoor:
         return await self._ends[number]
 
     def stick(self, message: Mapping[str, Any], session: str) -> None:
-        if not isinstance(message.get("axes"), Mapping):
-            raise ValueError("stick: needs axes")
+        checked({**message, "do": "stick", "id": 0, "session": session})
         self.sticks.append((dict(message), session))
         if session == self.holder_session and not self.stopped:
             for axis, share in message["axes"].items():

@@ -12,21 +12,24 @@ import msgpack
 from hands import FakeInput
 from wire import Tap, tapped
 
-from teleop.app.live import both
+from teleop.app.beside import both
 from teleop.app.run import commands
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile, load_profile
 from teleop.core.axes import Axis
 from teleop.core.clock import VirtualClock
 from teleop.core.control_loop import ControlLoop
+from teleop.core.interfaces import Clock, Observer
 from teleop.core.run_state import RunState
 from teleop.core.timing import PERIOD
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.rig import open_rig
+from teleop.door.messages import packed
 from teleop.door.ring import RingReader
 from teleop.door.sockets import client_socket
 from teleop.door.states import StateUnpacker
 from teleop.manual.operator import Operator
+from teleop.remote.gateway_child import Gateway
 from teleop.remote.remote_hands import RemoteHands
 
 PROFILE = """
@@ -50,7 +53,7 @@ class RemoteBench:
         hands: RemoteHands,
         operator: Operator,
         pad: FakeInput,
-        clock: VirtualClock,
+        clock: Clock,
         tap: Tap,
     ) -> None:
         self.loop, self.hands, self.operator, self.pad, self.clock, self.tap = loop, hands, operator, pad, clock, tap
@@ -86,7 +89,7 @@ class RemoteBench:
         """Send a command; its id. It is taken in the next tick."""
         number = next(self._ids)
         message: Mapping[str, Any] = {"do": do, "id": number, "session": session, "person": session.title(), **fields}
-        self.sent[number] = msgpack.packb(message)
+        self.sent[number] = packed(message)
         self.send(self.sent[number])
         return number
 
@@ -101,13 +104,13 @@ class RemoteBench:
         self._seq[session] = self._seq.get(session, -1) + 1 + skip
         sent = (self.now - late) * 1000 + 5e8  # by a clock of its own
         message = {"do": "stick", "id": 0, "session": session, "seq": self._seq[session], "time": sent, "axes": axes}
-        self.send(msgpack.packb(message))
+        self.send(packed(message))
 
     def hold(self, seconds: float, session: str = ANNA, **axes: float) -> None:
         """A finger down for so long: 50 messages a second."""
         end = self.now + seconds
         while self.now < end - 1e-6:
-            self.stick(session, **axes)
+            self.stick(session, 0.0, 0, **axes)
             self.tick(2)
 
     def release(self, session: str = ANNA) -> None:
@@ -148,22 +151,29 @@ class RemoteBench:
 
 
 @contextmanager
-def remote_bench(folder: Path, moves: Path | None = None) -> Iterator[RemoteBench]:
+def remote_bench(
+    folder: Path,
+    clock: Clock | None = None,
+    observer: Observer | None = None,
+    gateway: Gateway | None = None,
+) -> Iterator[RemoteBench]:
+    """On the virtual clock unless another is given; `observer` sees each tick before the door does."""
     with ExitStack() as stack:
-        clock, profile, pad = VirtualClock(), _profile(folder), FakeInput()
-        hands = RemoteHands(moves or folder, None)
+        clock, profile, pad = clock or VirtualClock(), _profile(folder), FakeInput()
+        hands = RemoteHands(folder, gateway)
         hands.open(stack, profile, profile.limits)
         presets = Presets(folder / "presets.yaml")
         stack.callback(presets.close)
         operator = Operator(profile.limits, [pad, *hands.inputs], presets, profile.sticks, 2.0, hands.beneath)
         rig = stack.enter_context(open_rig(profile, clock))
         tap = tapped(rig)
-        observer, sink = hands.attach(stack, operator, presets, rig)
+        seen = [] if observer is None else [observer]
+        own, sink = hands.attach(stack, operator, presets, rig)
         notify = both(operator.notify, hands.line)
         observers, sinks = commands(rig, list(profile.axes), notify, both(operator.confirmed, hands.confirmed))
         answered = both(operator.camera_answered, hands.camera_answered)
         observers.append(CameraAnswers(rig.camera, notify, answered, lenient=True))
-        loop = rig.loop(list(profile.axes), [operator], [*observers, observer], [*sinks, sink])
+        loop = rig.loop(list(profile.axes), [operator], [*observers, *seen, own], [*sinks, sink])
         bench = RemoteBench(loop, hands, operator, pad, clock, tap)
         stack.callback(bench.close)
         while loop.supervisor.state is RunState.WAITING:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping
 from pathlib import Path
 
+from teleop.app.beside import BesideRun
 from teleop.app.shoot import ShootReport, ShootRun
 from teleop.app.shoot_runner import Shooting
 from teleop.cli.key_terminal import key_terminal
@@ -38,6 +39,7 @@ def shoot(
     asked: ShootOptions,
     take: Path | None,
     options: Options,
+    beside: BesideRun | None = None,
 ) -> int:
     """Shoot it on the rig, from the first frame or from where it stopped; the exit code."""
     virtual = isinstance(time, VirtualClock)
@@ -56,7 +58,7 @@ def shoot(
             complain(f"{summary(timelapse, asked.by_hand)}; journal {journal}")
 
     choices = (asked.resume, asked.restart, asked.in_doubt)
-    run = ShootRun(file, timelapse, profile, time, keys, *choices, take, virtual, asked.by_hand)
+    run = ShootRun(file, timelapse, profile, time, keys, *choices, take, virtual, asked.by_hand, beside)
     report = run.perform(view, signals_to, begun, warn)
     if options.json:
         print(json.dumps({**_facts(report), **({} if report.take is None else {"take": report.take.facts})}))

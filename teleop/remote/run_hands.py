@@ -1,0 +1,186 @@
+"""The door of a run that moves by itself, a sequence or a shoot: all see it and may stop it, the holder pauses it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from typing import Any
+
+from teleop.app.beside import Running
+from teleop.config.profile import Profile
+from teleop.core.axes import Axis, Limits, Motion
+from teleop.core.clock import date
+from teleop.core.events import Action, Tick
+from teleop.core.interfaces import Clock, Observer
+from teleop.core.operator_input import Command, Input
+from teleop.door.address import new_door
+from teleop.door.ring import RingWriter
+from teleop.door.sockets import CommandSocket
+from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
+from teleop.remote.asked import Asked, Refusal
+from teleop.remote.desk import Desk
+from teleop.remote.gateway_child import Gateway, GatewayChild
+from teleop.remote.move_state import move_state
+from teleop.remote.state import Parts, StatePublisher
+from teleop.remote.stick import RemoteStick
+
+POLL = 0.02  # s: a STOP is in the loop within 50 ms
+PRESSES: Mapping[str, Command] = {
+    "pause": Command.PAUSE,
+    "resume": Command.GO,
+    "next_key": Command.NEXT,
+    "previous_key": Command.PREVIOUS,
+    "abort": Command.QUIT,
+}
+
+
+class RunHands:
+    """`gateway` is what the gateway is told, beside where the door is; None for no gateway."""
+
+    poll = POLL
+
+    def __init__(self, gateway: Gateway | None) -> None:
+        self._gateway = gateway
+        self._log, self._now = MessageLog(), 0.0
+        self._motion: Motion = {}
+        self._ended = False
+        self._recording = False
+        self._running: Running | None = None
+
+    def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits], clock: Clock) -> None:
+        """Open the door, until the stack is left."""
+        self._profile, self._limits, self._clock = profile, limits, clock
+        self.address = stack.enter_context(new_door())
+        self._ring = RingWriter(self.address.ring)
+        stack.callback(self._ring.close)
+        socket = CommandSocket(self.address.commands)
+        stack.callback(socket.close)
+        self.desk = Desk(socket, RemoteStick({}, float), self.line, self)
+
+    @property
+    def inputs(self) -> Sequence[Input]:
+        return [self.desk]
+
+    def attach(self, stack: ExitStack, running: Running) -> Observer:
+        """To a run that is about to begin; from now on the gateway runs. What sees each tick."""
+        self._running = running
+        camera = any(sink.type == "camera" for sink in self._profile.sinks)
+        parts = Parts(self._profile.name, self._limits, self, {}, self.desk, camera)
+        self._publisher = StatePublisher(parts, self._ring)
+        self._publisher.publish("waiting", self._clock.now())
+        stack.callback(lambda: self._publisher.publish("over", self._clock.now()))
+        if self._gateway is not None:
+            settings = {**self._gateway.settings, "door": str(self.address.folder)}
+            child = GatewayChild(settings, self._gateway.passed, self._heard, self.line, self._gateway_ended)
+            stack.callback(child.close)
+            child.start()
+            running.show(self._gateway.greeting)
+        return self
+
+    def line(self, text: str) -> None:
+        self._log.notify(self._now, text)
+
+    def observe(self, tick: Tick) -> None:
+        self._now, self._motion = tick.time, tick.motion
+        for action in tick.actions:
+            if action in (Action.RECORD, Action.STOP):
+                self._recording = action is Action.RECORD
+        if self._ended:
+            self._ended = False
+            self.desk.all_gone(tick.time)
+        self._publisher.publish("running", tick.time, tick)
+        self.desk.flush()
+
+    # --- what is seen
+
+    keys: Sequence[Mapping[str, float]] = ()
+    changes = 0
+
+    @property
+    def presets(self) -> Mapping[str, Mapping[str, Any]]:
+        return {}
+
+    @property
+    def stopped_by(self) -> str:
+        guard = self._running.guard() if self._running else None
+        return guard.stopped_by if guard is not None and guard.stop else ""
+
+    @property
+    def status(self) -> OperatorStatus:
+        inputs = [InputStatus(self.desk.name, (), "", "")]
+        stopped = bool(self.stopped_by)
+        facts = False, "", 0.0, self._recording, "", {}, {}
+        return OperatorStatus(inputs, (1.0,), 0, stopped, *facts, self._log.messages)
+
+    def drivers(self) -> Mapping[Axis, str]:
+        title = self._running.title if self._running else ""
+        return dict.fromkeys(self._limits, title)
+
+    def move(self, now: float) -> Mapping[str, Any] | None:
+        running = self._running
+        if running is None or running.source is None:
+            return None
+        return move_state(running.title, running.source, now, self._halted(running), attended=False)
+
+    def shoot(self, now: float) -> Mapping[str, Any] | None:
+        running = self._running
+        if running is None or running.progress is None:
+            return None
+        progress = running.progress
+        left = 0.0 if progress.by_hand else progress.left(now)
+        return {
+            "title": running.title,
+            "frames_done": progress.shot,
+            "frames": progress.slots.frames,
+            "eta": None if progress.by_hand or left == float("inf") else round(date() + left, 1),
+            "missed": progress.missed,
+            "paused": progress.pausing or bool(self._halted(running)),
+            "phase": progress.phase,
+            "clip_s": progress.clip,
+            "why": progress.problem,
+        }
+
+    def _halted(self, running: Running) -> str:
+        guard = running.guard()
+        return "" if guard is None or not guard.halted else guard.note
+
+    # --- what is done
+
+    @property
+    def rests(self) -> bool:
+        return not any(state.velocity or state.acceleration for state in self._motion.values())
+
+    def busy(self, session: str) -> bool:  # noqa: ARG002 - what goes on is nobody's who has come by the door
+        return False
+
+    def passing(self, now: float) -> None: ...
+
+    def gone(self, sessions: Callable[[str], bool], now: float) -> None: ...
+
+    def do(self, asked: Asked, now: float) -> None:
+        do, running = asked.command.do, self._running
+        if do == "speed" and running is not None and running.source is not None:
+            running.source.playback.speed(asked["share"], now)
+            if running.source.playback.refusal:
+                raise Refusal(running.source.playback.refusal)
+        elif do in PRESSES:
+            guard = running.guard() if running else None
+            if do == "pause" and guard is not None and guard.paused:
+                raise Refusal("it is paused already")
+            self.desk.press(asked.command.name, self._press(do))
+        else:
+            raise Refusal(f"{do}: not in a run that moves by itself: use teleop console")
+        asked.end()
+
+    def _press(self, do: str) -> Command:
+        """The same key pauses a move and goes on with it."""
+        running = self._running
+        paused = running is not None and running.source is not None and running.source.playback.paused
+        return Command.PAUSE if do == "resume" and paused else PRESSES[do]
+
+    def _heard(self) -> float:
+        return self.desk.gateway_at - self._clock.now() + time.monotonic()
+
+    def _gateway_ended(self) -> None:
+        self._ended = True

@@ -1,0 +1,92 @@
+"""A rig with a door in real time, its loop in a thread, and clients in other processes to which bad things happen."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from itertools import pairwise
+from pathlib import Path
+
+from remote_bench import remote_bench
+from waiting import wait_until
+
+from teleop.core.axes import Axis
+from teleop.core.clock import SystemClock
+from teleop.core.events import Tick
+from teleop.remote.desk import Desk
+
+RAMP = 60 / 240 + 240 / 2400  # s from the bench's full speed to rest, at its limits
+SILENCE = 0.25
+HAND = Path(__file__).with_name("door_hand.py")
+
+
+class ChaosBench:
+    """`ticks` are the time and the commanded speed of pan; `heard` when the newest stick was sent, at each of them."""
+
+    def __init__(self, folder: Path, stack: ExitStack) -> None:
+        self.ticks: list[tuple[float, float]] = []
+        self.heard: list[float] = []
+        self.desk: Desk | None = None
+        self._bench = stack.enter_context(remote_bench(folder, clock=SystemClock(), observer=self))
+        self.door, self.loop = self._bench.hands.desk, self._bench.loop
+        self.desk = self.door
+        self.wire = self._bench.tap
+        self._stack = stack
+        self._thread = threading.Thread(target=self.loop.run, daemon=True)
+        self._thread.start()
+        stack.callback(self._end)
+
+    def observe(self, tick: Tick) -> None:
+        self.ticks.append((tick.time, tick.motion[Axis.PAN].velocity))
+        self.heard.append(self.desk.stick._stream.sent if self.desk else -1.0)
+
+    def client(self, what: str, amount: int = 0) -> subprocess.Popen[str]:
+        """Once it has begun."""
+        folder = self._bench.hands.address.folder
+        process = subprocess.Popen(
+            [sys.executable, str(HAND), str(folder), what, str(amount)], stdout=subprocess.PIPE, text=True
+        )
+        self._stack.callback(self._kill, process)
+        assert process.stdout is not None
+        assert process.stdout.readline() == "holding\n"
+        return process
+
+    def until_full_speed(self) -> None:
+        wait_until(lambda: self.ticks and self.ticks[-1][1] > 59.9, "full speed")
+
+    def until_rest(self) -> None:
+        """Then one rest follows that lasts: 0.3 s of ticks."""
+        wait_until(lambda: len(self.ticks) > 30 and not any(speed for _, speed in self.ticks[-30:]), "rest")
+
+    def overruns(self) -> float:
+        """By how much motion outlasted what it may, at worst, in s, beyond what the loop itself was late.
+
+        For each tick with motion: how old the newest stick was, less the time it may take to rest.
+        """
+        worst = -1.0
+        for place, (now, speed) in enumerate(self.ticks):
+            if speed and self.heard[place] > 0:
+                before = [at for at, _ in self.ticks[max(0, place - 60) : place + 1]]
+                late = max(b - a for a, b in pairwise(before))
+                worst = max(worst, now - self.heard[place] - SILENCE - RAMP - 2 * late)
+        return worst
+
+    def _kill(self, process: subprocess.Popen[str]) -> None:
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        if process.stdout is not None:
+            process.stdout.close()
+
+    def _end(self) -> None:
+        self.loop.interrupt("the test is over")
+        self._thread.join(10)
+
+
+@contextmanager
+def chaos_bench(folder: Path) -> Iterator[ChaosBench]:
+    with ExitStack() as stack:
+        yield ChaosBench(folder, stack)
