@@ -13,11 +13,11 @@ from starlette.responses import Response
 
 from teleop.config.documents.yaml_edit import block
 from teleop.config.files import OutputError, write_text
+from teleop.config.named_files import NamedFiles
 from teleop.config.resources import described, folder
 from teleop.console.answers import answer
 from teleop.console.commands import require_operator
 from teleop.console.json_body import Refusal, read_object
-from teleop.console.named_files import NamedFiles
 from teleop.console.worker import Worker
 
 MOST_TEXT = 1_000_000  # bytes of a move: one of 2000 keys has 0.2 MB

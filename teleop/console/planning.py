@@ -18,9 +18,9 @@ import numpy as np
 from teleop.app.planning import Plan, plan_file
 from teleop.config.documents.document import Document, DocumentError, mapping, sequence
 from teleop.config.documents.yaml_loader import parse_document
+from teleop.config.named_files import NAME, NamedFiles
 from teleop.config.profile import Profile, load_profile
 from teleop.config.resources import is_bare
-from teleop.console.named_files import NAME, NamedFiles
 from teleop.core.axes import Axis, Limits
 from teleop.core.errors import TeleopError
 from teleop.planner.keyframes.findings import Overshooting, Unsolved
@@ -29,9 +29,11 @@ from teleop.planner.trajectory import Track
 from teleop.plots.numbers import finite
 from teleop.sequence.playback import fastest
 from teleop.sequence.refusal import Found, InfeasibleError
+from teleop.timelapse.compile import Timelapse
 
 POINTS = 400  # of a curve, beside one at each key
 DIGITS = 5
+MOST_INTERVALS = 100
 TABLES = (".csv", ".chan", ".txt", ".dat", ".arc", ".raw", ".tsv", ".asc")
 REFERENCES = (".yaml", ".yml", *TABLES)
 _PLACE = re.compile(r":(\d+):(\d+): ")
@@ -101,7 +103,7 @@ def _planned(plan: Plan, profile: Profile) -> dict[str, Any]:
     return {
         "ok": True,
         "title": compiled.title,
-        "timelapse": plan.timelapse is not None,
+        "shoot": _shoot(plan.timelapse) if plan.timelapse else None,
         "duration": round(compiled.move.duration, DIGITS),
         "max_speed": round(most, 3),
         "axes": {axis.value: _curve(axis, track, limits[axis], times) for axis, track in compiled.move.tracks.items()},
@@ -124,6 +126,18 @@ def _curve(axis: Axis, track: Track, limits: Limits, times: Array) -> dict[str, 
         "peak_velocity": round(peaks.velocity, DIGITS),
         "max_velocity": limits.velocity,
         "range": [round(peaks.minimum, DIGITS), round(peaks.maximum, DIGITS)],
+    }
+
+
+def _shoot(timelapse: Timelapse) -> dict[str, Any]:
+    """How long it takes, and its intervals, which may grow from frame to frame."""
+    slots = timelapse.slots
+    frames = np.linspace(0, max(slots.frames - 2, 0), min(slots.frames, MOST_INTERVALS)).round().astype(int).tolist()
+    return {
+        "frames": timelapse.frames,
+        "seconds": round(slots.at(slots.frames), 3),
+        "clip_s": None if timelapse.clip is None else round(timelapse.clip, 3),
+        "intervals": [round(slots.interval(frame), 3) for frame in frames],
     }
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import uvicorn
 
 from teleop.console.app import Console
+from teleop.console.connections import BoundedProtocol
 from teleop.console.json_body import MOST_BYTES
 from teleop.console.settings import ConsoleSettings
 
@@ -53,7 +54,7 @@ def _config(settings: ConsoleSettings, console: Console) -> uvicorn.Config:
     return uvicorn.Config(
         console.app,
         loop="asyncio",
-        http="h11",
+        http=BoundedProtocol,
         ws="websockets-sansio",
         ws_max_size=MOST_BYTES,
         ws_ping_interval=PING,

@@ -13,11 +13,11 @@ from urllib.parse import quote
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response
 
+from teleop.config.named_files import NamedFiles
 from teleop.console.answers import answer
 from teleop.console.commands import require_operator
 from teleop.console.json_body import Refusal, read_object
 from teleop.console.moves import MoveRoutes
-from teleop.console.named_files import NamedFiles
 from teleop.console.worker import Worker
 from teleop.recording import ENDING
 

@@ -178,6 +178,14 @@ def test_a_plan_is_the_planners_own_curve(bench):
     assert plan["max_speed"] > 1
 
 
+def test_a_plan_of_a_timelapse_says_how_long_the_shoot_takes(bench):
+    shoot = bench.post("/api/plan", json={"move": "day-to-night"}).json()["shoot"]
+    assert (shoot["frames"], shoot["clip_s"]) == (744, 31.0)
+    assert (shoot["intervals"][0], shoot["intervals"][-1]) == (6.5, 14.0)
+    assert shoot["seconds"] == pytest.approx(744 * (6.5 + 14) / 2, rel=0.01)
+    assert bench.post("/api/plan", json={"move": "across"}).json()["shoot"] is None
+
+
 def test_what_is_infeasible_names_its_segment_and_the_shortest_time(bench):
     plan = bench.post("/api/plan", json={"content": HASTY}).json()
     assert plan["ok"] is False

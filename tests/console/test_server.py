@@ -15,7 +15,9 @@ import pytest
 import websockets
 from console_bench import TOKEN
 from fake_door import FakeDoor
+from websockets.typing import Origin
 
+from teleop.console import connections
 from teleop.console import websocket as page_socket
 from teleop.console.certificate import with_tls
 from teleop.console.server import serve
@@ -23,8 +25,9 @@ from teleop.console.settings import ConsoleSettings, listen, with_tokens
 from teleop.console.worker import WorkerProcess
 
 
-async def drained(connection):
-    """Read until the connection ends, which raises."""
+async def too_large(connection):
+    """Send 10 MB, and read until the connection ends, which raises."""
+    await connection.send("x" * 10_000_000)
     while True:
         await connection.recv()
 
@@ -59,13 +62,14 @@ def test_pages_and_a_websocket_on_a_port_that_was_picked():
                 while json.loads(await connection.recv())["type"] != "answer":
                     pass
                 assert door.stopped
-                with pytest.raises((websockets.ConnectionClosedError, OSError), match="1009|reset"):
-                    await connection.send("x" * 10_000_000)
-                    await drained(connection)
+                with pytest.raises((websockets.ConnectionClosedError, OSError), match=r"1009|reset"):
+                    await too_large(connection)
             with pytest.raises(websockets.InvalidStatus, match="401"):
                 await websockets.connect(f"ws://{base}/ws")
             with pytest.raises(websockets.InvalidStatus, match="403"):
-                await websockets.connect(f"ws://{base}/ws", additional_headers=bearer, origin="http://evil.example")
+                await websockets.connect(
+                    f"ws://{base}/ws", additional_headers=bearer, origin=Origin("http://evil.example")
+                )
 
     asyncio.run(scenario())
 
@@ -84,7 +88,7 @@ def test_a_client_that_reads_nothing_is_held_back_then_dropped_and_others_are_no
                 "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n".encode()
             )
             await reader.readuntil(b"\r\n\r\n")
-            writer.transport.pause_reading()
+            reader._transport.pause_reading()  # type: ignore[attr-defined]
             sent = 0
             async with websockets.connect(f"ws://127.0.0.1:{settings.port}/ws") as other:
                 while not door.closed_sessions:
@@ -95,6 +99,25 @@ def test_a_client_that_reads_nothing_is_held_back_then_dropped_and_others_are_no
                 door.tick += 1
                 assert json.loads(await other.recv())["type"] == "delta"
             writer.transport.abort()
+
+    asyncio.run(scenario())
+
+
+def test_connections_that_ask_for_nothing_are_closed_and_few_of_one_computer(monkeypatch):
+    monkeypatch.setattr(connections, "LONGEST_IDLE", 0.2)
+    monkeypatch.setattr(connections, "MOST_OF_ONE", 3)
+
+    async def scenario():
+        async with served() as (_, settings):
+            silent = [await asyncio.open_connection("127.0.0.1", settings.port) for _ in range(4)]
+            silent[0][1].write(b"GET /api/state HTTP/1.1\r\nHost:")  # and never the rest
+            ends = [asyncio.create_task(reader.read()) for reader, _ in silent]
+            done, _ = await asyncio.wait(ends, timeout=10)
+            assert len(done) == 4
+            async with httpx2.AsyncClient() as client:
+                assert (await client.get(f"http://127.0.0.1:{settings.port}/api/state")).status_code == 200
+            for _, writer in silent:
+                writer.close()
 
     asyncio.run(scenario())
 

@@ -160,7 +160,7 @@ class FuzzedConsole:
         is_cut = self.random.random() < 0.02
         statuses: list[int] = []
 
-        async def receive() -> Mapping[str, Any]:
+        async def receive() -> dict[str, Any]:
             if not parts:
                 return {"type": "http.disconnect"}
             return {"type": "http.request", "body": parts.pop(0), "more_body": bool(parts) or is_cut}

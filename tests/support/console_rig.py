@@ -11,12 +11,7 @@ import time
 from collections.abc import AsyncIterator, Mapping
 from typing import Any
 
-AXES = {
-    "pan": (-180.0, 180.0, 120.0),
-    "tilt": (-56.0, 146.0, 90.0),
-    "roll": (-30.0, 30.0, 60.0),
-    "focus": (0.0, 1.0, 0.5),
-}
+AXES = {"pan": (-180.0, 180.0, 120.0), "tilt": (-56.0, 146.0, 90.0), "roll": (-30.0, 30.0, 60.0), "focus": (0.0, 1.0, 0.5)}
 PERIOD = 1 / 60
 DEAD_MAN = 0.25
 
