@@ -68,7 +68,7 @@ class ConsoleRig:
         }  # fmt: skip
         return {
             "rig": "Simulated rig", "tick": int(now * 100), "time": round(now, 3), "clock": 1_790_000_000.0 + now,
-            "age_ms": self.age_ms, "run": "running", "axes": axes, "links": {"gimbal": {"age_ms": 12, "ok": True}},
+            "age_ms": 5000.0 if self.quiet else self.age_ms, "run": "running", "axes": axes, "links": {"gimbal": {"age_ms": 12, "ok": True}},
             **copy.deepcopy(self.more),
         }  # fmt: skip
 
