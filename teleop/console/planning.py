@@ -11,12 +11,12 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from teleop.app.planning import Plan, plan_file
-from teleop.config.documents.document import Document, DocumentError, mapping, sequence
+from teleop.config.documents.document import Document, DocumentError, UnplayableError, mapping, sequence
 from teleop.config.documents.yaml_loader import parse_document
 from teleop.config.named_files import NAME, NamedFiles
 from teleop.config.profile import Profile, load_profile
@@ -28,7 +28,7 @@ from teleop.planner.polynomial import Array
 from teleop.planner.trajectory import Track
 from teleop.plots.numbers import finite
 from teleop.sequence.playback import fastest
-from teleop.sequence.refusal import Found, InfeasibleError
+from teleop.sequence.refusal import Found
 from teleop.timelapse.compile import Timelapse
 
 POINTS = 400  # of a curve, beside one at each key
@@ -57,8 +57,8 @@ def plan_text(text: str, name: str, folder: str, rig: str) -> dict[str, Any]:
                 return _planned(plan_file(str(file), profile), profile)
             except DocumentError as error:
                 lines = [line.replace(f"{place}/", "") for line in error.problems]
-                found = error.findings if isinstance(error, InfeasibleError) else ()
-                return _refused(lines, title, found)
+                found = error.findings if isinstance(error, UnplayableError) else ()
+                return _refused(lines, title, cast("Sequence[Found]", found))
     except DocumentError as error:
         return _refused(error.problems, title)
     except TeleopError as error:

@@ -43,9 +43,12 @@ class Command(StrEnum):
 
 
 class Press(NamedTuple):
+    """`by` is whose it is, where that is another name than the input's."""
+
     command: Command
     number: int = 0
     device_command: DeviceCommand | None = None
+    by: str = ""
 
 
 @dataclass(frozen=True, slots=True)

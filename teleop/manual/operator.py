@@ -92,6 +92,7 @@ class Operator:
     def start(self, now: float, motion: Motion) -> None:
         self._now = self.begin = now
         self._motion = motion
+        self._log.begin(now)
         if self._beneath:
             self._beneath.start(now, motion)
 
@@ -168,10 +169,11 @@ class Operator:
         moved = (state for axis, state in self._motion.items() if not axis.is_stick)
         return any(state.velocity or state.acceleration for state in moved)
 
-    def _stop(self, lock: Interlock, _press: Press) -> None:
+    def _stop(self, lock: Interlock, press: Press) -> None:
         if not self._stopped:
-            self.notify(f"STOP by {lock.name}. Press c to clear, then center all sticks.")
-            self.reason, self.stopped_by = f"ended while stopped: STOP by {lock.name}", lock.name
+            name = press.by or lock.name
+            self.notify(f"STOP by {name}. Press c to clear, then center all sticks.")
+            self.reason, self.stopped_by = f"ended while stopped: STOP by {name}", name
         self._stopped = True
         self._relock_all()
 

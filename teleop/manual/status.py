@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -66,6 +67,13 @@ class MessageLog:
         if self._kept and self._kept[0].text == text:
             self._kept.popleft()
         self._kept.appendleft(Message(now, text))
+        self.messages = tuple(self._kept)
+
+    def begin(self, now: float) -> None:
+        """The run begins: what was said before it has this time."""
+        before = [message if message.time > -math.inf else message._replace(time=now) for message in self._kept]
+        self._kept.clear()
+        self._kept.extend(before)
         self.messages = tuple(self._kept)
 
     def changes(self, locks: Sequence[Interlock], drivers: Mapping[Axis, Interlock]) -> Iterator[str]:

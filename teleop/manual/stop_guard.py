@@ -224,11 +224,11 @@ class StopGuard:
     def _handle(self, relay: Relay, press: Press, now: float) -> None:
         command = press.command
         if command is Command.STOP:
-            self._stop(relay.name, now)
+            self._stop(press.by or relay.name, now)
         elif command is Command.CLEAR:
             self._clear(now)
         elif command is Command.QUIT and (self._hold is not Hold.FREE or not self._source.quits):
-            self._end = self._end or Interrupted(f"stopped by {relay.name}")
+            self._end = self._end or Interrupted(f"stopped by {press.by or relay.name}")
         elif self._hold is Hold.FREE:
             if command is Command.PAUSE and not self._source.pauses:
                 self._halt(Hold.PAUSED, now)

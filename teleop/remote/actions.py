@@ -91,7 +91,7 @@ class LiveActions:
     def do(self, asked: Asked, now: float) -> None:
         action = self._do.get(asked.command.do)
         if action is None:
-            raise Refusal(f"{asked.command.do}: is not available in this run")
+            raise Refusal(f"{asked.command.do}: a shoot is a run of its own: teleop play FILE --console")
         try:
             action(asked, now)
         except (NotNowError, TeleopError) as error:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
+from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command, Held, Press
 from teleop.door.messages import INTERNAL, CommandError, DoorCommand, checked, packed, unpacked
 from teleop.door.sockets import CommandSocket, Datagram
@@ -28,7 +29,7 @@ GATEWAY_GONE = 2.0  # s without a word of the gateway
 class Desk:
     """`actions` are what the commands do in this run; `notify` takes lines for everybody."""
 
-    name = "console"  # who the present presses are from
+    name = "console"
 
     def __init__(
         self,
@@ -45,7 +46,7 @@ class Desk:
         self._answers: OrderedDict[tuple[str, int], bytes] = OrderedDict()
         self._seen: dict[str, float] = {}  # sessions whose page tells that it lives, and when it last did
         self._closed: OrderedDict[str, None] = OrderedDict()
-        self._presses: list[tuple[str, Press]] = []
+        self._presses: list[Press] = []
         self._unsaid: list[tuple[dict[str, Any], str]] = []
         self._asker: Asked | None = None
         self._changes = 0
@@ -53,18 +54,13 @@ class Desk:
     # --- the input
 
     def read(self, now: float) -> Held:
-        """Take what has come; what was pressed. Presses of several persons take a tick each, a STOP first."""
+        """Take what has come; what was pressed."""
         self.poll(now)
-        if not self._presses:
-            return Held()
-        self._presses.sort(key=lambda each: each[1].command is not Command.STOP)
-        self.name, press = self._presses.pop(0)
-        if press.command is Command.STOP:
-            self._presses.clear()
-        return Held(presses=[press])
+        presses, self._presses = self._presses, []
+        return Held(presses=presses)
 
-    def press(self, name: str, command: Command, number: int = 0, device_command: Any = None) -> None:
-        self._presses.append((name, Press(command, number, device_command)))
+    def press(self, name: str, command: Command, number: int = 0, device_command: DeviceCommand | None = None) -> None:
+        self._presses.append(Press(command, number, device_command, name))
 
     def poll(self, now: float) -> None:
         self._now = now

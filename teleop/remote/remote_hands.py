@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,19 +14,17 @@ from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Action, DeviceCommand, Tick
 from teleop.core.interfaces import Observer, Sink, Source
-from teleop.core.operator_input import Input
+from teleop.core.operator_input import Held, Input
 from teleop.devices.rig import Rig
-from teleop.door.address import DoorAddress, new_door
-from teleop.door.ring import RingWriter
-from teleop.door.sockets import CommandSocket
 from teleop.inputs.stick_shaping import shape
 from teleop.manual.operator import Operator
 from teleop.remote.actions import LiveActions
 from teleop.remote.desk import Desk
-from teleop.remote.gateway_child import Gateway, GatewayChild
+from teleop.remote.gateway_child import Gateway
 from teleop.remote.jobs import JobSource
 from teleop.remote.keys import HandKeys
 from teleop.remote.live_shown import LiveShown
+from teleop.remote.open_door import OpenDoor
 from teleop.remote.state import Parts, StatePublisher
 from teleop.remote.stick import RemoteStick
 from teleop.remote.told import Told
@@ -41,21 +39,14 @@ class RemoteHands:
 
     def __init__(self, moves: Path, gateway: Gateway | None) -> None:
         self._folder, self._gateway = moves, gateway
-        self.address: DoorAddress
         self.desk: Desk
-        self.child: GatewayChild | None = None
         self._read = False  # in this tick
-        self._ended = False  # the gateway, since the last tick
 
     def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits]) -> None:
         """Open the door, until the stack is left."""
         self._profile = profile
         self._limits = limits
-        self.address = stack.enter_context(new_door())
-        self._ring = RingWriter(self.address.ring)
-        stack.callback(self._ring.close)
-        socket = CommandSocket(self.address.commands)
-        stack.callback(socket.close)
+        self.door = OpenDoor(stack)
         expo = EXPO if profile.sticks.expo is None else profile.sticks.expo
         moved = [axis for axis in limits if not axis.is_stick]
         stick = RemoteStick(dict.fromkeys(moved), lambda value: shape(value, 0.0, expo))
@@ -63,13 +54,13 @@ class RemoteHands:
         stack.callback(self._works.close)
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
         self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, self.told)
-        self.desk = Desk(socket, stick, self._notify, self._actions)
+        self.desk = Desk(self.door.socket, stick, self._notify, self._actions)
         self._actions.desk = self._actions.devices.desk = self.desk
 
     @property
     def inputs(self) -> Sequence[Input]:
-        """After all others: these are outranked by every local one."""
-        return [_Marked(self.desk, self._mark), self.desk.stick]
+        """After all others: it is outranked by every local one."""
+        return [_Hand(self.desk, self._mark)]
 
     @property
     def beneath(self) -> Source:
@@ -83,16 +74,11 @@ class RemoteHands:
         parts = Parts(
             *(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None),
         )
-        self._publisher = StatePublisher(parts, self._ring)
-        self._clock = rig.clock
+        self._publisher = StatePublisher(parts, self.door.ring)
         self._publisher.publish("waiting", rig.clock.now())
         stack.callback(lambda: self._publisher.publish("over", rig.clock.now()))
         if self._gateway is not None:
-            settings = {**self._gateway.settings, "door": str(self.address.folder)}
-            passed = self._gateway.passed
-            self.child = GatewayChild(settings, passed, self._heard, operator.notify, self._gateway_ended)
-            stack.callback(self.child.close)
-            self.child.start()
+            self.door.start(stack, self._gateway, self.desk, rig.clock, operator.notify)
             operator.notify(self._gateway.greeting)
         return self, self
 
@@ -111,9 +97,7 @@ class RemoteHands:
     # --- observer and sink
 
     def observe(self, tick: Tick) -> None:
-        if self._ended:
-            self._ended = False
-            self.desk.all_gone(tick.time)
+        self.door.look(self.desk, tick.time)
         self._actions.observe(tick)
         run, self._read = "running" if self._read else "stopping", False
         self._publisher.publish(run, tick.time, tick)
@@ -136,24 +120,18 @@ class RemoteHands:
     def _notify(self, text: str) -> None:
         self._operator.notify(text)
 
-    def _heard(self) -> float:
-        """When the gateway was heard last, by the machine's clock."""
-        return self.desk.gateway_at - self._clock.now() + time.monotonic()
 
-    def _gateway_ended(self) -> None:
-        self._ended = True
-
-
-class _Marked:
-    """The desk, with a mark that the operator has read its inputs in this tick: that the run goes on."""
+class _Hand:
+    """What clients press, and the stick of the one who has control, as one input; `mark` is called at each read."""
 
     def __init__(self, desk: Desk, mark: Callable[[], object]) -> None:
         self._desk, self._mark = desk, mark
 
     @property
     def name(self) -> str:
-        return self._desk.name
+        return self._desk.stick.name
 
-    def read(self, now: float) -> Any:
+    def read(self, now: float) -> Held:
         self._mark()
-        return self._desk.read(now)
+        pressed = self._desk.read(now)
+        return replace(self._desk.stick.read(now), presses=pressed.presses)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from typing import Any
@@ -14,14 +13,12 @@ from teleop.core.clock import date
 from teleop.core.events import Action, Tick
 from teleop.core.interfaces import Clock, Observer
 from teleop.core.operator_input import Command, Input
-from teleop.door.address import new_door
-from teleop.door.ring import RingWriter
-from teleop.door.sockets import CommandSocket
 from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
-from teleop.remote.gateway_child import Gateway, GatewayChild
+from teleop.remote.gateway_child import Gateway
 from teleop.remote.move_state import move_state
+from teleop.remote.open_door import OpenDoor
 from teleop.remote.state import Parts, StatePublisher
 from teleop.remote.stick import RemoteStick
 
@@ -44,19 +41,14 @@ class RunHands:
         self._gateway = gateway
         self._log, self._now = MessageLog(), 0.0
         self._motion: Motion = {}
-        self._ended = False
         self._recording = False
         self._running: Running | None = None
 
     def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits], clock: Clock) -> None:
         """Open the door, until the stack is left."""
         self._profile, self._limits, self._clock = profile, limits, clock
-        self.address = stack.enter_context(new_door())
-        self._ring = RingWriter(self.address.ring)
-        stack.callback(self._ring.close)
-        socket = CommandSocket(self.address.commands)
-        stack.callback(socket.close)
-        self.desk = Desk(socket, RemoteStick({}, float), self.line, self)
+        self.door = OpenDoor(stack)
+        self.desk = Desk(self.door.socket, RemoteStick({}, float), self.line, self)
 
     @property
     def inputs(self) -> Sequence[Input]:
@@ -67,14 +59,11 @@ class RunHands:
         self._running = running
         camera = any(sink.type == "camera" for sink in self._profile.sinks)
         parts = Parts(self._profile.name, self._limits, self, {}, self.desk, camera)
-        self._publisher = StatePublisher(parts, self._ring)
+        self._publisher = StatePublisher(parts, self.door.ring)
         self._publisher.publish("waiting", self._clock.now())
         stack.callback(lambda: self._publisher.publish("over", self._clock.now()))
         if self._gateway is not None:
-            settings = {**self._gateway.settings, "door": str(self.address.folder)}
-            child = GatewayChild(settings, self._gateway.passed, self._heard, self.line, self._gateway_ended)
-            stack.callback(child.close)
-            child.start()
+            self.door.start(stack, self._gateway, self.desk, self._clock, self.line)
             running.show(self._gateway.greeting)
         return self
 
@@ -86,9 +75,7 @@ class RunHands:
         for action in tick.actions:
             if action in (Action.RECORD, Action.STOP):
                 self._recording = action is Action.RECORD
-        if self._ended:
-            self._ended = False
-            self.desk.all_gone(tick.time)
+        self.door.look(self.desk, tick.time)
         self._publisher.publish("running", tick.time, tick)
         self.desk.flush()
 
@@ -178,9 +165,3 @@ class RunHands:
         running = self._running
         paused = running is not None and running.source is not None and running.source.playback.paused
         return Command.PAUSE if do == "resume" and paused else PRESSES[do]
-
-    def _heard(self) -> float:
-        return self.desk.gateway_at - self._clock.now() + time.monotonic()
-
-    def _gateway_ended(self) -> None:
-        self._ended = True

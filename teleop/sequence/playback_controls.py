@@ -151,7 +151,8 @@ class PlaybackControls:
     def _handle(self, press: Press, now: float) -> None:
         self._note = ""
         if press.command is Command.QUIT:
-            self._stopped = self._stopped or f"stopped by {self._keys.name if self._keys else 'hand'}"
+            name = press.by or (self._keys.name if self._keys else "hand")
+            self._stopped = self._stopped or f"stopped by {name}"
         elif press.command is Command.GO or (press.command is Command.PAUSE and self._sequence.waiting):
             self._sequence.go()
         elif press.command not in self._actions:

@@ -17,15 +17,7 @@ IN_FULL = 20  # lines of a refusal: whoever has more of them slows the whole mov
 Found = Finding | RampsTooLong | Unsolved | Overshooting
 
 
-class InfeasibleError(UnplayableError):
-    """Keys that ask for more than the limits allow; `findings` are all of them, for a page that draws them."""
-
-    def __init__(self, problems: Sequence[str], more: int = 0, findings: Sequence[Found] = ()) -> None:
-        super().__init__(problems, more)
-        self.findings = tuple(findings)
-
-
-def refusal(error: Infeasible, places: Mapping[str, Origin], text: Callable[[Found], str] = str) -> InfeasibleError:
+def refusal(error: Infeasible, places: Mapping[str, Origin], text: Callable[[Found], str] = str) -> UnplayableError:
     """What is to be raised for a file whose keys, by their `where`, are at these places."""
     lines: dict[object, str] = {}
     for shots in _panoramas(error.findings):
@@ -37,7 +29,7 @@ def refusal(error: Infeasible, places: Mapping[str, Origin], text: Callable[[Fou
             cause = found.axis, id(place.document.data), place.location, places[found.first].location, _had(found)
             lines.setdefault(cause, place.line(text(found)))
     in_order = list(dict.fromkeys(lines.values()))
-    return InfeasibleError(in_order[:IN_FULL], len(in_order[IN_FULL:]), error.findings)
+    return UnplayableError(in_order[:IN_FULL], len(in_order[IN_FULL:]), error.findings)
 
 
 def _had(found: Found) -> float | None:

@@ -149,7 +149,7 @@ class TimelapseSource:
         for press in self._keys.read(now).presses if self._keys is not None else ():
             match press.command:
                 case Command.QUIT:
-                    raise Interrupted("q pressed")
+                    raise Interrupted(f"stopped by {press.by}" if press.by else "q pressed")
                 case Command.PAUSE:
                     self._cycle.asked_to_pause = not self._cycle.asked_to_pause
                 case Command.GO:

@@ -19,6 +19,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from chaos_bench import chaos_bench
+from door_fuzz import fuzzed
 from live_bench import WorkingClock, percentile
 from remote_bench import remote_bench
 from waiting import wait_until
@@ -130,6 +131,11 @@ def state_cost() -> None:
         print(f"a tick: state {1e6 * each / count:.0f} us, commands {1e6 * polled / count:.0f} us")
 
 
+def fuzz() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        print(f"{FLOOD} datagrams made at random, {fuzzed(Path(folder), FLOOD)} malformed: no fault, no motion")
+
+
 if __name__ == "__main__":
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 10.0
     state_cost()
@@ -137,3 +143,4 @@ if __name__ == "__main__":
     lateness(seconds, fifo=True)
     lateness(seconds, fifo=False)
     flood()
+    fuzz()

@@ -28,7 +28,7 @@ def with_rig(folder: Path, work: Work) -> None:
 
     async def run() -> None:
         with remote_bench(folder) as bench:
-            async with DoorClient(bench.hands.address) as door:
+            async with DoorClient(bench.hands.door.address) as door:
                 rig = asyncio.create_task(turning(bench))
                 try:
                     await asyncio.wait_for(work(door, bench), 30)
@@ -108,7 +108,7 @@ def test_a_rig_that_does_not_answer_is_lost_and_not_waited_for(tmp_path: Path, m
 
     async def run() -> None:
         with remote_bench(tmp_path) as bench:
-            async with DoorClient(bench.hands.address) as door:
+            async with DoorClient(bench.hands.door.address) as door:
                 assert (await door.command({"do": "set_key"}, "s1", "Anna"))["kind"] == "lost"
                 for seq in range(100):  # its queue is full: the newest is kept, and nothing waits
                     door.stick({"seq": seq, "axes": {"pan": 0.0}}, "s1")

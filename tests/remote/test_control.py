@@ -128,7 +128,7 @@ def test_a_stop_that_comes_again_after_it_was_cleared_is_the_same_one(held: Remo
 
 def test_a_gateway_that_has_ended_takes_every_connection_with_it(held: RemoteBench) -> None:
     held.hold(0.5, pan=1.0)
-    held.hands._gateway_ended()
+    held.hands.door._end()
     held.run(1)
     assert held.rests
     assert held.state["holder"] is None

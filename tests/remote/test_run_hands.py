@@ -39,8 +39,8 @@ class Client(SilentScreen):
         self._begin: float | None = None
 
     def open(self) -> None:
-        self._reader, self._unpacker = RingReader(self._hands.address.ring), StateUnpacker()
-        self._socket = client_socket(self._hands.address.client(1), self._hands.address.commands)
+        self._reader, self._unpacker = RingReader(self._hands.door.address.ring), StateUnpacker()
+        self._socket = client_socket(self._hands.door.address.client(1), self._hands.door.address.commands)
 
     def say(self, do: str, session: str = "anna", **fields: Any) -> int:
         number = next(self._ids)

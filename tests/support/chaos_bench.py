@@ -46,7 +46,7 @@ class ChaosBench:
 
     def client(self, what: str, amount: int = 0) -> subprocess.Popen[str]:
         """Once it has begun."""
-        folder = self._bench.hands.address.folder
+        folder = self._bench.hands.door.address.folder
         process = subprocess.Popen(
             [sys.executable, str(HAND), str(folder), what, str(amount)], stdout=subprocess.PIPE, text=True
         )

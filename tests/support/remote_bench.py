@@ -64,8 +64,8 @@ class RemoteBench:
         self.seen: dict[str, float] = {}  # pages that live, by session: ms since they were heard
         self._ids = itertools.count(1)
         self._seq: dict[str, int] = {}
-        self._reader, self._unpacker = RingReader(hands.address.ring), StateUnpacker()
-        self._socket = client_socket(hands.address.client(1), hands.address.commands)
+        self._reader, self._unpacker = RingReader(hands.door.address.ring), StateUnpacker()
+        self._socket = client_socket(hands.door.address.client(1), hands.door.address.commands)
         self._told = -1.0
 
     def close(self) -> None:

@@ -57,7 +57,14 @@ def path_text(path: Location) -> str:
 
 
 class UnplayableError(DocumentError):
-    """A file that is right in itself and asks for what this rig cannot do."""
+    """A file that is right in itself and asks for what this rig cannot do.
+
+    `findings` are what the planner found of its keys, all of them, for a page that draws them.
+    """
+
+    def __init__(self, problems: Sequence[str], more: int = 0, findings: Sequence[object] = ()) -> None:
+        super().__init__(problems, more)
+        self.findings = tuple(findings)
 
 
 class Flaw(NamedTuple):
