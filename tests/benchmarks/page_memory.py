@@ -1,4 +1,6 @@
-"""How much memory the console's page takes over time, and how many bytes a second: `python tests/benchmarks/page_memory.py [MINUTES]`.
+"""How much memory the console's page takes over time, and how many bytes a second.
+
+`python tests/benchmarks/page_memory.py [MINUTES]`.
 
 The rig moves all the time, and the pages are changed once a minute. Prints a line a minute: heap in MB after a
 collection, nodes of the document, bytes/s from the server.
@@ -39,7 +41,11 @@ def main(minutes: float) -> None:
         for minute in range(int(minutes) + 1):
             client.send("HeapProfiler.collectGarbage")
             found = {each["name"]: each["value"] for each in client.send("Performance.getMetrics")["metrics"]}
-            print(f"{minute:3} min  {found['JSHeapUsedSize'] / 1e6:6.2f} MB  {found['Nodes']:6.0f} nodes", end="", flush=True)
+            print(
+                f"{minute:3} min  {found['JSHeapUsedSize'] / 1e6:6.2f} MB  {found['Nodes']:6.0f} nodes",
+                end="",
+                flush=True,
+            )
             received.clear()
             began = time.monotonic()
             for tab in (*TABS[1:], TABS[0]):
