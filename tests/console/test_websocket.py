@@ -183,7 +183,7 @@ def test_commands_and_plans_under_way_are_bounded_and_a_stop_is_not(bench):
         while "stop" not in answers:
             message = until(socket, "answer")
             answers[message["id"]] = message
-    refused = [id for id, answer in answers.items() if answer.get("error") == "too many commands at once"]
+    refused = [number for number, answer in answers.items() if answer.get("error") == "too many commands at once"]
     assert refused == [*range(MOST_COMMANDS, MOST_COMMANDS + 5), "plan"]
     assert answers["stop"]["stopped"] is True
 
