@@ -48,7 +48,7 @@ class CommandRoutes:
             return answer_of(await stop(self._door, session.session, session.name))
         if command["do"] == "plan":
             return answer(await self._plan(command))
-        return answer_of(await self._sessions.waiting(session, self._commanded(command, session, wait)))
+        return answer_of(await self._sessions.waiting(request, session, self._commanded(command, session, wait)))
 
     async def _commanded(self, command: Mapping[str, Any], session: HttpSession, wait: bool) -> Mapping[str, Any]:
         accepted = await self._door.command(command, session.session, session.name, brief=True)

@@ -18,17 +18,3 @@ def changes(old: Mapping[str, Any], new: Mapping[str, Any]) -> dict[str, Any]:
         else:
             patch[key] = value
     return patch
-
-
-def applied(old: Mapping[str, Any], patch: Mapping[str, Any]) -> dict[str, Any]:
-    """`old` with a patch: what a client does."""
-    result = dict(old)
-    for key, value in patch.items():
-        if value is None:
-            result.pop(key, None)
-        elif isinstance(value, Mapping):
-            before = result.get(key)
-            result[key] = applied(before if isinstance(before, Mapping) else {}, value)
-        else:
-            result[key] = value
-    return result

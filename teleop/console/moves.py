@@ -22,6 +22,7 @@ from teleop.console.worker import Worker
 
 MOST_TEXT = 1_000_000  # bytes of a move: one of 2000 keys has 0.2 MB
 MOST_BODY = 2_100_000  # of a request with it: JSON needs more for each line end and quote
+MOST_DESCRIBED = 3000  # files, of which titles are kept
 MOST_DEPTH = 32  # as in a file
 ENDINGS = (".yaml", ".yml")
 UNNAMED = "move"
@@ -150,6 +151,8 @@ class MoveRoutes:
             return None
         key = str(file), facts.st_mtime_ns, facts.st_size
         if key not in self._described:
+            if len(self._described) >= MOST_DESCRIBED:
+                self._described.clear()
             self._described[key] = await self._worker.do("describe", str(file))
         found = self._described[key]
         return None if found.get("kind") == "" else found

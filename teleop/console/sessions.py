@@ -17,6 +17,7 @@ from starlette.requests import Request
 
 from teleop.console.door import Door
 from teleop.console.gate import client_address
+from teleop.console.json_body import Refusal
 
 SEEN = 1.0  # s from one word to the door about a request that waits to the next
 MOST = 200  # sessions that are remembered
@@ -48,11 +49,15 @@ class HttpSessions:
         self._door.seen(found.session)
         return found
 
-    async def waiting(self, session: HttpSession, work: Awaitable[Mapping[str, Any]]) -> Mapping[str, Any]:
-        """What `work` gives; the client is present until then."""
+    async def waiting(
+        self, request: Request, session: HttpSession, work: Awaitable[Mapping[str, Any]]
+    ) -> Mapping[str, Any]:
+        """What `work` gives; the client is present until then, or until it hangs up. The request has been read."""
         task = asyncio.ensure_future(work)
         try:
             while not (await asyncio.wait([task], timeout=SEEN))[0]:
+                if await request.is_disconnected():
+                    raise Refusal(408, "the client has hung up")  # which it does not hear
                 self._door.seen(session.session)
             return task.result()
         finally:

@@ -10,7 +10,7 @@ import asyncio
 import json
 import time
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Coroutine, Mapping
 from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
@@ -177,26 +177,33 @@ class Client:
     def _obey(self, message: dict[str, Any], id_: int | str | None, is_over: bool) -> None:
         do = message["do"]
         if do == "stop":
-            self._start(self._stop(id_))
+            self._start(self._stop(id_), id_)
         elif is_over:
             return
         elif do == "ping":
             self._answer({"type": "pong", "id": id_})
-        elif do == "plan":
-            self._start(self._plan(message, id_))
-        elif self._role != "operate":
+        elif self._role != "operate" and do != "plan":
             raise Refusal(403, WATCHERS)
         elif do == "stick":
             pass_stick(self._door, message, self._session)
         elif len(self._commands) >= MOST_COMMANDS:
             raise Refusal(429, "too many commands at once")
+        elif do == "plan":
+            self._start(self._plan(message, id_), id_)
         else:
-            self._start(self._command(message, id_))
+            self._start(self._command(message, id_), id_)
 
-    def _start(self, work: Any) -> None:
-        task = asyncio.create_task(work)
+    def _start(self, work: Coroutine[Any, Any, None], id_: int | str | None) -> None:
+        task = asyncio.create_task(self._answered(work, id_))
         self._commands.add(task)
         task.add_done_callback(self._commands.discard)
+
+    async def _answered(self, work: Coroutine[Any, Any, None], id_: int | str | None) -> None:
+        try:
+            await work
+        except Exception as error:  # noqa: BLE001 - a fault of this program: no command stays without an answer
+            text = f"the console failed: {type(error).__name__}"
+            self._answer({"type": "answer", "id": id_, "error": text, "kind": "lost"})
 
     async def _stop(self, id_: int | str | None) -> None:
         self._answer_door(id_, await stop(self._door, self._session, self._name))

@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
+import json
+
 import pytest
 from console_bench import LOCKED, OPERATE, WATCHING, ConsoleBench
+from console_fuzz import FuzzedConsole, FuzzRequest
+
+from teleop.console import sessions
 
 
 @pytest.fixture
@@ -41,6 +47,20 @@ def test_with_wait_it_is_answered_once_it_is_done(bench):
     bench.door.action_seconds = 0.2
     assert bench.command("goto", axes={"pan": 10}, wait=True).json() == {"ok": True}
     assert all(task.done() for task in bench.door._ends.values())
+
+
+def test_a_client_that_hangs_up_while_it_waits_is_not_seen_any_more(tmp_path, monkeypatch):
+    monkeypatch.setattr(sessions, "SEEN", 0.01)
+    body = json.dumps({"do": "goto", "axes": {"pan": 10}, "wait": True}).encode()
+    headers = [(b"host", b"127.0.0.1:8470"), (b"authorization", OPERATE["authorization"].encode())]
+
+    async def scenario():
+        console = FuzzedConsole(tmp_path)
+        console.door.action_seconds = 60
+        status = await asyncio.wait_for(console.ask(FuzzRequest("POST", "/api/command", headers, [body], "")), 10)
+        return status, len(console.door.seen_sessions)
+
+    assert asyncio.run(scenario()) == (408, 1)
 
 
 def test_without_wait_it_is_not_waited_for(bench):

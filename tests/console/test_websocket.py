@@ -9,14 +9,28 @@ import pytest
 from console_bench import LOCKED, WATCHING, ConsoleBench
 from starlette.websockets import WebSocketDisconnect
 
-from teleop.console.merge_patch import applied, changes
-from teleop.console.websocket import MOST_IGNORED
+from teleop.console.merge_patch import changes
+from teleop.console.websocket import MOST_COMMANDS, MOST_IGNORED
 
 
 @pytest.fixture
 def bench():
     with ConsoleBench() as bench:
         yield bench
+
+
+def applied(old, patch):
+    """`old` with a patch: what a client does."""
+    result = dict(old)
+    for key, value in patch.items():
+        if value is None:
+            result.pop(key, None)
+        elif isinstance(value, dict):
+            before = result.get(key)
+            result[key] = applied(before if isinstance(before, dict) else {}, value)
+        else:
+            result[key] = value
+    return result
 
 
 def until(socket, *kinds):
@@ -64,6 +78,19 @@ def test_a_command_is_answered_and_then_done(bench):
         assert until(socket, "answer") == {"type": "answer", "id": "go", "ok": True}
         assert until(socket, "done") == {"type": "done", "id": "go", "ok": True}
     assert bench.door.positions["pan"] == 10
+
+
+def test_a_fault_of_the_program_is_an_answer_and_the_page_goes_on(bench, monkeypatch):
+    async def broken(*_: object) -> None:
+        raise RuntimeError("secret")
+
+    monkeypatch.setattr(bench.door, "command", broken)
+    with bench.page() as socket:
+        socket.send_json({"id": 5, "do": "goto", "axes": {"pan": 10}})
+        failed = {"type": "answer", "id": 5, "error": "the console failed: RuntimeError", "kind": "lost"}
+        assert until(socket, "answer") == failed
+        socket.send_json({"do": "ping", "id": 6})
+        assert until(socket, "pong")["id"] == 6
 
 
 def test_control_is_not_taken_by_a_command_of_a_page(bench):
@@ -143,6 +170,22 @@ def test_above_the_rate_only_stop_is_obeyed_and_then_the_connection_ends(bench):
         for _ in range(MOST_IGNORED + 500):
             socket.send_text('{"do": "ping"}')
         assert end(socket) == 1008
+
+
+def test_commands_and_plans_under_way_are_bounded_and_a_stop_is_not(bench):
+    bench.door.action_seconds = 60
+    with bench.page() as socket:
+        for number in range(MOST_COMMANDS + 5):
+            socket.send_json({"id": number, "do": "take_control"})
+        socket.send_json({"id": "plan", "do": "plan", "move": "nudge"})
+        socket.send_json({"id": "stop", "do": "stop"})
+        answers = {}
+        while "stop" not in answers:
+            message = until(socket, "answer")
+            answers[message["id"]] = message
+    refused = [number for number, answer in answers.items() if answer.get("error") == "too many commands at once"]
+    assert refused == [*range(MOST_COMMANDS, MOST_COMMANDS + 5), "plan"]
+    assert answers["stop"]["stopped"] is True
 
 
 def test_states_come_at_most_30_times_a_second(bench):

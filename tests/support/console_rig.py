@@ -11,7 +11,12 @@ import time
 from collections.abc import AsyncIterator, Mapping
 from typing import Any
 
-AXES = {"pan": (-180.0, 180.0, 120.0), "tilt": (-56.0, 146.0, 90.0), "roll": (-30.0, 30.0, 60.0), "focus": (0.0, 1.0, 0.5)}
+AXES = {
+    "pan": (-180.0, 180.0, 120.0),
+    "tilt": (-56.0, 146.0, 90.0),
+    "roll": (-30.0, 30.0, 60.0),
+    "focus": (0.0, 1.0, 0.5),
+}
 PERIOD = 1 / 60
 DEAD_MAN = 0.25
 
@@ -68,7 +73,8 @@ class ConsoleRig:
         }  # fmt: skip
         return {
             "rig": "Simulated rig", "tick": int(now * 100), "time": round(now, 3), "clock": 1_790_000_000.0 + now,
-            "age_ms": self.age_ms, "run": "running", "axes": axes, "links": {"gimbal": {"age_ms": 12, "ok": True}},
+            "age_ms": 5000.0 if self.quiet else self.age_ms, "run": "running", "axes": axes,
+            "links": {"gimbal": {"age_ms": 12, "ok": True}},
             **copy.deepcopy(self.more),
         }  # fmt: skip
 

@@ -1,9 +1,10 @@
 // The Shoot page: a timelapse frame by frame, when it ends, and what it missed.
-import { html, useSignal } from "./vendor/preact/preact.min.js";
+import { html, useEffect, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
 import { able, fresh, mine, part } from "./store.js";
-import { clock, minutes, short, timeOfDay } from "./format.js";
-import { moves } from "./moves.js";
+import { clock, short, timeOfDay } from "./format.js";
+import { moves, request, urlOf } from "./moves.js";
+import { seconds } from "./move/content.js";
 
 const shoot = part((s) => s.shoot, null);
 
@@ -14,29 +15,43 @@ export function Shoot() {
 function Start() {
   const name = useSignal(""), list = moves.value.filter((each) => each.kind === "timelapse"), what = name.value || list[0]?.name;
   return html`<section class="card start"><h2>Shoot a timelapse</h2>
-    <p>Each frame is due at its time: the rig goes there, settles, and the camera shoots. A shoot goes on when this page is closed.</p>
+    <p>Each frame is due at its time: the rig goes there, settles, and the camera shoots. A shoot goes on when this page is closed.
+      From a terminal: <code>teleop play NAME --console</code>.</p>
     ${list.length === 0 ? html`<p class="waits">There is no timelapse in the folder. Copy the shipped one: <code>teleop copy day-to-night mine.yaml</code></p>`
       : html`<div class="row"><label>Timelapse <select value=${what} onChange=${(/** @type {any} */ e) => (name.value = e.target.value)}>${list.map((each) => html`<option value=${each.name}>${each.name}${each.shipped ? " (shipped)" : ""}</option>`)}</select></label>
         <button class="primary" disabled=${!able.value} onClick=${() => command("shoot", { move: what })}>Start the shoot</button></div>`}
   </section>`;
 }
 
+/** The interval over a shoot as its file has it: one number, or from one to another. @param {any} content */
+function intervalsOf(content) {
+  const interval = content?.timelapse?.interval;
+  if (interval && typeof interval === "object") return [interval.from, interval.to].map((each) => seconds(each, content.fps) ?? 0);
+  const each = seconds(interval, content?.fps);
+  return each ? [each, each] : [];
+}
+
 /** @param {{now: import("./types.js").ShootState}} props */
 function Running({ now }) {
+  const intervals = useSignal(/** @type {number[]} */ ([])), file = moves.value.find((each) => each.kind === "timelapse" && each.title === now.title)?.name;
+  useEffect(() => {
+    if (file) request(urlOf(file), { quiet: true }).then((found) => (intervals.value = intervalsOf(found?.content)));
+  }, [file]);
   const left = Math.max(now.frames - now.frames_done, 0), off = !fresh.value || !mine.value;
   return html`<section class="card frames"><h2>Frames</h2>
       <p class="huge"><b>${now.frames_done}</b> of ${now.frames}</p>
       <progress max=${now.frames || 1} value=${now.frames_done} aria-label="Frames done"></progress>
       <div class="row"><button data-testid="shoot-pause" disabled=${off} onClick=${() => command(now.paused ? "resume" : "pause")}>${now.paused ? "Resume" : "Pause between frames"}</button>
-        <button disabled=${off} onClick=${() => command("abort")}>End the shoot</button>${now.paused && html`<span class="waits">paused: no frame is shot</span>`}</div></section>
+        <button disabled=${off} onClick=${() => command("abort")}>End the shoot</button>${now.paused && html`<span class="waits">paused: no frame is shot</span>`}</div>
+      ${now.why && html`<p class="waits">${now.why}</p>`}</section>
     <section class="card facts"><h2>Shoot</h2><dl>
       <${Fact} name="Ends at" value=${timeOfDay(now.eta)} />
       <${Fact} name="Frames left" value=${left} />
-      ${now.interval_s !== undefined && html`<${Fact} name="Interval" value=${`${short(now.interval_s, 2)} s`} />`}
+      ${now.phase && html`<${Fact} name="Now" value=${now.phase} />`}
       ${now.clip_s !== undefined && html`<${Fact} name="Clip" value=${clock(now.clip_s)} />`}
       <${Fact} name="Missed slots" value=${now.missed} bad=${now.missed > 0} />
       ${now.battery !== undefined && now.battery !== null && html`<${Fact} name="Battery" value=${`${Math.round(now.battery)} %`} bad=${now.battery < 20} />`}</dl></section>
-    ${now.intervals && now.intervals.length > 1 && html`<${Intervals} values=${now.intervals} done=${now.frames_done / (now.frames || 1)} />`}`;
+    ${intervals.value.length > 1 && html`<${Intervals} values=${intervals.value} done=${now.frames_done / (now.frames || 1)} />`}`;
 }
 
 /** @param {{name: string, value: any, bad?: boolean}} props */
@@ -45,7 +60,7 @@ const Fact = ({ name, value, bad = false }) => html`<div class=${bad ? "bad" : "
 /** The interval over the shoot, and how far it is. @param {{values: number[], done: number}} props */
 function Intervals({ values, done }) {
   const high = Math.max(...values) * 1.1, x = (/** @type {number} */ n) => (100 * n) / (values.length - 1), y = (/** @type {number} */ v) => 40 - (40 * v) / high;
-  return html`<section class="card intervals"><h2>Interval <span>${short(values[0], 1)} s to ${short(values[values.length - 1], 1)} s, ${minutes(values.reduce((a, b) => a + b, 0) / values.length)} on average</span></h2>
+  return html`<section class="card intervals"><h2>Interval <span>${short(values[0], 1)} s to ${short(values[values.length - 1], 1)} s</span></h2>
     <svg viewBox="0 0 100 40" preserveAspectRatio="none" role="img" aria-label="Interval over the shoot">
       <path class="curve" d=${`M${values.map((v, n) => `${x(n).toFixed(2)} ${y(v).toFixed(2)}`).join("L")}`} /><path class="done" d=${`M${(100 * done).toFixed(2)} 0V40`} /></svg></section>`;
 }

@@ -5,8 +5,8 @@
  *   minimum: number|null, maximum: number|null, max_speed: number, continuous: boolean, driver: string, expo?: number}} AxisState
  * @typedef {{title: string, name?: string, phase: string, at: number|null, duration: number, speed: number, max_speed?: number, why?: string,
  *   key: number|null, keys: number, pass: number, passes: number|null, errors?: Object<string, number>[]}} MoveState
- * @typedef {{frames_done: number, frames: number, eta: number|null, missed: number, paused: boolean, clip_s?: number,
- *   interval_s?: number, intervals?: number[], battery?: number|null}} ShootState
+ * @typedef {{frames_done: number, frames: number, eta: number|null, missed: number, paused: boolean, title?: string,
+ *   phase?: string, why?: string, clip_s?: number, battery?: number|null}} ShootState
  * @typedef {Object<string, number|string>} Positions
  * @typedef {{name: string, drives: string[], waits_for: string, trouble: string}} InputState
  * @typedef {{rig: string, tick: number, time: number, clock: number, age_ms: number, run: string, axes: Object<string, AxisState>,

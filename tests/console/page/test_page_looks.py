@@ -21,8 +21,8 @@ DOCS = DATA.parents[1] / "docs/pictures"
 LOOKS = DATA / "console_looks.json"
 TABS = ("live", "move", "shoot", "takes")
 SHOOT = {
-    "frames_done": 83, "frames": 240, "eta": 1_790_003_000.0, "missed": 1, "paused": False,
-    "interval_s": 30.0, "clip_s": 10.0, "intervals": [10, 10, 12, 15, 20, 28, 30, 30], "battery": 78,
+    "title": "Day to night", "frames_done": 83, "frames": 240, "eta": 1_790_003_000.0, "missed": 1, "paused": False,
+    "phase": "waiting", "why": "", "clip_s": 10.0, "battery": 78,
 }  # fmt: skip
 PICTURES = {
     "live on a laptop": "console-laptop",
@@ -71,6 +71,8 @@ def staged(visit, server, rig):
         rig.more["shoot"] = SHOOT if tab == "shoot" else None
         page = visit(size, touch, at=f"?name=laptop#{tab}")
         take_control(page)
+        if tab == "shoot":
+            page.locator(".intervals .curve").wait_for()
         if tab == "move":
             expect(page.locator(".curves .line.stroke-pan path")).to_have_count(1)
         return page
