@@ -18,7 +18,7 @@ from typing import Any
 
 import can
 
-from teleop.links.can import Arrival
+from teleop.links.can import Arrival, BusFrame, Tap
 from teleop.links.faults import driver_missing, opening_failed, system_error
 from teleop.links.outbox import Stall
 from teleop.links.url import LinkAddress
@@ -41,6 +41,7 @@ class PythonCanAdapter:
         self._counts = counts
         self._off = Stall(now)
         self._arrived: list[Arrival] = []
+        self.tap: Tap | None = None
         self._bus = _open(address)
         try:
             self._descriptor = self._bus.fileno()
@@ -72,6 +73,8 @@ class PythonCanAdapter:
 
     def _read(self) -> None:
         for message in self._messages():
+            if self.tap:
+                self.tap(_bus_frame(message))
             if message.is_error_frame:
                 self._note_state(message.arbitration_id)
                 continue
@@ -104,6 +107,17 @@ class PythonCanAdapter:
             self._off.begin()
         elif classes & _RESTARTED:
             self._off.end()
+
+
+def _bus_frame(message: can.Message) -> BusFrame:
+    return BusFrame(
+        message.arbitration_id,
+        bytes(message.data),
+        message.is_extended_id and not message.is_error_frame,
+        message.is_remote_frame,
+        message.is_error_frame,
+        message.timestamp or None,
+    )
 
 
 def _open(address: LinkAddress) -> can.BusABC:

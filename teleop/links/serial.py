@@ -89,17 +89,23 @@ class SerialLink(BufferedLink):
 class SerialListener:
     """Hears what the far end of a serial line says, and transmits nothing: the other direction has a wire of its own.
 
-    It needs the port for itself. `foreign` stays empty. Raises LinkError when it cannot be opened.
+    It needs the port for itself. `foreign` stays empty. `tap` is called with all bytes that arrive. Raises LinkError
+    when it cannot be opened.
     """
 
-    def __init__(self, address: LinkAddress, *, now: Callable[[], float]) -> None:
+    def __init__(
+        self, address: LinkAddress, *, now: Callable[[], float], tap: Callable[[bytes], object] | None = None
+    ) -> None:
         self.foreign: Counter[int] = Counter()
+        self._tap = tap
         self._link = SerialLink(address, now=now)
         self.counts = self._link.counts
 
     def receive(self) -> list[tuple[int, bytes]]:
         """What has arrived since the last call. Raises LinkError when the line is lost."""
         data = self._link.receive()
+        if data and self._tap:
+            self._tap(data)
         return [(FAR_END, data)] if data else []
 
     def close(self) -> None:
