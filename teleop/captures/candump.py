@@ -58,7 +58,7 @@ def frames(lines: Iterable[str], name: str) -> Iterator[tuple[str, Captured]]:
             if not text.endswith("\n") and number > 1:
                 return
             raise CaptureError(
-                f"{name}:{number}: no line of candump: {text.strip()[:_SHOWN]!r}; write it with candump -L"
+                f"{name}:{number}: no line of candump: {text.strip()[:_SHOWN]!r}; write the file with candump -L"
             )
         yield match["name"], _frame(match, time)
 

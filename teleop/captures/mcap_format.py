@@ -56,7 +56,7 @@ class McapWriter:
         content: dict[str, Any] = {"id": frame.id} if self._is_can else {"direction": _DIRECTIONS[frame.id]}
         content["data"] = frame.data.hex()
         content.update((flag, True) for flag in _FLAGS if getattr(frame, flag))
-        time = round(frame.time * 1e9)
+        time = round(frame.time * 1e6) * 1000  # a double has no finer time than that
         self._writer.add_message(self._channel, time, json.dumps(content, separators=(",", ":")).encode(), time)
 
     def finish(self) -> None:
@@ -77,7 +77,7 @@ def frame(record: McapRecord) -> Captured:
     senders = {direction: sender for sender, direction in _DIRECTIONS.items()}
     sender = content["id"] if "id" in content else senders[content["direction"]]
     flags = (bool(content.get(flag)) for flag in _FLAGS)
-    return Captured(record.log_time / 1e9, int(sender), bytes.fromhex(content["data"]), *flags)  # type: ignore[attr-defined]
+    return Captured(record.log_time // 1000 / 1e6, int(sender), bytes.fromhex(content["data"]), *flags)  # type: ignore[attr-defined]
 
 
 def messages(records: Iterable[McapRecord], name: str) -> Iterable[tuple[Source, Captured]]:
