@@ -96,7 +96,7 @@ class Runner:
 
     @property
     def _moves(self) -> bool:
-        return self.stage in (Stage.RUNNING, Stage.RESTORING)
+        return self.stage in (Stage.RUNNING, Stage.ASKING, Stage.RESTORING)
 
     def _press(self, key: str, now: float) -> None:
         if key == GO:
@@ -133,7 +133,7 @@ class Runner:
         task = self._task
         if task is None or task.question is None:
             return
-        if key == STOP:
+        if key == STOP and STOP not in task.question.choices:
             self._end_task(now, "STOPPED")
         elif task.question.word:
             self._type(task, key, now)

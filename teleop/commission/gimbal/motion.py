@@ -1,0 +1,131 @@
+"""Small motions on the bench, each a script that waits until it is over. None is faster or further than it is allowed.
+
+"Nothing above 5 deg/s and 5 deg until the operator agrees to more": the limits are here, and every step keeps them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator
+from typing import TYPE_CHECKING, NamedTuple
+
+from teleop.commission.gimbal.places import Places, around, gone
+from teleop.commission.step import Question, Wait
+from teleop.dji.message import Message
+
+if TYPE_CHECKING:
+    from teleop.commission.gimbal.bench import GimbalBench
+
+FASTEST, FURTHEST = 5.0, 5.0  # deg/s and deg, until the operator agrees to more
+STILL_WITHIN = 3.0  # s in which everything is to rest after a motion
+SETTLE = 0.35  # s at rest, over which a place is measured
+LATE = 0.6  # s by which the effect of a command may be late
+ANSWERED = 0.3  # s for an answer
+MOVED = 0.35  # deg: less is noise
+
+Pause = Generator[Wait | Question, str, None]
+
+
+class Shift(NamedTuple):
+    """What an increment did: how far each angle went (deg), the code of its answer, and the readings on the way."""
+
+    moved: tuple[float, float, float]
+    code: int | None
+    track: list[Places]
+    sent: float
+
+
+def wait(bench: GimbalBench, seconds: float, progress: str = "") -> Pause:
+    """Nothing for so long, measured by the bench's time."""
+    end = bench.now + seconds
+    while bench.now < end - 1e-6:
+        yield Wait(end - bench.now, progress)
+
+
+def rest(bench: GimbalBench, late: float = LATE) -> Pause:
+    """Until everything rests; at least as long as the effect of a command may be late."""
+    yield from wait(bench, late)
+    end = bench.now + STILL_WITHIN
+    while not bench.still and bench.now < end:
+        yield Wait(0.02)
+    yield from wait(bench, SETTLE)
+
+
+def answer(bench: GimbalBench, message: Message) -> Generator[Wait | Question, str, Message | None]:
+    """The answer to a request, None where none comes."""
+    sequence = bench.request(message)
+    end = bench.now + ANSWERED
+    while sequence not in bench.answered and bench.now < end:
+        yield Wait(0.01)
+    found = bench.answered.get(sequence)
+    return None if found is None else found.reply
+
+
+def shift(
+    bench: GimbalBench, index: int, way: float, seconds: float, progress: str = ""
+) -> Generator[Wait | Question, str, Shift]:
+    """Turn one angle by `way` (deg) with a position command, and see where it went."""
+    before, sent = bench.mean(), bench.now
+    sequence = bench.increment(index, way, seconds)
+    yield from wait(bench, seconds, progress)
+    yield from rest(bench)
+    return Shift(gone(before, bench.mean()), bench.code(sequence), bench.since(sent), sent)
+
+
+def cruise(
+    bench: GimbalBench, speed: float, seconds: float, send: Callable[[float], object], progress: str = ""
+) -> Pause:
+    """Send a speed again and again for so long."""
+    end = bench.now + seconds
+    while bench.now < end - 1e-6:
+        send(speed)
+        yield Wait(min(0.04, end - bench.now), progress)
+
+
+def let_go(bench: GimbalBench) -> Pause:
+    """Everything to rest by the same way as STOP, control given back."""
+    while (after := bench.rest.release(bench.now)) is not None:
+        yield from wait(bench, after - bench.now)
+
+
+def home(bench: GimbalBench) -> Pause:
+    """Back to where everything began: one angle after the other, in parts, each measured before the next."""
+    for index in bench.driven:
+        before, failed, sign = math.inf, 0, 1.0
+        while (way := bench.ways_back().get(index, 0.0)) and failed < 4:
+            failed = failed + 1 if abs(way) > before - 0.1 else 0
+            sign = -sign if failed in (2, 3) else sign
+            before = abs(way)
+            yield from _home_by(bench, index, sign * way, f"{bench.name(index)} goes back, {abs(way):.1f} deg left")
+
+
+def _home_by(bench: GimbalBench, index: int, way: float, progress: str) -> Pause:
+    """One part of the way back, by the means that the gimbal obeys."""
+    sign, full = bench.speed_signs[index], bench.full_stick[index]
+    if bench.obeys_position[index] or not (sign or full):
+        part = math.copysign(min(abs(way), 2.5 * bench.back_speed if bench.obeys_position[index] else 1.0), way)
+        seconds = min(25.5, max(0.1, math.ceil(10 * abs(part) / bench.back_speed) / 10))
+        bench.increment(index, bench.position_signs[index] * part, seconds)
+        yield from wait(bench, seconds, progress)
+    else:
+        speed = min(bench.back_speed, max(0.5, abs(way)))
+        send = sender(bench, index, speed if sign else 0.0)
+        yield from cruise(bench, math.copysign(speed, way), max(0.1, abs(way) / speed - 0.05), send, progress)
+        yield from let_go(bench)
+    yield from rest(bench, 0.3)
+
+
+def sender(bench: GimbalBench, index: int, by_speed: float) -> Callable[[float], object]:
+    """Sends deg/s, in the signs of readings, as a speed, or as a push of the stick."""
+    if by_speed:
+        sign = bench.speed_signs[index] or 1
+        return lambda value: bench.speed(index, sign * value)
+    return lambda value: bench.push(index, round(15000 * value / bench.full_stick[index]))
+
+
+def moving_part(track: list[Places], index: int) -> list[tuple[float, float]]:
+    """The readings of one angle, unrolled: times and deg."""
+    if not track:
+        return []
+    first = track[0].angles[index]
+    return [(each.time, first + around(each.angles[index] - first)) for each in track]
