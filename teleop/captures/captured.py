@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from teleop.core.errors import UsageError
+from teleop.links import FAR_END, NEAR_END
 
-TO_DEVICE, FROM_DEVICE = 1, 0  # the senders on a serial line, which has no ids; FAR_END is 0 too
+TO_DEVICE, FROM_DEVICE = NEAR_END, FAR_END  # the senders on a serial line, which has no ids
 
 
 class CaptureError(UsageError):

@@ -34,10 +34,14 @@ class Recording:
     def hear(self, heard: BusFrame | bytes) -> None:
         """What has just arrived: a frame of a CAN bus, or bytes from the device on a serial line."""
         if isinstance(heard, bytes):
-            self._add(Captured(self._time(None), FROM_DEVICE, heard))
+            self.hear_from(FROM_DEVICE, heard)
         else:
             time = self._time(heard.stamp)
             self._add(Captured(time, heard.id, heard.data, heard.extended, heard.remote, heard.error))
+
+    def hear_from(self, sender: int, data: bytes) -> None:
+        """Bytes of a serial line that have just passed, to the device or from it."""
+        self._add(Captured(self._time(None), sender, data))
 
     def look(self) -> None:
         """Write what has arrived. Raises OutputError."""

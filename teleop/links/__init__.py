@@ -15,6 +15,7 @@ from teleop.links.url import LinkAddress, LinkUrlError, parse
 
 __all__ = [
     "FAR_END",
+    "NEAR_END",
     "ClosableLink",
     "LinkAddress",
     "LinkUrlError",
@@ -26,6 +27,7 @@ __all__ = [
 ]
 
 FAR_END: Final = 0  # the sender on a serial line, which has no CAN ids
+NEAR_END: Final = 1
 
 
 class ClosableLink(Link, Protocol):
