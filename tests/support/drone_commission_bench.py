@@ -1,4 +1,4 @@
-"""A drone's commissioning on the virtual clock, with an operator who turns the simulated drone, and every frame sent."""
+"""A commissioning of a drone on the virtual clock, its operator who turns it, and every frame that is sent."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ from teleop.sim.drone.controls import Switch
 from teleop.sim.drone.device import SimulatedDrone
 from teleop.sim.drone.settings import DroneSettings
 
-TICK = 0.01  # s
 LONGEST = 400.0  # s
 SWITCHES = {"to A": Switch.A, "to P": Switch.P, "to F": Switch.F}
 TURNS = {
@@ -31,7 +30,6 @@ TURNS = {
     "right side down": {"roll": 45.0},
     "Lift it": {"up": 0.5},
 }
-READY = {"turn its nose": "yaw", "tilt its nose": "pitch", "tilt its right": "roll", "half a meter after": "up"}
 
 
 @dataclass
@@ -51,6 +49,8 @@ class DroneOperator:
         seen = f"{page.key} {page.stage} {page.question}"
         if page.stage is Stage.ASKING and page.question and seen.split(" ", 2)[2] != self.was:
             self.was, self.asked, self.done = page.question, now, False
+            if "after Enter" in page.question:
+                self.drone.carry(now, 0.2)
             return []
         if now - self.asked < 0.3:
             return []
@@ -79,7 +79,6 @@ class DroneOperator:
             self.drone.turn_switch(now, SWITCHES[place])
             return [GO]
         if "after Enter" in question:
-            self.drone.carry(now, 0.2)
             return [GO]
         if "where you are" in question:
             return ["y"]
@@ -91,9 +90,12 @@ class DroneOperator:
 
 
 class DroneCommissionBench:
-    """`settings` are those of the SimulatedDrone. `sent` are all frames that went to it, with their times."""
+    """`settings` are those of the SimulatedDrone, `tick` is s between two turns. `sent` are all frames that went to it, with their times."""
 
-    def __init__(self, settings: DroneSettings | None = None, switch: Switch = Switch.P, **options: Any) -> None:
+    def __init__(
+        self, settings: DroneSettings | None = None, switch: Switch = Switch.P, tick: float = 0.01, **options: Any
+    ) -> None:
+        self._tick = tick
         self.clock = VirtualClock(100.0)
         self.drone = SimulatedDrone(now=100.0, settings=settings or DroneSettings(), **options)
         self.drone.turn_switch(100.0, switch)
@@ -109,7 +111,7 @@ class DroneCommissionBench:
 
     def turn(self, *keys: str) -> None:
         self.runner.turn(self.clock.now(), keys)
-        self.clock.sleep_until(self.clock.now() + TICK)
+        self.clock.sleep_until(self.clock.now() + self._tick)
         self.motors |= self.drone.autopilot.flight.motors
         self.watch(self)
 

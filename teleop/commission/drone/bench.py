@@ -104,6 +104,7 @@ class DroneBench:
 
     def reopen(self) -> None:
         self.connection = self._open()
+        self._neutrals, self._sticks_at = LAST_NEUTRALS, math.inf  # the drone ends virtual RC while the link is lost
         if self.activated:
             self.use_cipher()  # the drone is the same, only the line was lost
         for request in (drone.Version, drone.Activate, drone.Frequency):
