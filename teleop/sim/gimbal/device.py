@@ -199,7 +199,7 @@ class SimulatedGimbal:
             beats = self._push.due(self._now)
             due += [(time, self._parameters(time)) for time in beats if self._tells_angles_now()]
         for _, push in sorted(due, key=itemgetter(0)):
-            self._outgoing.push(pushed(self._session.command(push), push, self._firmware))
+            self._outgoing.push(pushed(self._session.push(push), push, self._firmware))
 
     def _tells_angles_now(self) -> bool:
         return self.tells_angles and not (self._lost_readings and self._chance.random() < self._lost_readings)
