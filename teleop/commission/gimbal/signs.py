@@ -41,6 +41,13 @@ def main_angle(moved: tuple[float, float, float], least: float = MOVED) -> int |
     return index if abs(moved[index]) >= least else None
 
 
+def seen_angle(bench: GimbalBench, moved: tuple[float, float, float], index: int, least: float) -> int | None:
+    """The angle that answered: the one that was sent, where the order is known; another may drift meanwhile."""
+    if bench.knows_order:
+        return index if abs(moved[index]) >= least else None
+    return main_angle(moved, least)
+
+
 def settle_order(bench: GimbalBench, subject: Subject, index: int, moved: int) -> list[Fact]:
     """What follows from the angle that moved when another was sent. Raises DeviceError where that makes no sense."""
     if moved != index:

@@ -9,7 +9,7 @@ from teleop.commission.gimbal.base import GimbalStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import FURTHEST, Pause, cruise, home, less, let_go, pulse, rest, wait
 from teleop.commission.gimbal.places import around, gone
-from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
+from teleop.commission.gimbal.signs import seen_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.gimbal.swings import Swings
 from teleop.commission.step import Script, Wait
 from teleop.core.response import Response
@@ -54,7 +54,7 @@ class SpeedStep(GimbalStep):
         bench, index = self.bench, self.index
         bench.allow(FURTHEST)
         moved, code = yield from self._probe()
-        main = main_angle(moved, 0.2 + bench.noise)
+        main = seen_angle(bench, moved, index, 0.2 + bench.noise)
         if main is None:
             how = "not answered" if code is None else f"return code {code:#04x}"
             return [self.obeyed.found(False, f"{how}, and it did not move at {PROBE:g} deg/s")]

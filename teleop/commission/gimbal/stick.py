@@ -7,14 +7,14 @@ from teleop.commission.gimbal.base import GimbalStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import FURTHEST, cruise, home, less, pulse, wait
 from teleop.commission.gimbal.places import around
-from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
+from teleop.commission.gimbal.signs import seen_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.step import Script, Wait
 
 FULL = 15000
 FIRST, BRIEF = 1, 0.1  # the smallest push, and s
 SEEN = 0.2  # deg in that time that are no more noise
 SPEED = 3.0  # deg/s of the push that is measured
-LONG = 1.0  # s of it
+LONG, LEAST = 1.0, 1.2  # s of it, and deg that it is to go at least
 LAPSES, ROOM = 1.5, 4.6  # s and deg in which a push that is not repeated is to end
 
 
@@ -45,7 +45,7 @@ class StickStep(GimbalStep):
         bench, index = self.bench, self.index
         bench.allow(FURTHEST)
         push, moved = yield from self._grow()
-        main = main_angle(moved, SEEN)
+        main = seen_angle(bench, moved, index, SEEN)
         if main is None:
             return [self.obeyed.found(False, "it did not move at full deflection for 0.1 s")]
         facts = settle_order(bench, self.signs.order, index, main)
@@ -55,7 +55,9 @@ class StickStep(GimbalStep):
         ]
         rough = moved[main] / BRIEF / push * FULL  # deg/s at full deflection, in the sign of readings
         push = max(1, min(FULL, round(min(2.0 * push, SPEED / abs(rough) * FULL))))
-        there = yield from self._go(push)
+        while abs(there := (yield from self._go(push))) < LEAST and push < FULL:
+            push = min(FULL, 2 * push)
+            yield from home(bench)
         yield from home(bench)
         back = yield from self._go(-push)
         full = bench.full_stick[index] = (there - back) / 2 / LONG / push * FULL
@@ -79,7 +81,7 @@ class StickStep(GimbalStep):
             if max(map(abs, bench.ways_back().values()), default=0.0) > 1.0:
                 yield from home(bench)
             moved = less((yield from pulse(bench, push, BRIEF, self._send, f"push {push}")), nothing)
-            furthest = max(map(abs, moved))
+            furthest = abs(moved[self.index]) if bench.knows_order else max(map(abs, moved))
             if furthest >= SEEN + bench.noise / 2 or push == FULL:
                 return push, moved
             push = min(FULL, push * (4 if furthest < SEEN / 3 else 2))
