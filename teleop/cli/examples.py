@@ -38,6 +38,10 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "teleop take certificate pass1.mcap pass2.mcap -o shot.html --fps 25",
     ],
     "take recover": ["teleop take recover run.mcap"],
+    "commission": [
+        "teleop commission",
+        "teleop commission --rig rs4-pro --link gimbal=slcan:/dev/ttyACM0 -o my-rig.yaml",
+    ],
     "calibrate": [
         "teleop calibrate --dry-run --rig rs2",
         "teleop calibrate --rig rs2 --link gimbal=socketcan:can0 -o response.html",

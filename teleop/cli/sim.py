@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import random
 import sys
 import threading
 from collections.abc import Callable, Mapping
@@ -91,7 +92,7 @@ def sim(
         if captured and replay:
             _write(json.dumps(facts(replay, captured)) if options.json else summary(replay, captured))
         with signals_to(lambda _reason: stop.set()):
-            serve(links, devices, clock, stop, refusals, gimbal.foreign_traffic)
+            serve(links, devices, clock, stop, refusals, gimbal.foreign_traffic, gimbal.bus_errors)
     finally:
         for link in links.values():
             link.close()
@@ -116,16 +117,18 @@ def serve(
     stop: threading.Event,
     refusals: RefusalLines | None = None,
     foreign_traffic: bool = False,
+    bus_errors: float = 0.0,
 ) -> None:
     """Pass bytes between links and devices until stopped; raises LinkError when a link is lost."""
     due = clock.now()
     printed = -STATUS
     strangers = _strangers(links, due) if foreign_traffic else []
+    noises = {name: BusNoise(link, bus_errors) for name, link in links.items()}
     while not stop.is_set():
         now = clock.now()
         for name, link in links.items():
-            devices[name].receive(link.receive(), now)
-            if answer := devices[name].advance(now):
+            devices[name].receive(noises[name].left(link.receive()), now)
+            if answer := noises[name].left(devices[name].advance(now)):
                 link.send(answer)
             if refusals:
                 refusals.look(name, devices[name], now)
@@ -136,6 +139,21 @@ def serve(
             print(*(status(name, device) for name, device in devices.items()), sep="   ", file=sys.stderr)
         due = max(due + POLL_PERIOD, now)
         clock.sleep_until(due)
+
+
+class BusNoise:
+    """A bus without termination: a share of what passes ends as error frames."""
+
+    def __init__(self, link: ClosableLink, share: float) -> None:
+        self._link, self._share, self._chance = link, share, random.Random(1)
+
+    def left(self, data: bytes) -> bytes:
+        """What is left of it: all, or nothing."""
+        if not data or self._chance.random() >= self._share:
+            return data
+        if isinstance(self._link, CanLink):
+            self._link.send_error()
+        return b""
 
 
 def _strangers(links: Mapping[str, ClosableLink], now: float) -> list[Callable[[float], None]]:

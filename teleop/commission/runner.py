@@ -14,6 +14,7 @@ from teleop.commission.findings import Fact, Findings
 from teleop.commission.page import END, GO, REPEAT, RUBOUT, SKIP, STOP, Page, Stage
 from teleop.commission.step import Device, Question, Script, Step
 from teleop.core.errors import DeviceError, LinkError
+from teleop.dji.message import FieldError
 
 UNSEEN = 0.1  # s of a page in which Enter does not count: nobody has read it
 AUTOREPEAT = 0.1  # s between two Enters of a key that is held down
@@ -86,6 +87,8 @@ class Runner:
             if late and self._moves:
                 self._end_task(now, "the computer stalled: nothing was measured")
             self._advance(now)
+        except DeviceError as error:
+            self._end_task(now, str(error))
         except LinkError as error:
             self._lose(str(error), now)
 
@@ -205,7 +208,7 @@ class Runner:
         except RefusedError as refusal:
             self.reason = str(refusal)
             self._end_task(now, self.reason, self._finish)
-        except DeviceError as error:
+        except (DeviceError, FieldError) as error:
             self._end_task(now, str(error))
 
     def _found(self, facts: Sequence[Fact]) -> None:

@@ -225,7 +225,7 @@ class _Opening:
         if name in profile.drones:
             far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=app_cipher(name in profile.encrypted))
         else:
-            far = self._simulated[name] = simulated_gimbal(profile, name)
+            far = self._simulated[name] = simulated_gimbal(profile, name, SimulatedGimbal)
             wire = simulated_wire(profile, name, far, clock.now)
             return Connection(name, url, wire, clock.now(), wire.counts, session)
         return Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)

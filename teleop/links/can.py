@@ -71,8 +71,9 @@ class CanLink(BufferedLink):
     """DJI frames over CAN: sends on `transmit_id`, receives `receive_id`, counts the frames of other ids in `foreign`.
 
     The defaults are the host's ids; a simulated gimbal has them the other way round. `counts` has the outbox's and the
-    adapter's: `damage` (what arrived was no CAN frame), `bus off`, `refused`. `now` is a clock in seconds. Raises
-    LinkError when the bus cannot be opened. `tap` is called with every frame of the bus, those sent here too.
+    adapter's: `damage` (what arrived was no CAN frame), `error frames`, `bus off`, `refused`. `now` is a clock in
+    seconds. Raises LinkError when the bus cannot be opened. `tap` is called with every frame of the bus, those sent
+    here too.
     """
 
     def __init__(
@@ -101,6 +102,12 @@ class CanLink(BufferedLink):
         """Sends one CAN frame of another id; a full queue drops it. Raises LinkError when the link is lost."""
         with self._latching():
             self._adapter.put(can_id, data)
+
+    def send_error(self) -> None:
+        """Sends an error frame, where the adapter can. Raises LinkError when the link is lost."""
+        if send := getattr(self._adapter, "put_error", None):
+            with self._latching():
+                send()
 
     def _put(self, piece: bytes) -> int:
         if not self._adapter.put(self._transmit_id, piece):

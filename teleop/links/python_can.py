@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import logging
 import select
@@ -32,7 +33,10 @@ _OPTIONS: Mapping[str, Mapping[str, Any]] = {
 
 
 class PythonCanAdapter:
-    """A teleop.links.can.Adapter. Counts `damage` and `bus off`. Raises LinkError when the bus cannot be opened."""
+    """A teleop.links.can.Adapter. Counts `damage`, `error frames` and `bus off`.
+
+    Raises LinkError when the bus cannot be opened.
+    """
 
     failures = (can.CanError, OSError)
 
@@ -61,6 +65,11 @@ class PythonCanAdapter:
                 return False
             raise
         return True
+
+    def put_error(self) -> None:
+        """Send an error frame; one that cannot be sent is left out."""
+        with contextlib.suppress(can.CanError, NotImplementedError):
+            self._bus.send(can.Message(is_error_frame=True), timeout=0)
 
     def take(self) -> list[Arrival]:
         self._read()
@@ -107,6 +116,8 @@ class PythonCanAdapter:
             self._off.begin()
         elif classes & _RESTARTED:
             self._off.end()
+        else:
+            self._counts["error frames"] += 1
 
 
 def _bus_frame(message: can.Message) -> BusFrame:

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
+from teleop.app.commission.profile_file import ProfileFile
+from teleop.app.commission.session import Commissioning
 from teleop.commission.findings import Findings
-from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.link import GimbalLink
-from teleop.commission.gimbal.steps import gimbal_steps
 from teleop.commission.page import GO, REPEAT, SKIP, STOP, Page, Stage
-from teleop.commission.runner import Runner
 from teleop.config.profile import Profile, load_profile
+from teleop.config.sinks_section import GimbalSection
 from teleop.core.clock import VirtualClock
-from teleop.core.errors import LinkError
+from teleop.core.errors import UsageError
+from teleop.inputs.hid.backend import HidBackend
 from teleop.sim.gimbal.device import SimulatedGimbal
 
 TICK = 0.01  # s
@@ -96,34 +97,46 @@ class Operator:
         return [up if left > 0 else down]
 
 
-class CommissionBench:
-    """`options` are those of the SimulatedGimbal."""
+def no_devices() -> HidBackend:
+    raise UsageError("no joystick found")
 
-    def __init__(self, profile: Profile | None = None, gimbal: SimulatedGimbal | None = None, **options: Any) -> None:
-        self.profile = profile or load_profile("sim")
+
+class CommissionBench:
+    """`rig` is a profile or its name; `options` are those of the SimulatedGimbal, `out` is where the profile goes."""
+
+    def __init__(self, out: Path, rig: str = "sim", **options: Any) -> None:
         self.clock = VirtualClock(100.0)
-        self.gimbal = gimbal or SimulatedGimbal(**options)
-        self.link = GimbalLink(self.profile, self.clock, self.gimbal)
-        self.bench = GimbalBench(self.link.open, self.link.section)
-        steps = gimbal_steps(self.bench, self.link.address)
-        self.runner = Runner(self.bench, steps, Findings(self.profile.name))
+        self.gimbal = SimulatedGimbal(**options)
+        self.file = ProfileFile(rig, out)
+        profile = load_profile(rig)
+        self.made = Commissioning(profile, self.file, self.clock, no_devices, polled=True, simulated=self.gimbal)
+        self.runner = self.made.runner
         self.operator = Operator(self.gimbal, mount=options.get("mount", 0.0))
-        self.fastest = [0.0, 0.0, 0.0]
-        self.watch: Callable[[CommissionBench], object] = lambda _bench: None
+        self.fastest = [0.0, 0.0, 0.0]  # deg/s since the last page that asked for more was left
+        self.furthest = [0.0, 0.0, 0.0]
+        self.watch: Callable[[], object] = lambda: None
+        self.began = self.gimbal.angles
 
     def turn(self, *keys: str) -> None:
         self.runner.turn(self.clock.now(), keys)
         self.clock.sleep_until(self.clock.now() + TICK)
-        self.gimbal.advance  # noqa: B018
-        self.fastest = [max(a, abs(b)) for a, b in zip(self.fastest, self.gimbal.rates, strict=True)]
-        self.watch(self)
+        self.watch()
 
-    def run(self) -> Findings:
+    def run(self, until: str = "") -> Findings:
+        """To the end, or to the page of the step `until`."""
         end = self.clock.now() + LONGEST
-        while not self.runner.over:
+        while not self.runner.over and self.runner.page.key != until:
             assert self.clock.now() < end, self.runner.page
             self.turn(*self.operator.keys(self.runner.page, self.clock.now()))
-        return self.runner.findings
+        return self.made.findings
 
+    @property
+    def profile(self) -> Profile:
+        """As it was written."""
+        return load_profile(str(self.file.file))
 
-__all__ = ["CommissionBench", "LinkError", "Operator"]
+    @property
+    def section(self) -> GimbalSection:
+        section = self.profile.sinks[0]
+        assert isinstance(section, GimbalSection)
+        return section

@@ -60,7 +60,7 @@ class GimbalBench:
         self.section = section
         self.now = 0.0
         self.quiet = True
-        self.swapped = False
+        self.swapped = self.knows_order = False
         self.noise = 0.0  # deg
         self.position_signs = [1, 1, 1]  # of the reading for a positive position; likewise below for a positive speed
         self.speed_signs: list[int | None] = [None, None, None]
@@ -97,6 +97,11 @@ class GimbalBench:
     def release(self, now: float) -> float | None:
         self._reach = None
         return self.rest.release(now)
+
+    def release_at_once(self) -> None:
+        """One attempt to end whatever is in force, without waiting for anything."""
+        if not self.quiet:
+            self.rest.at_once(self.now)
 
     def reopen(self) -> None:
         self.connection = self._open()

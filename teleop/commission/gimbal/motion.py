@@ -82,6 +82,25 @@ def cruise(
         yield Wait(min(0.04, end - bench.now), progress)
 
 
+def pulse(
+    bench: GimbalBench, value: float, seconds: float, send: Callable[[float], object], progress: str = ""
+) -> Generator[Wait | Question, str, tuple[float, float, float]]:
+    """How far each angle goes while `value` is sent for so long and zero thereafter, before control is given back."""
+    before = bench.mean()
+    yield from cruise(bench, value, seconds, send, progress)
+    yield from cruise(bench, 0.0, LATE, send)
+    moved = gone(before, bench.mean(0.15))
+    yield from let_go(bench)
+    yield from rest(bench, 0.1)
+    return moved
+
+
+def less(moved: tuple[float, float, float], baseline: tuple[float, float, float]) -> tuple[float, float, float]:
+    """Without what zero does: a drift."""
+    yaw, roll, pitch = (a - b for a, b in zip(moved, baseline, strict=True))
+    return yaw, roll, pitch
+
+
 def let_go(bench: GimbalBench) -> Pause:
     """Everything to rest by the same way as STOP, control given back."""
     while (after := bench.rest.release(bench.now)) is not None:

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import numpy as np
+
 from teleop.commission.findings import Fact, Findings, Subject
 from teleop.commission.gimbal.base import WAYS, GimbalStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, MOVED, Pause, Shift, home, moving_part, rest, shift, wait
+from teleop.commission.gimbal.motion import FURTHEST, MOVED, SETTLE, Pause, Shift, home, moving_part, rest, shift, wait
 from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.step import Script
 
 REACH, SECONDS, SHORT = 2.0, 1.0, 0.5  # deg and s
 SLOWEST = 25.5  # s: a place that is not where it is thought to be is approached slowly
 LEAPS = 0.6  # deg
+LATEST, LONGEST = 0.9, 2.0  # s: the beginnings and lengths of a move that are tried
 NAMEABLE = ((-180.0, 180.0), (-30.0, 30.0), (-56.0, 146.0))  # yaw, roll, pitch: V2.5, figure 7
 
 
@@ -74,7 +77,7 @@ class PositionStep(GimbalStep):
         bench, index = self.bench, self.index
         track = moving_part(bench.since(first.sent - 0.3), index)
         seconds, steps = travel_time(track), smallest_step(track)
-        how = "from the first tenth of the way to the last"
+        how = "the constant speed that the readings fit best"
         facts = [self.travel.not_seen("too few readings") if seconds is None else self._time(self.travel, seconds, how)]
         if bench.noise or steps is None:
             return [*facts, self.step.not_seen("the readings are noisy" if bench.noise else "too few readings")]
@@ -109,7 +112,7 @@ class PositionStep(GimbalStep):
         seconds = travel_time(moving_part(bench.since(brief.sent - 0.3), index))
         if seconds is None:
             return [*facts, self.brief.not_seen("too few readings")]
-        return [*facts, self._time(self.brief, seconds, "from the first tenth of the way to the last")]
+        return [*facts, self._time(self.brief, seconds, "the constant speed that the readings fit best")]
 
     def _out_and_back(self) -> Pause:
         bench, index = self.bench, self.index
@@ -137,23 +140,19 @@ class PositionStep(GimbalStep):
 
 
 def travel_time(track: list[tuple[float, float]]) -> float | None:
-    """How long a move at constant speed took, by when it passed the first and the last tenth of its way, in s."""
+    """How long a move at constant speed took, in s: of all such moves the one that the readings fit best."""
     if len(track) < 8:
         return None
-    start, end = track[0][1], track[-1][1]
+    times, places = np.asarray(track).T
+    settled = places[times > times[-1] - SETTLE]
+    start, end = places[0], settled.mean()
     if abs(end - start) < MOVED:
         return None
-    shares = [((time), (place - start) / (end - start)) for time, place in track]
-    first, last = crossing(shares, 0.1), crossing(shares, 0.9)
-    return None if first is None or last is None else (last - first) / 0.8
-
-
-def crossing(shares: list[tuple[float, float]], share: float) -> float | None:
-    """When it was passed, between two readings."""
-    for (before, low), (time, high) in pairwise(shares):
-        if low < share <= high:
-            return before + (time - before) * (share - low) / (high - low)
-    return None
+    shares = (places - start) / (end - start)
+    begins = np.arange(times[0], times[0] + LATEST, 0.01)[:, None, None]
+    lengths = np.arange(0.1, LONGEST, 0.02)[None, :, None]
+    left = ((np.clip((times - begins) / lengths, 0.0, 1.0) - shares) ** 2).sum(axis=2)
+    return float(lengths[0, np.unravel_index(left.argmin(), left.shape)[1], 0])
 
 
 def smallest_step(track: list[tuple[float, float]]) -> float | None:

@@ -73,6 +73,16 @@ class Rest:
             return now + HALT
         return self._settle(now)
 
+    def at_once(self, now: float) -> None:
+        """All of it in one go."""
+        connection = self._bench.connection
+        if self._pushed:
+            connection.stream(gimbal.Joystick(pitch=0, roll=0, yaw=0))
+        if self._taken:
+            connection.request(gimbal.Speed(0.0, 0.0, 0.0, take_over=False, ignore_focal_length=True), now)
+        if now < self._moving_until:
+            connection.request(gimbal.Position(0.0, 0.0, 0.0, False, time_for_action=HALT), now)
+
     def _settle(self, now: float) -> float | None:
         if self._until is None:
             self._until = now + SETTLES

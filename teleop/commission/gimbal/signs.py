@@ -41,14 +41,22 @@ def main_angle(moved: tuple[float, float, float], least: float = MOVED) -> int |
     return index if abs(moved[index]) >= least else None
 
 
+def seen_angle(bench: GimbalBench, moved: tuple[float, float, float], index: int, least: float) -> int | None:
+    """The angle that answered: the one that was sent, where the order is known; another may drift meanwhile."""
+    if bench.knows_order:
+        return index if abs(moved[index]) >= least else None
+    return main_angle(moved, least)
+
+
 def settle_order(bench: GimbalBench, subject: Subject, index: int, moved: int) -> list[Fact]:
     """What follows from the angle that moved when another was sent. Raises DeviceError where that makes no sense."""
     if moved != index:
-        if {moved, index} != {SECOND, THIRD}:
-            raise DeviceError(f"{ANGLES[moved]} moved where {ANGLES[index]} was sent")
+        if {moved, index} != {SECOND, THIRD} or bench.knows_order:
+            raise DeviceError(f"{ANGLES[moved]} moved where {ANGLES[index]} was sent: repeat this step")
         bench.exchange()
     elif index not in (SECOND, THIRD):
         return []
+    bench.knows_order = True
     order = "yaw, pitch, roll" if bench.swapped else "yaw, roll, pitch"
     return [subject.found(order, f"the angle that moved when {ANGLES[index]} was sent")]
 

@@ -36,9 +36,11 @@ class SoftLimitsStep(GimbalStep):
         super().__init__(bench)
         self.index, self.name = index, bench.name(index)
         self.key, self.title = f"soft-limits-{self.name}", f"Soft limits: {self.name}"
+        coarse = " and ".join(key for key in KEYS[self.name] if len(key) == 1)
         self.about = (
             f"Drive {self.name} to its {ENDS[self.name][0]} end, as far as the shot and the cables allow:",
-            f"arrow keys by 2 deg, {' and '.join(key for key in KEYS[self.name] if len(key) == 1)} by 10. Enter marks it. Then the other end. It goes back to where it began.",
+            f"the arrow keys go 2 deg, {coarse} 10 deg. Enter marks it.",
+            "Then the other end. It goes back to where it began.",
         )
         name = self.name
         self.low = Subject(f"soft.min.{name}", f"Lower soft limit of {name}", None, "deg")

@@ -7,9 +7,9 @@ import math
 from teleop.commission.findings import Fact, Findings, Subject
 from teleop.commission.gimbal.base import GimbalStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, Pause, cruise, home, let_go, rest, wait
+from teleop.commission.gimbal.motion import FURTHEST, Pause, cruise, home, less, let_go, pulse, rest, wait
 from teleop.commission.gimbal.places import around, gone
-from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
+from teleop.commission.gimbal.signs import seen_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.gimbal.swings import Swings
 from teleop.commission.step import Script, Wait
 from teleop.core.response import Response
@@ -54,13 +54,12 @@ class SpeedStep(GimbalStep):
         bench, index = self.bench, self.index
         bench.allow(FURTHEST)
         moved, code = yield from self._probe()
-        main = main_angle(moved, 0.25 + bench.noise)
+        main = seen_angle(bench, moved, index, 0.2 + bench.noise)
         if main is None:
             how = "not answered" if code is None else f"return code {code:#04x}"
-            yield from let_go(bench)
             return [self.obeyed.found(False, f"{how}, and it did not move at {PROBE:g} deg/s")]
         facts = settle_order(bench, self.signs.order, index, main)
-        way = moved[main]
+        way = moved[main]  # the angle of that name from now on, if roll and pitch were exchanged
         sign = bench.speed_signs[index] = 1 if way > 0 else -1
         rough = max(1.0, abs(way) / (PROBE * PROBE_SECONDS))
         facts.append(self.obeyed.found(True, f"moved {abs(way):.1f} deg at {PROBE:g} deg/s for {PROBE_SECONDS:g} s"))
@@ -81,18 +80,22 @@ class SpeedStep(GimbalStep):
     def _probe(self):
         """1 deg/s for a moment; how far it went."""
         bench, index = self.bench, self.index
-        before = bench.mean()
-        yield from cruise(bench, PROBE, PROBE_SECONDS, lambda value: bench.speed(index, value), f"{self.name} turns")
-        code = bench.code(bench.speed(index, 0.0))
-        yield from self._zeros()
-        return gone(before, bench.mean()), code
+        sent: list[int] = []
+
+        def send(value: float) -> None:
+            sent.append(bench.speed(index, value))
+
+        nothing = yield from pulse(bench, 0.0, PROBE_SECONDS, send, "speed 0: it should not move")
+        yield from home(bench)
+        moved = yield from pulse(bench, PROBE, PROBE_SECONDS, send, f"{self.name} turns")
+        codes = [code for code in map(bench.code, sent) if code is not None]
+        return less(moved, nothing), codes[-1] if codes else None
 
     def _zeros(self) -> Pause:
         bench, index = self.bench, self.index
         for _ in range(3):
-            sequence = bench.speed(index, 0.0)
+            bench.speed(index, 0.0)
             yield from wait(bench, 0.05)
-        self._code = bench.code(sequence)
         yield from let_go(bench)
         yield from rest(bench)
 
@@ -137,7 +140,7 @@ class SpeedStep(GimbalStep):
         yield from cruise(bench, speed, HELD, lambda value: bench.speed(index, value), "the last speed is on its way")
         last = bench.now - 0.02  # between the last one and the next that did not come
         end = bench.now + LAPSES
-        while bench.now < end and abs(bench.mean(0.06)[index] - start) < ROOM:
+        while bench.now < end and abs(around(bench.mean(0.06)[index] - start)) < ROOM:
             yield Wait(0.02, "nothing is sent: it should stop by itself")
             if bench.now > last + 0.8 and bench.still:
                 break

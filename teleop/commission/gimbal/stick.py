@@ -5,16 +5,16 @@ from __future__ import annotations
 from teleop.commission.findings import Findings, Subject
 from teleop.commission.gimbal.base import GimbalStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, cruise, home, let_go, rest, wait
-from teleop.commission.gimbal.places import around, gone
-from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
+from teleop.commission.gimbal.motion import FURTHEST, cruise, home, less, pulse, wait
+from teleop.commission.gimbal.places import around
+from teleop.commission.gimbal.signs import seen_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.step import Script, Wait
 
 FULL = 15000
 FIRST, BRIEF = 1, 0.1  # the smallest push, and s
 SEEN = 0.2  # deg in that time that are no more noise
 SPEED = 3.0  # deg/s of the push that is measured
-LONG = 1.0  # s of it
+LONG, LEAST = 1.0, 1.2  # s of it, and deg that it is to go at least
 LAPSES, ROOM = 1.5, 4.6  # s and deg in which a push that is not repeated is to end
 
 
@@ -45,7 +45,7 @@ class StickStep(GimbalStep):
         bench, index = self.bench, self.index
         bench.allow(FURTHEST)
         push, moved = yield from self._grow()
-        main = main_angle(moved, SEEN)
+        main = seen_angle(bench, moved, index, SEEN)
         if main is None:
             return [self.obeyed.found(False, "it did not move at full deflection for 0.1 s")]
         facts = settle_order(bench, self.signs.order, index, main)
@@ -55,7 +55,9 @@ class StickStep(GimbalStep):
         ]
         rough = moved[main] / BRIEF / push * FULL  # deg/s at full deflection, in the sign of readings
         push = max(1, min(FULL, round(min(2.0 * push, SPEED / abs(rough) * FULL))))
-        there = yield from self._go(push)
+        while abs(there := (yield from self._go(push))) < LEAST and push < FULL:
+            push = min(FULL, 2 * push)
+            yield from home(bench)
         yield from home(bench)
         back = yield from self._go(-push)
         full = bench.full_stick[index] = (there - back) / 2 / LONG / push * FULL
@@ -73,26 +75,23 @@ class StickStep(GimbalStep):
 
     def _grow(self):
         """The push that was first seen to move it, and how far; each is measured before the next."""
-        bench, index, push = self.bench, self.index, FIRST
+        bench, push = self.bench, FIRST
+        nothing = yield from pulse(bench, 0, BRIEF, self._send, "push 0: it should not move")
         while True:
-            before, deflection = bench.mean(), push
-            yield from cruise(bench, deflection, BRIEF, lambda value: bench.push(index, round(value)), f"push {push}")
-            yield from let_go(bench)
-            yield from rest(bench, 0.3)
-            moved = gone(before, bench.mean())
-            furthest = max(map(abs, moved))
+            if max(map(abs, bench.ways_back().values()), default=0.0) > 1.0:
+                yield from home(bench)
+            moved = less((yield from pulse(bench, push, BRIEF, self._send, f"push {push}")), nothing)
+            furthest = abs(moved[self.index]) if bench.knows_order else max(map(abs, moved))
             if furthest >= SEEN + bench.noise / 2 or push == FULL:
                 return push, moved
             push = min(FULL, push * (4 if furthest < SEEN / 3 else 2))
 
+    def _send(self, value: float) -> None:
+        self.bench.push(self.index, round(value))
+
     def _go(self, push: int):
         """How far it goes in the time of the long push."""
-        bench, index = self.bench, self.index
-        before = bench.mean()
-        yield from cruise(bench, push, LONG, lambda value: bench.push(index, round(value)), f"push {push}")
-        yield from let_go(bench)
-        yield from rest(bench)
-        return gone(before, bench.mean())[index]
+        return (yield from pulse(self.bench, push, LONG, self._send, f"push {push}"))[self.index]
 
     def _direction(self, sign: int):
         """`sign` is that of the reading in the last move, which the operator has seen."""
@@ -105,10 +104,10 @@ class StickStep(GimbalStep):
     def _lapse(self, push: int, full: float) -> Script:
         bench, index = self.bench, self.index
         start, begin = bench.mean()[index], bench.now
-        yield from cruise(bench, push, 0.4, lambda value: bench.push(index, round(value)), "the last push")
+        yield from cruise(bench, push, 0.4, self._send, "the last push")
         last = bench.now - 0.02
         end = bench.now + LAPSES
-        while bench.now < end and abs(bench.mean(0.06)[index] - start) < ROOM:
+        while bench.now < end and abs(around(bench.mean(0.06)[index] - start)) < ROOM:
             yield Wait(0.02, "nothing is sent: it should stop by itself")
             if bench.now > last + 0.8 and bench.still:
                 break

@@ -111,18 +111,31 @@ def _differences(old: Any, new: Any, path: Location) -> Iterator[_Edit]:
             yield from (
                 _differences(old[index], value, (*path, index)) if index < len(old) else [_Edit((*path, index), value)]
             )
+    elif isinstance(old, list) and isinstance(new, list) and new and (gone := _removed(old, new)):
+        yield from (_Edit((*path, index), delete=True) for index in reversed(gone))
     elif old != new or isinstance(old, bool) != isinstance(new, bool):
         yield _Edit(path, new)
+
+
+def _removed(old: Sequence[Any], new: Sequence[Any]) -> list[int]:
+    """The places of what `new` lacks of `old`; none where it is not the rest of it."""
+    rest, gone = list(new), []
+    for index, value in enumerate(old):
+        if rest and rest[0] == value:
+            rest.pop(0)
+        else:
+            gone.append(index)
+    return [] if rest else gone
 
 
 def _applied(text: str, edit: _Edit) -> str:
     node = compose(text, MAX_DEPTH, MAX_NODES)
     parent, key_node = None, None
     for step in edit.path[:-1]:
-        node = _child(node, step)[1]
+        node = child(node, step)[1]
     if edit.path:
         parent = node
-        key_node, node = _child(parent, edit.path[-1])
+        key_node, node = child(parent, edit.path[-1])
     if edit.delete:
         return _without(text, parent, edit.path[-1])
     if node is None:
@@ -130,7 +143,7 @@ def _applied(text: str, edit: _Edit) -> str:
     return _with_value(text, parent, key_node, node, edit.value)
 
 
-def _child(node: Any, step: str | int) -> tuple[Any, Any]:
+def child(node: Any, step: str | int) -> tuple[Any, Any]:
     """The key and the value below a node; None for one that is not there."""
     if isinstance(node, yaml.MappingNode):
         return next(((key, value) for key, value in node.value if key.value == step), (None, None))
@@ -170,15 +183,17 @@ def _with_new(text: str, parent: Any, key: str | int, value: Any) -> str:
 
 
 def _without(text: str, parent: Any, key: str | int) -> str:
-    """Without an entry of a mapping that has others."""
-    index = next(index for index, (node, _) in enumerate(parent.value) if node.value == key)
-    begin, end = parent.value[index][0].start_mark.index, _end_of_entry(parent.value[index])
+    """Without an entry of a mapping or a list that has others."""
+    in_list = isinstance(parent, yaml.SequenceNode)
+    index = key if in_list else next(index for index, (node, _) in enumerate(parent.value) if node.value == key)
+    assert isinstance(index, int)
+    begin, end = _begin_of_entry(parent.value[index]), _end_of_entry(parent.value[index])
     line = text.rfind("\n", 0, begin) + 1
-    if not parent.flow_style and not text[line:begin].strip():
+    if not parent.flow_style and not text[line:begin].strip(" -" if in_list else None):
         behind = end if text[end - 1 : end] == "\n" else _line_end(text, end) + len(_break(text))
         return text[:line] + text[behind:]
     if index + 1 < len(parent.value):
-        return text[:begin] + text[parent.value[index + 1][0].start_mark.index :]
+        return text[:begin] + text[_begin_of_entry(parent.value[index + 1]) :]
     return text[: _end_of_entry(parent.value[index - 1])] + text[end:]
 
 
@@ -187,6 +202,10 @@ def _end(node: Any) -> int:
     if isinstance(node, yaml.CollectionNode) and not node.flow_style and node.value:
         return _end_of_entry(node.value[-1])
     return node.end_mark.index
+
+
+def _begin_of_entry(entry: Any) -> int:
+    return (entry[0] if isinstance(entry, tuple) else entry).start_mark.index
 
 
 def _end_of_entry(entry: Any) -> int:

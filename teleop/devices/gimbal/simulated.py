@@ -12,11 +12,13 @@ from teleop.sim.gimbal.device import SimulatedGimbal
 from teleop.sim.link import FaultyWire
 
 
-def simulated_gimbal(profile: Profile, link: str) -> SimulatedGimbal:
+def simulated_gimbal(
+    profile: Profile, link: str, make: Callable[..., SimulatedGimbal] = SimulatedGimbal
+) -> SimulatedGimbal:
     """As the `simulated` keys of the gimbal on `link` have it."""
     continuous = Axis.PAN in profile.limits and profile.limits[Axis.PAN].continuous
     settings, firmware = simulated_settings(profile, link), profile_firmware(profile, link)
-    return SimulatedGimbal(continuous=continuous, firmware=firmware, **settings)
+    return make(continuous=continuous, firmware=firmware, **settings)
 
 
 def simulated_wire(

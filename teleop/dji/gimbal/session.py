@@ -79,8 +79,8 @@ class Session:
         """The frame that sends `message`, whose reply, if any, will not be missed. Raises FieldError."""
         return self._send(message)[0]
 
-    def report(self, message: Message) -> bytes:
-        """The frame with which a device reports `message` unasked: it may have more than the document's tables."""
+    def push(self, message: Message) -> bytes:
+        """The frame that pushes `message`, as a device does: its values may be beyond the document's tables."""
         return self._send(message, checked=False)[0]
 
     def request(self, message: Message, now: float, timeout: float = REPLY_TIMEOUT) -> tuple[bytes, int]:
