@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Callable
 
 from teleop.captures.captured import FROM_DEVICE, Captured
@@ -30,6 +31,7 @@ class Recording:
         self._writer, self._numbers, self._now = writer, numbers, now
         self._offset = (date() if started is None else started) - now()
         self._last = -math.inf
+        self._heard: deque[Captured] = deque()
 
     def hear(self, heard: BusFrame | bytes) -> None:
         """What has just arrived: a frame of a CAN bus, or bytes from the device on a serial line."""
@@ -37,25 +39,21 @@ class Recording:
             self.hear_from(FROM_DEVICE, heard)
         else:
             time = self._time(heard.stamp)
-            self._add(Captured(time, heard.id, heard.data, heard.extended, heard.remote, heard.error))
+            self._heard.append(Captured(time, heard.id, heard.data, heard.extended, heard.remote, heard.error))
 
     def hear_from(self, sender: int, data: bytes) -> None:
         """Bytes of a serial line that have just passed, to the device or from it."""
-        self._add(Captured(self._time(None), sender, data))
+        self._heard.append(Captured(self._time(None), sender, data))
 
     def look(self) -> None:
-        """Write what has arrived. Raises OutputError."""
-        if self._numbers:
-            for frame in self._numbers.settled(self._now() + self._offset):
-                self._writer.add(frame)
+        """Write what has arrived; another thread may do so than the one that hears. Raises OutputError."""
+        self._take(self._now() + self._offset)
         self._writer.flush()
 
     def close(self) -> None:
         """Complete the file. Raises OutputError."""
         try:
-            if self._numbers:
-                for frame in self._numbers.settled(math.inf):
-                    self._writer.add(frame)
+            self._take(math.inf)
         finally:
             self._writer.close()
 
@@ -68,10 +66,14 @@ class Recording:
         blanked = self._numbers.blanked
         return f"{text}, {blanked} serial number{'' if blanked == 1 else 's'} blanked (--serial keeps them)"
 
-    def _add(self, frame: Captured) -> None:
-        if self._numbers:
-            self._numbers.add(frame)
-        else:
+    def _take(self, now: float) -> None:
+        while self._heard:
+            frame = self._heard.popleft()
+            if self._numbers:
+                self._numbers.add(frame)
+            else:
+                self._writer.add(frame)
+        for frame in self._numbers.settled(now) if self._numbers else ():
             self._writer.add(frame)
 
     def _time(self, stamp: float | None) -> float:

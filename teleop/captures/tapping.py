@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 from teleop.captures.captured import FROM_DEVICE, TO_DEVICE, Source
 from teleop.captures.recording import Recording
 from teleop.core.interfaces import Link
@@ -26,10 +28,11 @@ def tap(link: Link, recording: Recording, source: Source) -> Link:
 
 
 class TappedLink:
-    """A `Link` to a simulated device."""
+    """A `Link` to a simulated device; `foreign` counts the frames of others, as on a bus."""
 
     def __init__(self, link: Link, recording: Recording, source: Source) -> None:
         self._link, self._recording, self._in_pieces = link, recording, source.kind == "can"
+        self.foreign: Counter[int] = getattr(link, "foreign", Counter())
 
     def send(self, data: bytes) -> None:
         self._link.send(data)

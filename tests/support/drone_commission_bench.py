@@ -8,7 +8,7 @@ from typing import Any
 
 from teleop.commission.drone.bench import DroneBench
 from teleop.commission.drone.link import DroneLink
-from teleop.commission.drone.session_steps import WORDS
+from teleop.commission.drone.session_steps import WORD
 from teleop.commission.drone.steps import drone_steps
 from teleop.commission.findings import Findings
 from teleop.commission.page import GO, RUBOUT, SKIP, Page, Stage
@@ -37,7 +37,7 @@ class DroneOperator:
     """Does what the page asks for: types, turns the drone and its switch, lays it down again."""
 
     drone: SimulatedDrone
-    words: str = WORDS
+    words: str = WORD
     skips: Callable[[Page], bool] = lambda _page: False
     hands: bool = True  # whether it is turned when that is asked for
     troubles: list[str] = field(default_factory=list)
@@ -49,7 +49,7 @@ class DroneOperator:
         seen = f"{page.key} {page.stage} {page.question}"
         if page.stage is Stage.ASKING and page.question and seen.split(" ", 2)[2] != self.was:
             self.was, self.asked, self.done = page.question, now, False
-            if "after Enter" in page.question:
+            if "After Enter" in page.question:
                 self.drone.carry(now, 0.2)
             return []
         if now - self.asked < 0.3:
@@ -78,7 +78,7 @@ class DroneOperator:
             place = next(words for words in SWITCHES if words in question)
             self.drone.turn_switch(now, SWITCHES[place])
             return [GO]
-        if "after Enter" in question:
+        if "After Enter" in question:
             return [GO]
         if "where you are" in question:
             return ["y"]
@@ -90,7 +90,10 @@ class DroneOperator:
 
 
 class DroneCommissionBench:
-    """`settings` are those of the SimulatedDrone, `tick` is s between two turns. `sent` are all frames that went to it, with their times."""
+    """`settings` are those of the SimulatedDrone, `tick` is s between two turns.
+
+    `sent` are all frames that went to it, with their times.
+    """
 
     def __init__(
         self, settings: DroneSettings | None = None, switch: Switch = Switch.P, tick: float = 0.01, **options: Any
@@ -107,6 +110,7 @@ class DroneCommissionBench:
         self.runner = Runner(self.bench, drone_steps(self.bench), Findings("drone", device="drone"))
         self.operator = DroneOperator(self.drone)
         self.watch: Callable[[DroneCommissionBench], object] = lambda _bench: None
+        self.longest = ""  # line of a page
         self.motors = False  # whether they ever ran
 
     def turn(self, *keys: str) -> None:
@@ -114,6 +118,8 @@ class DroneCommissionBench:
         self.clock.sleep_until(self.clock.now() + self._tick)
         self.motors |= self.drone.autopilot.flight.motors
         self.watch(self)
+        page = self.runner.page
+        self.longest = max([self.longest, page.trouble, page.consent, page.question, *page.lines], key=len)
 
     def run(self) -> Findings:
         end = self.clock.now() + LONGEST

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import threading
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from typing import Self
@@ -24,6 +26,8 @@ from teleop.links.url import LinkAddress
 from teleop.plots.findings_html import page
 
 PAGE, REPORT, CAPTURE = "report.html", "report.json", "capture"
+LOOK = 0.1  # s between two writes of the capture
+LAST = 3.0  # s for the last of them
 
 
 def default_folder(rig: str) -> Path:
@@ -45,8 +49,8 @@ def read_report(path: Path) -> Findings:
 class Results:
     """A new `folder` with the capture of the link at `address`, open while it is entered.
 
-    Serial numbers are in it only with `serials`. `now` is a clock in s. Raises UsageError for a folder that exists,
-    OutputError where it cannot be made.
+    Serial numbers are in it only with `serials`. `now` is a clock in s. A thread writes the capture. Raises UsageError
+    for a folder that exists, OutputError where it cannot be made.
     """
 
     def __init__(
@@ -72,25 +76,32 @@ class Results:
             raise OutputError(folder, error.strerror or str(error)) from None
         numbers = None if serials else SerialNumbers(self._source)
         self._recording = Recording(CaptureWriter(self.capture, self._source), numbers, now)
+        self._over, self._trouble = threading.Event(), ""
         self._written = False
+        self._thread = threading.Thread(target=self._work, name="capture", daemon=True)
+        self._thread.start()
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
         """The capture is complete. Without a report nothing of it is left behind."""
-        self._recording.close()
+        self.close()
         if not self._written:
             self.capture.unlink(missing_ok=True)
-            self.folder.rmdir()
+            with suppress(OSError):  # not empty: another has put something there
+                self.folder.rmdir()
+
+    def close(self) -> None:
+        """Complete the capture; waits LAST s for the disk at most. Closing it again is fine."""
+        self._over.set()
+        self._thread.join(LAST)
+        if self._thread.is_alive():
+            self._trouble = self._trouble or f"{self.capture}: the disk does not answer"
 
     def tap(self, link: Link) -> Link:
         """The link to use in the place of `link`: all that passes is in the capture."""
         return tap(link, self._recording, self._source)
-
-    def look(self) -> None:
-        """Put on the disk what has passed; call it often. Raises OutputError."""
-        self._recording.look()
 
     def write(self, findings: Findings) -> Sequence[Path]:
         """Write the page and the report, also again; the files of the folder. Raises OutputError."""
@@ -102,8 +113,18 @@ class Results:
 
     @property
     def summary(self) -> str:
-        """What is in the capture, in a line."""
-        return self._recording.summary()
+        """What is in the capture, in a line, and what is wrong with it."""
+        return "; ".join([self._recording.summary(), *([self._trouble] if self._trouble else [])])
+
+    def _work(self) -> None:
+        """A disk that is slow or full must not hold up what moves."""
+        try:
+            while not self._over.wait(LOOK):
+                self._recording.look()
+            self._recording.close()
+        except OutputError as error:
+            self._trouble = str(error)
+            self._over.wait()
 
 
 def change_lines(before: Findings, now: Findings) -> list[str]:

@@ -18,7 +18,7 @@ from teleop.commission.gimbal.steps import gimbal_steps
 from teleop.commission.runner import Runner
 from teleop.config.profile import Profile
 from teleop.core.clock import date
-from teleop.core.interfaces import Clock
+from teleop.core.interfaces import Clock, Link
 from teleop.inputs.hid.backend import HidBackend
 from teleop.links.url import LinkAddress
 from teleop.sim.gimbal.device import SimulatedGimbal
@@ -31,7 +31,8 @@ _BY_ID = "/by-id/"  # a path of Linux that has a serial number in it
 class Commissioning:
     """Open from `start` on, or while it is entered; `turn` it every TICK s. `polled`: devices are read in `turn`.
 
-    Raises UsageError for a rig without a gimbal, LinkError when its link cannot be opened.
+    `tapped` is called with the link's address, and gives what taps the link. Raises UsageError for a rig without a
+    gimbal, LinkError when its link cannot be opened.
     """
 
     profile: Profile
@@ -40,9 +41,12 @@ class Commissioning:
     backend: Callable[[], HidBackend]
     polled: bool = False
     simulated: SimulatedGimbal | None = None
+    tapped: Callable[[LinkAddress], Callable[[Link], Link]] | None = None
 
     def __post_init__(self) -> None:
         self.link = GimbalLink(self.profile, self.clock, self.simulated)
+        if self.tapped:
+            self.link.tap = self.tapped(self.link.address)
         self.bench = GimbalBench(self.link.open, self.link.section)
         pad = PadStep(self.profile, self.backend, self.clock.now, self.polled)
         self._write = ProfileStep(self.file)
@@ -70,10 +74,14 @@ class Commissioning:
         return replace(found, model=model, firmware=firmware)
 
     def _begun(self) -> Findings:
-        adapter, serials = without_serial(self.link.address)
-        day = datetime.fromtimestamp(date()).strftime("%Y-%m-%d")
-        program = version("rs-teleop")
-        return Findings(self.profile.name, "gimbal", adapter=adapter, program=program, date=day, serials=serials)
+        return begun(self.profile, "gimbal", self.link.address)
+
+
+def begun(profile: Profile, device: str, address: LinkAddress) -> Findings:
+    """The findings before anything is found."""
+    adapter, serials = without_serial(address)
+    day = datetime.fromtimestamp(date()).strftime("%Y-%m-%d")
+    return Findings(profile.name, device, adapter=adapter, program=version("rs-teleop"), date=day, serials=serials)
 
 
 def without_serial(address: LinkAddress) -> tuple[str, dict[str, str]]:

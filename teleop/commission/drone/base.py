@@ -73,4 +73,4 @@ def until_or_key(
 def check_on_ground(bench: DroneBench) -> None:
     """Raises DeviceError unless the drone reports, now, that it stands by with its motors off."""
     if not bench.stands:
-        raise DeviceError("the drone does not report standby: it must stand on the ground, its motors off")
+        raise DeviceError("the drone does not report standby: put it down, motors off")

@@ -23,10 +23,10 @@ PLANET = 90.0, 180.0  # deg
 
 
 class Turn(NamedTuple):
-    """`index` of roll, pitch, yaw; what the operator does, which the documents count as positive."""
+    """`place` among roll, pitch, yaw; what the operator does, which the documents count as positive."""
 
     name: str
-    index: int
+    place: int
     does: str
 
 
@@ -50,7 +50,7 @@ class Fields(ActivatedStep):
     """Whether what it broadcasts at rest can be true."""
 
     key, title = "fields", "The broadcast at rest"
-    about = ("Leave the drone where it is: its broadcast is read for a second.", "Nothing is sent, nothing moves.")
+    about = ("Leave the drone where it is: its broadcast is read for 1 s.", "Nothing is sent, nothing moves.")
     subjects = (NORM, STILL, BATTERY, HEALTH, LATITUDE)
 
     def script(self, findings: Findings) -> Script:  # noqa: ARG002
@@ -84,7 +84,7 @@ class Fields(ActivatedStep):
         latitude, longitude = math.degrees(position.latitude), math.degrees(position.longitude)
         if abs(latitude) > PLANET[0]:
             return [*facts, LATITUDE.found(False, "the first number cannot be a latitude")]
-        text = f"It says: latitude {latitude:.2f}, longitude {longitude:.2f} deg. Is that where you are?"
+        text = f"Is this where you are: latitude {latitude:.2f}, longitude {longitude:.2f} deg?"
         answer = yield Question(text, {"y": "yes", "n": "no, exchanged", "u": "unknown"})
         if answer == "u":
             return [*facts, LATITUDE.not_seen("the operator does not know")]
@@ -97,7 +97,7 @@ class Signs(ActivatedStep):
     key, title = "signs", "Signs, by turning it in the hand"
     about = (
         "Take the drone in your hands, its propellers off and its motors off.",
-        "You are asked to turn its nose right, its nose up, its right side down, and to lift it.",
+        "Turn it as you are asked: nose right, nose up, right side down. Then lift it.",
         "Nothing is sent, and nothing moves but what you move.",
     )
     subjects = (*ANGLE.values(), *RATE.values(), HEIGHT, CLIMB)
@@ -112,7 +112,7 @@ class Signs(ActivatedStep):
     def _turn(self, turn: Turn) -> Generator[Wait | Question, str, list[Fact]]:
         angle, rate = ANGLE[turn.name], RATE[turn.name]
         watch = _Turning(self.bench, turn)
-        yield Question(f"Hold it level and still: {turn.does.lower()} after Enter.", {"enter": "ready"})
+        yield Question(f"Hold it level. After Enter: {turn.does.lower()}.", {"enter": "ready"})
         watch.begin()
         if not (yield from until_or_key(self.bench, watch.turned, f"{turn.does}, quickly, and hold it.", PATIENCE)):
             how = "no such turn was seen"
@@ -129,7 +129,7 @@ class Signs(ActivatedStep):
     def _lift(self) -> Generator[Wait | Question, str, list[Fact]]:
         bench = self.bench
         watch = _Lifting(bench)
-        yield Question("Hold it low and level: lift it by half a meter after Enter.", {"enter": "ready"})
+        yield Question("Hold it low and level. After Enter: lift it by half a meter.", {"enter": "ready"})
         watch.begin()
         if not (yield from until_or_key(bench, watch.lifted, "Lift it by half a meter, quickly.", PATIENCE)):
             return [HEIGHT.not_seen("no lift was seen"), CLIMB.not_seen("no lift was seen")]
@@ -146,7 +146,7 @@ class _Turning:
     """Watches one turn: the angles from where it began, and the fastest rate of its axis."""
 
     def __init__(self, bench: DroneBench, turn: Turn) -> None:
-        self._bench, self._index = bench, turn.index
+        self._bench, self._index = bench, turn.place
         self._first: tuple[float, float, float] | None = None
         self.way = self.fastest = 0.0  # deg, deg/s
 

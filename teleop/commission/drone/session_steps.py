@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Generator, Mapping
 
 from teleop.commission.drone.base import OFF, ActivatedStep, DroneStep, check_on_ground, until, wait
@@ -15,7 +16,7 @@ from teleop.dji.drone.broadcast import Broadcast
 from teleop.dji.drone.enums import Code, FlightStatus, Rate
 from teleop.dji.message import Message
 
-WORDS = "propellers off"
+WORD = "props-off"  # without a space, which stops
 TRIES = 3  # of typing them
 LISTENS = 1.0  # s
 ANSWERED = 4.0  # s for an answer: an activation is sent three times, a second apart
@@ -41,10 +42,10 @@ class Propellers(DroneStep):
 
     key, title = "propellers", "Before anything is sent"
     about = (
-        "Take all propellers off the drone. Do it now, also when it was never meant to fly today.",
-        "Put it on the ground or a table, its battery charged and its RC on, the RC's mode switch in P.",
-        "Nothing here starts the motors or takes off: the program has no such command on this path.",
-        "Nothing is sent on this page.",
+        "Take all propellers off the drone, also if it is not to fly today.",
+        "Put it on the ground or a table, with a charged battery.",
+        "Switch its RC on, the mode switch in P.",
+        "Nothing here can start the motors or take off. Nothing is sent on this page.",
     )
     subjects = (OFF,)
 
@@ -53,10 +54,10 @@ class Propellers(DroneStep):
 
     def script(self, findings: Findings) -> Script:  # noqa: ARG002
         for _ in range(TRIES):
-            typed = yield Question(f"Are all propellers off? Then type: {WORDS}", word=True)
-            if " ".join(typed.lower().split()) == WORDS:
-                return [OFF.found(True, f"the operator typed: {WORDS}")]
-        raise RefusedError(f"not confirmed: the commissioning of a drone begins only after {WORDS} is typed")
+            typed = yield Question(f"Are all propellers off? Then type {WORD}", word=True)
+            if re.sub(r"[^a-z]", "", typed.lower()) == re.sub(r"[^a-z]", "", WORD):
+                return [OFF.found(True, f"the operator typed {WORD}")]
+        raise RefusedError(f"a drone is commissioned only after {WORD} is typed")
 
 
 class ListenToDrone(DroneStep):
@@ -72,7 +73,7 @@ class ListenToDrone(DroneStep):
         yield from wait(bench, LISTENS, "listening")
         came = bench.counts.total() - counts
         if status_refuses(bench.get("status")):
-            raise RefusedError("the drone reports that it flies or that its motors run: it must stand on the ground")
+            raise RefusedError("the drone reports that it flies: it must stand on the ground")
         how = f"{came} parts of the broadcast in {LISTENS:g} s, before anything was sent"
         broken = bench.connection.session.counts.damage - damage
         return [EARLY.found(came > 0, how), DAMAGE.found(broken, f"counted for {LISTENS:g} s", within=1)]
@@ -83,8 +84,8 @@ class Activation(DroneStep):
 
     key, title = "activation", "Version and activation"
     about = (
-        "The drone is asked for its version, then activated with your app id.",
-        "'Enable API control' must be on in DJI Assistant 2. The app id comes from TELEOP_DJI_APP_ID.",
+        "The drone is asked for its version, then activated with your app id",
+        "(TELEOP_DJI_APP_ID). 'Enable API control' must be on in DJI Assistant 2.",
         "Nothing moves.",
     )
     subjects = (VERSION, CODE, ACTIVATED)
@@ -98,7 +99,7 @@ class Activation(DroneStep):
             )
         bench.firmware, bench.serial = reply.version, getattr(reply, "id", "")
         facts = [VERSION.found(reply.version, "asked (00 00)")]
-        known = {Code.NOT_ACTIVATED: "not activated", Code.OK: "ok"}
+        known: dict[int, str] = {Code.NOT_ACTIVATED: "not activated", Code.OK: "ok"}
         facts.append(CODE.found(known.get(reply.code, f"{reply.code:#06x}"), "asked (00 00)"))
         activated = yield from self._answer(bench.activate())
         if activated is None:
@@ -120,7 +121,7 @@ class Frequencies(ActivatedStep):
     """Sets the push frequencies, and counts."""
 
     key, title = "frequencies", "What it broadcasts, and how often"
-    about = ("The push frequencies are set, and the parts of the broadcast counted for 3 s.", "Nothing moves.")
+    about = ("The push frequencies are set, and what comes is counted for 3 s.", "Nothing moves.")
     subjects = (FREQUENCIES, *RATE.values(), STATUS)
 
     def script(self, findings: Findings) -> Script:  # noqa: ARG002

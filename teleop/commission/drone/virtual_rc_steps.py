@@ -6,7 +6,7 @@ and with it virtual RC.
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 
 from teleop.commission.drone.base import ActivatedStep, Pause, check_on_ground, until, wait
 from teleop.commission.findings import Fact, Findings, Subject
@@ -42,18 +42,23 @@ class ModeSwitch(ActivatedStep):
     subjects = tuple(SWITCH.values())
 
     def script(self, findings: Findings) -> Script:  # noqa: ARG002
-        facts: list[Fact] = []
-        seen: set[int] = set()
-        for mode, subject in SWITCH.items():
+        shown: dict[RcMode, int | None] = {}
+        for mode in SWITCH:
             yield Question(f"Turn the RC's mode switch to {mode.name}, then press Enter.", {"enter": "it is there"})
             yield from wait(self.bench, SETTLES, "reading")
             rc = self.bench.get("rc")
-            if rc is None or int(rc.mode) in seen:
-                facts.append(subject.not_seen("no RC field came" if rc is None else "the broadcast did not change"))
-                continue
-            seen.add(int(rc.mode))
-            facts.append(subject.found(float(rc.mode), "broadcast when the operator had turned it"))
-        return facts
+            shown[mode] = None if rc is None else int(rc.mode)
+        return [_place_of(mode, shown) for mode in SWITCH]
+
+
+def _place_of(mode: RcMode, shown: Mapping[RcMode, int | None]) -> Fact:
+    """What was broadcast for one place; a value that came for several belongs to the place that the document gives."""
+    value, subject = shown[mode], SWITCH[mode]
+    if value is None:
+        return subject.not_seen("no RC field came")
+    if value != mode and list(shown.values()).count(value) > 1:
+        return subject.not_seen("the broadcast showed the same as for another place")
+    return subject.found(float(value), "broadcast when the operator had turned it")
 
 
 class VirtualRcStep(ActivatedStep):
@@ -68,13 +73,15 @@ class VirtualRcStep(ActivatedStep):
     def take(self) -> Pause:
         """Virtual RC on, its sticks neutral, once the drone allows it. Raises DeviceError."""
         bench = self.bench
-        yield from until(bench, lambda: bench.wait == 0, bench.wait + 0.1, "waiting: twice within 2 s locks the drone")
+        yield from until(
+            bench, lambda: bench.wait == 0, bench.wait + 0.1, "waiting 2 s: twice within that would lock the drone"
+        )
         check_on_ground(bench)
         rc, control = bench.get("rc"), bench.get("control")
         if rc is None or rc.mode != RcMode.F:
-            raise DeviceError("the RC's mode switch is not in F: turn it there; leaving F takes the drone back")
+            raise DeviceError("the RC's mode switch is not in F: turn it there")
         if control is not None and control.virtual_rc:
-            raise DeviceError("virtual RC is on already, for another program or an earlier run: wait until it ends")
+            raise DeviceError("virtual RC is on already, for another program: wait until it ends")
         if control is not None and control.device == ControlDevice.MOBILE_DEVICE:
             raise DeviceError("the mobile device has control: close its app")
         bench.enable()
@@ -106,10 +113,10 @@ class VirtualRcOnOff(VirtualRcStep):
     """Virtual RC on with neutral sticks for two seconds, then off."""
 
     key, title = "virtual-rc", "Virtual RC on and off, sticks neutral"
-    consent = "This hands the drone's sticks to the program for 3 s, all of them neutral. Space hands them back."
+    consent = "The program holds the drone's sticks for 3 s, all of them neutral."
     about = (
-        "Virtual RC is enabled once, neutral sticks are sent for 2 s, then it is disabled.",
-        "The motors stay off. Keep a thumb on the RC's mode switch: leaving F ends it too.",
+        "Virtual RC is enabled once, neutral sticks are sent for 2 s, then it ends.",
+        "The motors stay off. Space ends it, and so does the mode switch that leaves F.",
     )
     subjects = (ON, ON_AFTER, DEVICE, MIRRORS, KEPT, OFF, OFF_AFTER)
 
@@ -143,10 +150,10 @@ class VirtualRcTimeout(VirtualRcStep):
     """Virtual RC on, then no more sticks: how long it lasts."""
 
     key, title = "virtual-rc-timeout", "How long virtual RC lasts without sticks"
-    consent = "This hands the drone's sticks to the program, all of them neutral, then sends none until it ends."
+    consent = "The program holds the drone's sticks for 6 s at most, all of them neutral."
     about = (
-        "Virtual RC is enabled once, neutral sticks are sent for 0.5 s, then none: the drone ends it by itself.",
-        "The motors stay off. It is disabled after 5 s at the latest.",
+        "Virtual RC is enabled once, neutral sticks are sent for 0.5 s, then none.",
+        "The drone ends it by itself; after 5 s the program does. The motors stay off.",
     )
     subjects = (TIMEOUT,)
 

@@ -31,7 +31,6 @@ def test_a_simulated_gimbal_leaves_page_report_and_capture(tmp_path: Path) -> No
         link = results.tap(SimLink(SimulatedGimbal(), clock.now))
         link.send(Session().request(gimbal.Version(), clock.now())[0])
         assert link.receive()
-        results.look()
         files = results.write(FOUND)
     assert [file.name for file in files] == ["report.html", "report.json", "capture.log"]
     assert read_report(files[1]) == replace(FOUND, serials={})

@@ -44,6 +44,7 @@ def test_every_fact_of_the_documented_drone() -> None:
     assert bench.bench.serial == "041D492163"
     assert not bench.drone.autopilot.virtual_on
     assert not bench.motors
+    assert len(bench.longest) < 79  # a terminal of 80 columns
 
 
 SIGNS = st.tuples(*[st.sampled_from((1, -1))] * 3)
@@ -164,3 +165,12 @@ def test_rates_that_are_not_obeyed_are_different() -> None:
     assert fact.verdict is Verdict.DIFFERENT
     assert fact.found == pytest.approx(1.0, abs=0.4)
     assert not math.isnan(float(fact.found or 0))
+
+
+def test_a_switch_that_is_not_turned_is_seen_in_f_alone() -> None:
+    bench = DroneCommissionBench(switch=Switch.F)
+    bench.operator.skips = lambda page: page.key in ("signs", "fields")
+    bench.drone.turn_switch = lambda now, switch: None  # type: ignore[method-assign]
+    found = bench.run()
+    assert [found[f"rc.mode.{name}"].found for name in "apf"] == [None, None, 8000]
+    assert found["virtual_rc.off"].found is True
