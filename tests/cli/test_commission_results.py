@@ -44,7 +44,7 @@ def test_reports_of_two_kinds_of_device_are_not_compared(
 ) -> None:
     reports[1].write_text(replace(FOUND, device="drone").to_json())
     assert run(["commission", "--compare", str(reports[0]), "--compare", str(reports[1])]) == 2
-    assert capsys.readouterr().err.endswith("is of a gimbal\n")
+    assert capsys.readouterr().err.endswith("old.json of a gimbal\n")
 
 
 def test_one_report_is_compared_with_what_is_found_now(
