@@ -16,9 +16,8 @@ from teleop.commission.step import Device, Question, Script, Step
 from teleop.core.errors import DeviceError, LinkError
 from teleop.dji.message import FieldError
 
-UNSEEN = 0.1  # s of a page in which Enter does not count: nobody has read it
-AUTOREPEAT = 0.1  # s between two Enters of a key that is held down
-STALL = 0.3  # s between two turns: the computer was elsewhere
+AUTOREPEAT = 0.045  # s between two Enters of a key that is held down: the second does not count
+STALL = 0.5  # s between two turns: the computer was elsewhere, and what was sent has lapsed
 RETRY = 1.0  # s between two attempts to open a lost link
 LONGEST_WORD = 40
 
@@ -61,7 +60,7 @@ class Runner:
         self._trouble = ""
         self._then: Callable[[float], None] = self._show  # after the release
         self._target: Callable[[float], None] = self._show  # after the way back
-        self._since = self._last_enter = self._retry = -math.inf
+        self._last_enter = self._retry = -math.inf
         self._turned = math.inf
         self._release_at = -math.inf
         self._done_any = self._ending = False
@@ -105,7 +104,7 @@ class Runner:
         if key == GO:
             held = now - self._last_enter < AUTOREPEAT
             self._last_enter = now
-            if held or now - self._since < UNSEEN:
+            if held:
                 return
         handlers = {
             Stage.PROMPT: self._at_prompt,
@@ -182,7 +181,7 @@ class Runner:
         elif task is not None and now >= task.wake - 1e-9:
             answer = None if task.question is None else ""
             if task.question is not None:
-                self._stage(Stage.RUNNING, now)
+                self.stage = Stage.RUNNING
                 task.question = None
             self._resume(task, answer, now)
 
@@ -223,7 +222,7 @@ class Runner:
             self._task.script.close()
         self._task, self._trouble, self._then = None, trouble, then or self._show
         self._release_at = -math.inf
-        self._stage(Stage.RELEASING, now)
+        self.stage = Stage.RELEASING
 
     def _release(self, now: float) -> None:
         if now < self._release_at - 1e-9:
@@ -235,8 +234,9 @@ class Runner:
             self._release_at = after
 
     def _show(self, now: float) -> None:
-        self._stage(Stage.SHOWN, now)
-        if self.step.automatic and not self._trouble:
+        self.stage = Stage.SHOWN
+        nothing_to_read = self.step.automatic or not self.step.subjects
+        if nothing_to_read and not self._trouble:
             self._next(now)
 
     def _leave(self, target: Callable[[float], None], now: float) -> None:
@@ -245,7 +245,7 @@ class Runner:
             target(now)
             return
         self._target, self._trouble, self._task = target, "", _Task(self._device.restore())
-        self._stage(Stage.RESTORING, now)
+        self.stage = Stage.RESTORING
 
     def _end_from(self, now: float) -> None:
         self._leave(self._end, now)
@@ -266,11 +266,11 @@ class Runner:
         elif self.step.automatic:
             self._begin(now)
         else:
-            self._stage(Stage.PROMPT, now)
+            self.stage = Stage.PROMPT
 
     def _begin(self, now: float) -> None:
         self._task = _Task(self.step.script(self.findings))
-        self._stage(Stage.RUNNING, now)
+        self.stage = Stage.RUNNING
 
     def _skip(self, now: float) -> None:
         self._not_seen("skipped")
@@ -295,10 +295,7 @@ class Runner:
         self._next(now)
 
     def _finish(self, now: float) -> None:
-        self._stage(Stage.OVER, now)
-
-    def _stage(self, stage: Stage, now: float) -> None:
-        self.stage, self._since = stage, now
+        self.stage = Stage.OVER
 
     def _lose(self, trouble: str, now: float) -> None:
         """The link is gone, and with it every way to send anything."""
@@ -308,7 +305,7 @@ class Runner:
             self._finish(now)
             return
         self._retry = now + RETRY
-        self._stage(Stage.LOST, now)
+        self.stage = Stage.LOST
 
     def _reopen(self, now: float) -> None:
         if now < self._retry:

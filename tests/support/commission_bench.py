@@ -38,6 +38,7 @@ class Operator:
     asked: float = 0.0
     was: str = ""
     tried: set[str] = field(default_factory=set)
+    marked: dict[tuple[str, bool], float] = field(default_factory=dict)  # by axis, and whether it is the lower end
 
     def keys(self, page: Page, now: float) -> list[str]:
         seen = f"{page.key} {page.stage} {page.question}"
@@ -89,7 +90,8 @@ class Operator:
         left = target - here
         up, down = ("up", "down") if name == "tilt" else ("right", "left")
         self.was = ""
-        if abs(left) < 1.1:
+        if abs(left) < 1.6:
+            self.marked[name, first] = here
             return [GO]
         coarse = {"pan": ("L", "H"), "tilt": ("K", "J"), "roll": ("L", "H")}[name]
         if abs(left) >= 10:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from teleop.commission.findings import Findings, Subject
 from teleop.commission.gimbal.base import GimbalStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, cruise, home, less, pulse, wait
+from teleop.commission.gimbal.motion import FURTHEST, cruise, home, less, pulse
 from teleop.commission.gimbal.places import around
 from teleop.commission.gimbal.signs import seen_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.step import Script, Wait
@@ -54,6 +54,7 @@ class StickStep(GimbalStep):
             self.least.found(push, f"moved it {abs(moved[main]):.1f} deg in {BRIEF:g} s"),
         ]
         rough = moved[main] / BRIEF / push * FULL  # deg/s at full deflection, in the sign of readings
+        bench.full_stick[index] = rough
         push = max(1, min(FULL, round(min(2.0 * push, SPEED / abs(rough) * FULL))))
         while abs(there := (yield from self._go(push))) < LEAST and push < FULL:
             push = min(FULL, 2 * push)
@@ -65,7 +66,7 @@ class StickStep(GimbalStep):
         facts.append(self.full.found(round(abs(full), 1), how))
         report = findings.value(self.signs.report.key)
         if not isinstance(report, int | float):
-            report, seen = yield from self._direction(1 if back > 0 else -1)
+            report, seen = yield from self._direction(-push, back)
             facts += seen
         facts.append(self.signs.stick.found(int(report) * (1 if full > 0 else -1), how))
         yield from home(bench)
@@ -93,12 +94,12 @@ class StickStep(GimbalStep):
         """How far it goes in the time of the long push."""
         return (yield from pulse(self.bench, push, LONG, self._send, f"push {push}"))[self.index]
 
-    def _direction(self, sign: int):
-        """`sign` is that of the reading in the last move, which the operator has seen."""
+    def _direction(self, push: int, moved: float):
+        """The operator has seen a `push` that moved the reading by `moved`; where that was unclear, it is repeated."""
         while (seen := (yield direction_question(self.name))) == "u":
             yield from home(self.bench)
-            yield from wait(self.bench, 0.5)
-        report = sign * (1 if seen == "y" else -1)
+            moved = yield from self._go(push)
+        report = (1 if moved > 0 else -1) * (1 if seen == "y" else -1)
         return report, sign_facts(self.bench, self.signs, self.index, report)
 
     def _lapse(self, push: int, full: float) -> Script:
