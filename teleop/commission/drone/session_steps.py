@@ -73,7 +73,7 @@ class ListenToDrone(DroneStep):
         yield from wait(bench, LISTENS, "listening")
         came = bench.counts.total() - counts
         if status_refuses(bench.get("status")):
-            raise RefusedError("the drone reports that it flies: it must stand on the ground")
+            raise RefusedError("the drone reports that it flies: land it, then start again")
         how = f"{came} parts of the broadcast in {LISTENS:g} s, before anything was sent"
         broken = bench.connection.session.counts.damage - damage
         return [EARLY.found(came > 0, how), DAMAGE.found(broken, f"counted for {LISTENS:g} s", within=1)]
