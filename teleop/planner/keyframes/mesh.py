@@ -37,7 +37,7 @@ def mesh(durations: Array, pieces: int, near: Array | None = None) -> tuple[Indi
             counts.append(pieces)
             continue
         inner = [width * i for i in range(1, pieces)]
-        cuts = np.unique(np.array([0.0, *inner, *first, *(whole - x for x in last), whole]))
+        cuts = sorted({0.0, *inner, *first, *(whole - x for x in last), whole})
         widths += np.diff(cuts).tolist()
         counts.append(len(cuts) - 1)
     return np.repeat(np.arange(len(durations)), counts), np.array(widths), np.cumsum([0, *counts])

@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy import sparse
 
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.program import QuadraticProgram, Rows, Rule, stacked
 from teleop.planner.keyframes.qp import inequalities, solve
 from teleop.planner.keyframes.qp_solver import minimize
 from teleop.planner.keyframes.segment import Segment
+from teleop.planner.keyframes.sparse import zero
 from teleop.planner.keyframes.tension import Tension
 from teleop.planner.polynomial import Array
 
@@ -61,7 +61,7 @@ def least_overshoot(segment: Segment, limits: Limits) -> Array | None:
     blocks.append(Rows(-ones[:, None], slacks[:, None], np.zeros(count)))
     blocks.append(Rows(np.stack([ones, -ones], axis=1), np.stack([slacks, largest], axis=1), np.zeros(count)))
     linear = np.concatenate([np.zeros(unknowns), SUM / count * ones, [1.0]])
-    solution = minimize(sparse.csc_matrix((len(linear), len(linear))), linear, *stacked(blocks, len(linear)))
+    solution = minimize(zero(len(linear)), linear, *stacked(blocks, len(linear)))
     return None if solution is None else np.maximum(solution[unknowns:-1], 0.0) * weight
 
 

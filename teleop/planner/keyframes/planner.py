@@ -23,7 +23,6 @@ from teleop.planner.keyframes.findings import (
     PlanError,
     Standstill,
 )
-from teleop.planner.keyframes.infeasibility import infeasibilities, with_overshoots
 from teleop.planner.keyframes.keys import Key, ramps_asked, ramps_fit, segment_between, waypoints
 from teleop.planner.keyframes.ladder import Overshot, Pieces, directed, overshooting
 from teleop.planner.keyframes.legs import Points, legs, shortened
@@ -61,6 +60,7 @@ def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tens
     }
     refused = {axis: outcome.refused for axis, outcome in outcomes.items() if outcome.refused}
     if refused or any(beyond.values()):
+        from teleop.planner.keyframes.infeasibility import infeasibilities, with_overshoots  # with all that it searches
 
         def possible(axis: Axis, points: Points) -> bool:
             clean = len(points) > MANY
