@@ -84,7 +84,7 @@ def test_a_drone_keeps_its_version_and_loses_its_id_app_and_bundle() -> None:
 
 
 @given(st.lists(st.integers(0, 5), max_size=12), st.randoms(use_true_random=False))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=15, deadline=None)
 def test_what_has_no_number_comes_out_as_it_went_in(kinds: list[int], random) -> None:
     made = MadeCapture()
     for number, kind in enumerate(kinds):

@@ -71,7 +71,7 @@ def test_a_cut_anywhere_leaves_the_frames_before_it(tmp_path: Path, ending: str)
     whole = tmp_path / f"whole{ending}"
     written(whole, FRAMES[:3]).close()
     data, cut = whole.read_bytes(), tmp_path / f"cut{ending}"
-    for size in range(len(data) // 2, len(data)):
+    for size in range(len(data) // 2, len(data), 5):
         cut.write_bytes(data[:size])
         found = [frame for _, frame in read(cut)]
         assert found[:-1] == FRAMES[: max(0, len(found) - 1)]

@@ -58,7 +58,7 @@ SIGNS = st.tuples(*[st.sampled_from((1, -1))] * 3)
     early=st.booleans(),
     mirrors=st.booleans(),
 )
-@settings(max_examples=4, deadline=None, phases=[Phase.explicit, Phase.generate])
+@settings(max_examples=3, deadline=None, phases=[Phase.explicit, Phase.generate])
 def test_signs_time_out_and_silence_of_any_drone(
     attitude: tuple[int, int, int],
     rates: tuple[int, int, int],
