@@ -84,17 +84,17 @@ class Runner:
             for key in keys:
                 self._press(key, now)
             if late and self._moves:
-                self._end_task(now, "the computer stalled: nothing was measured")
+                self._end_task("the computer stalled: nothing was measured")
             self._advance(now)
         except DeviceError as error:
-            self._end_task(now, str(error))
+            self._end_task(str(error))
         except LinkError as error:
             self._lose(str(error), now)
 
     def interrupt(self, reason: str) -> None:
         """End now, whatever is under way: everything is brought to rest, and nothing is sent back to its place."""
         self.reason = self.reason or reason
-        self._end_task(self._turned, reason, self._finish)
+        self._end_task(reason, self._finish)
 
     @property
     def _moves(self) -> bool:
@@ -119,30 +119,30 @@ class Runner:
 
     def _at_prompt(self, key: str, now: float) -> None:
         if key == GO:
-            self._begin(now)
+            self._begin()
         elif key == SKIP:
             self._skip(now)
         elif key == END:
             self._leave(self._end, now)
 
-    def _while_running(self, key: str, now: float) -> None:
+    def _while_running(self, key: str, _now: float) -> None:
         if key == STOP:
-            self._end_task(now, "STOPPED")
+            self._end_task("STOPPED")
         elif key == END:
-            self._end_task(now, "STOPPED", self._end_from)
+            self._end_task("STOPPED", self._end_from)
 
     def _at_question(self, key: str, now: float) -> None:
         task = self._task
         if task is None or task.question is None:
             return
         if key == STOP and STOP not in task.question.choices:
-            self._end_task(now, "STOPPED")
+            self._end_task("STOPPED")
         elif task.question.word:
             self._type(task, key, now)
         elif key in task.question.choices:
             self._answer(task, key, now)
         elif key == END:
-            self._end_task(now, "STOPPED", self._end_from)
+            self._end_task("STOPPED", self._end_from)
 
     def _type(self, task: _Task, key: str, now: float) -> None:
         if key == GO:
@@ -203,12 +203,12 @@ class Runner:
         except StopIteration as end:
             if self.stage is not Stage.RESTORING:
                 self._found([replace(fact, step=self.step.key) for fact in end.value or ()])
-            self._end_task(now, "", self._show if self.stage is not Stage.RESTORING else self._target)
+            self._end_task("", self._show if self.stage is not Stage.RESTORING else self._target)
         except RefusedError as refusal:
             self.reason = str(refusal)
-            self._end_task(now, self.reason, self._finish)
+            self._end_task(self.reason, self._finish)
         except (DeviceError, FieldError) as error:
-            self._end_task(now, str(error))
+            self._end_task(str(error))
 
     def _found(self, facts: Sequence[Fact]) -> None:
         self._facts = facts
@@ -216,7 +216,7 @@ class Runner:
         self.findings = self.findings.with_facts(facts)
         self._on_facts(self.findings)
 
-    def _end_task(self, now: float, trouble: str, then: Callable[[float], None] | None = None) -> None:
+    def _end_task(self, trouble: str, then: Callable[[float], None] | None = None) -> None:
         """Whatever is under way is over: everything is brought to rest, `then` goes on; by default the result."""
         if self._task is not None:
             self._task.script.close()
@@ -264,11 +264,11 @@ class Runner:
             self._not_seen(unfit)
             self._next(now)
         elif self.step.automatic:
-            self._begin(now)
+            self._begin()
         else:
             self.stage = Stage.PROMPT
 
-    def _begin(self, now: float) -> None:
+    def _begin(self) -> None:
         self._task = _Task(self.step.script(self.findings))
         self.stage = Stage.RUNNING
 
@@ -294,13 +294,13 @@ class Runner:
         self._not_seen("skipped")
         self._next(now)
 
-    def _finish(self, now: float) -> None:
+    def _finish(self, _now: float) -> None:
         self.stage = Stage.OVER
 
     def _lose(self, trouble: str, now: float) -> None:
         """The link is gone, and with it every way to send anything."""
         finishing = self._then == self._finish and self.stage is Stage.RELEASING
-        self._end_task(now, trouble)
+        self._end_task(trouble)
         if finishing:
             self._finish(now)
             return
@@ -316,7 +316,7 @@ class Runner:
         except LinkError as error:
             self._trouble = str(error)
             return
-        self._end_task(now, f"the link was lost, and is back ({self._trouble})")
+        self._end_task(f"the link was lost, and is back ({self._trouble})")
 
     @property
     def page(self) -> Page:

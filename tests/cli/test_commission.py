@@ -63,7 +63,8 @@ def test_space_stops_a_step_and_the_axis_goes_back_before_the_next(tmp_path: Pat
         terminal.type("\n")
         until(lambda: far.angles.yaw > 0.5)
         terminal.type(" ")
-        terminal.wait_for("STOPPED")
+        terminal.wait_for("r repeats")
+        assert any("STOPPED" in row for row in terminal.rows)
         terminal.look(key_line="r repeats")
         assert far.rates.yaw == 0
         terminal.type("s")
