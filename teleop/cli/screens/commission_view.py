@@ -10,7 +10,8 @@ from rich.text import Text
 
 from teleop.cli.screens.picture import Picture, Rows
 from teleop.cli.screens.stderr_writer import StderrWriter
-from teleop.commission.findings import Fact, Value, Verdict
+from teleop.commission.changes import written
+from teleop.commission.findings import Fact, Verdict
 from teleop.commission.page import Page, Stage
 
 _TITLE = 46  # cells of what a fact is about
@@ -95,28 +96,18 @@ def _bottom(page: Page) -> list[str]:
 
 
 def _fact_row(fact: Fact) -> Text:
-    row = Text(f" {fact.title[:_TITLE]:<{_TITLE}} {shown(fact.found, fact.unit):<14} ")
+    row = Text(f" {fact.title[:_TITLE]:<{_TITLE}} {written(fact.found, fact.unit):<14} ")
     row.append(fact.verdict, _STYLES[fact.verdict])
     return row
-
-
-def shown(value: Value, unit: str) -> str:
-    """A value as people read it."""
-    match value:
-        case None:
-            return "-"
-        case bool():
-            return "yes" if value else "no"
-        case float():
-            return f"{value:g} {unit}".strip()
-    return f"{value} {unit}".strip()
 
 
 def _in_lines(page: Page) -> list[str]:
     """The page where there is no screen."""
     if page.stage is Stage.SHOWN:
         return (
-            [page.trouble] if page.trouble else [f"{fact.title}: {shown(fact.found, fact.unit)}" for fact in page.facts]
+            [page.trouble]
+            if page.trouble
+            else [f"{fact.title}: {written(fact.found, fact.unit)}" for fact in page.facts]
         )
     if page.stage is Stage.PROMPT:
         return [page.title, *page.lines, *filter(None, [page.consent]), *_bottom(page)]
