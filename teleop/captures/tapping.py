@@ -32,7 +32,8 @@ class TappedLink:
 
     def __init__(self, link: Link, recording: Recording, source: Source) -> None:
         self._link, self._recording, self._in_pieces = link, recording, source.kind == "can"
-        self.foreign: Counter[int] = getattr(link, "foreign", Counter())
+        foreign = getattr(link, "foreign", None)
+        self.foreign: Counter[int] = Counter() if foreign is None else foreign
 
     def send(self, data: bytes) -> None:
         self._link.send(data)
