@@ -20,7 +20,7 @@ FASTEST, FURTHEST = 5.0, 5.0  # deg/s and deg, until the operator agrees to more
 STILL_WITHIN = 3.0  # s in which everything is to rest after a motion
 SETTLE = 0.35  # s at rest, over which a place is measured
 LATE = 0.6  # s by which the effect of a command may be late
-ANSWERED = 0.3  # s for an answer
+ANSWERED, TRIES = 0.3, 3  # s for an answer, and how often it is asked for
 MOVED = 0.35  # deg: less is noise
 
 Pause = Generator[Wait | Question, str, None]
@@ -51,25 +51,35 @@ def rest(bench: GimbalBench, late: float = LATE) -> Pause:
     yield from wait(bench, SETTLE)
 
 
-def answer(bench: GimbalBench, message: Message) -> Generator[Wait | Question, str, Message | None]:
-    """The answer to a request, None where none comes."""
-    sequence = bench.request(message)
-    end = bench.now + ANSWERED
-    while sequence not in bench.answered and bench.now < end:
-        yield Wait(0.01)
-    found = bench.answered.get(sequence)
-    return None if found is None else found.reply
+def answer(bench: GimbalBench, message: Message, tries: int = TRIES) -> Generator[Wait | Question, str, Message | None]:
+    """The answer to a request, None where none comes, however often it is asked: a bus may lose one."""
+    for _ in range(tries):
+        sequence = bench.request(message)
+        end = bench.now + ANSWERED
+        while sequence not in bench.answered and bench.now < end:
+            yield Wait(0.01)
+        found = bench.answered.get(sequence)
+        if found is not None and found.reply is not None:
+            return found.reply
+    return None
 
 
 def shift(
     bench: GimbalBench, index: int, way: float, seconds: float, progress: str = ""
 ) -> Generator[Wait | Question, str, Shift]:
-    """Turn one angle by `way` (deg) with a position command, and see where it went."""
-    before, sent = bench.mean(), bench.now
-    sequence = bench.increment(index, way, seconds)
-    yield from wait(bench, seconds, progress)
-    yield from rest(bench)
-    return Shift(gone(before, bench.mean()), bench.code(sequence), bench.since(sent), sent)
+    """Turn one angle by `way` (deg) with a position command, and see where it went.
+
+    One that was lost on the way, without an answer and without a motion, is sent again.
+    """
+    for _ in range(TRIES):
+        before, sent = bench.mean(), bench.now
+        sequence = bench.increment(index, way, seconds)
+        yield from wait(bench, seconds, progress)
+        yield from rest(bench)
+        done = Shift(gone(before, bench.mean()), bench.code(sequence), bench.since(sent), sent)
+        if done.code is not None or max(map(abs, done.moved)) >= MOVED:
+            break
+    return done
 
 
 def cruise(
