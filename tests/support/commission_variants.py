@@ -113,7 +113,7 @@ def check(variant: Variant, bench: CommissionBench) -> None:
     assert "# see above" in text
     assert bench.gimbal.angles == pytest.approx(bench.began, abs=0.45)
     assert not bench.gimbal.controlled
-    assert max(map(abs, bench.gimbal.rates)) == 0
+    assert max(map(abs, bench.gimbal.rates)) < 1e-3
 
 
 SIGNS = st.tuples(*[st.sampled_from([1, -1])] * 3)

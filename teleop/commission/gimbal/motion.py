@@ -95,7 +95,7 @@ def cruise(
 def pulse(
     bench: GimbalBench, value: float, seconds: float, send: Callable[[float], object], progress: str = ""
 ) -> Generator[Wait | Question, str, tuple[float, float, float]]:
-    """How far each angle goes while `value` is sent for so long and zero thereafter, before control is given back."""
+    """How far each angle goes while `value` is sent for so long and zero thereafter, before control is released."""
     before = bench.mean()
     yield from cruise(bench, value, seconds, send, progress)
     yield from cruise(bench, 0.0, LATE, send)
