@@ -43,17 +43,18 @@ def combination(chance: random.Random) -> Variant:
         return chance.choice((1, -1)), chance.choice((1, -1)), chance.choice((1, -1))
 
     some: Any = chance.choice
+    refuses = some([(), (), ("position",), ("speed",), ("mode",)])
     return Variant(
         signs=signs(),
         speed_signs=signs(),
         report_signs=signs(),
         replies=some(["new", "bare", "legacy"]),
         order=some(ORDERS),
-        refuses=some([(), (), ("position",), ("speed",), ("mode",)]),
+        refuses=refuses,
         ignores_speed=some([True, False]),
         silent_pushes=some([True, False]),
         focus_motor=some(["calibrated", "uncalibrated", "absent"]),
-        drift=some([0.0, 0.0, 0.3, -0.6]),
+        drift=0.0 if "position" in refuses else some([0.0, 0.0, 0.3, -0.6]),  # else nothing brings an axis back
         lag=some([0.02, 0.05, 0.12]),
         dead_time=some([0.0, 0.04, 0.09]),
         mount=some([0.0, 180.0]),
