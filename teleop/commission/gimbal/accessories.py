@@ -115,7 +115,7 @@ class CameraStep(GimbalStep):
         return [*facts, SHUTTER.found(took == "y", f"shutter {_code(released)}; the operator saw it")]
 
     def _order(self, command: CameraCommand):
-        reply = yield from answer(self.bench, camera.Command(command))
+        reply = yield from answer(self.bench, camera.Command(command), tries=1)  # a second one is another photo
         return getattr(reply, "return_code", None)
 
 

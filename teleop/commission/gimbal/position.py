@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from itertools import pairwise
 
 import numpy as np
@@ -9,9 +10,9 @@ import numpy as np
 from teleop.commission.findings import Fact, Findings, Subject
 from teleop.commission.gimbal.base import WAYS, GimbalStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, MOVED, SETTLE, Pause, Shift, home, moving_part, rest, shift, wait
+from teleop.commission.gimbal.motion import FURTHEST, MOVED, SETTLE, TRIES, Shift, home, moving_part, rest, shift, wait
 from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
-from teleop.commission.step import Script
+from teleop.commission.step import Question, Script, Wait
 
 REACH, SECONDS, SHORT = 2.0, 1.0, 0.5  # deg and s
 SLOWEST = 25.5  # s: a place that is not where it is thought to be is approached slowly
@@ -98,9 +99,12 @@ class PositionStep(GimbalStep):
     def _second(self) -> Script:
         """Out by 2 deg in 1 s, and half way the first half of that back."""
         bench, index = self.bench, self.index
-        begin, sent = bench.mean()[index], bench.now
         sign = bench.position_signs[index]
-        yield from self._out_and_back()
+        for _ in range(TRIES):
+            begin, sent = bench.mean()[index], bench.now
+            if (yield from self._out_and_back()):
+                break
+            yield from home(bench)
         track = [(time, sign * (place - begin)) for time, place in moving_part(bench.since(sent), index)]
         furthest, end = max(place for _, place in track), track[-1][1]
         slack = 0.3 + 2 * bench.noise
@@ -114,13 +118,15 @@ class PositionStep(GimbalStep):
             return [*facts, self.brief.not_seen("too few readings")]
         return [*facts, self._time(self.brief, seconds, "the constant speed that the readings fit best")]
 
-    def _out_and_back(self) -> Pause:
+    def _out_and_back(self) -> Generator[Wait | Question, str, bool]:
+        """Whether both commands were answered: one that is lost says nothing."""
         bench, index = self.bench, self.index
-        bench.increment(index, REACH, SECONDS)
+        sent = [bench.increment(index, REACH, SECONDS)]
         yield from wait(bench, SHORT, f"{self.name} goes out")
-        bench.increment(index, -REACH / 2, SHORT)
+        sent.append(bench.increment(index, -REACH / 2, SHORT))
         yield from wait(bench, SHORT, "and is called back")
         yield from rest(bench)
+        return all(bench.code(each) is not None for each in sent)
 
     def _frame(self) -> Script:
         """To where it is, as an absolute position: it must stay. Where it does not, it is on a long way, slowly."""

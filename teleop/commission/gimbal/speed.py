@@ -45,7 +45,7 @@ class SpeedStep(GimbalStep):
         self.lag = Subject(f"speed.lag.{name}", f"Lag of {name}", None, "s")
         self.gain = Subject(f"speed.gain.{name}", f"Speed of {name} as a share of the commanded one", 1.0)
         self.drift = Subject(f"speed.drift.{name}", f"Drift of {name} under speed control", 0.0, "deg/s")
-        self.left = Subject(f"speed.left.{name}", f"Where {name} is left when control is given back", 0.0, "deg")
+        self.left = Subject(f"speed.left.{name}", f"Where {name} is left when control is released", 0.0, "deg")
         self.signs = sign_subjects(name)
         model = (self.delay, self.dead_time, self.lag, self.gain, self.drift)
         self.subjects = (self.obeyed, self.signs.speed, self.holds, *model, self.left)
@@ -162,7 +162,7 @@ class SpeedStep(GimbalStep):
         yield from rest(bench)
         left = gone(before, bench.mean())[index]
         return [
-            self.left.found(round(left, 1) + 0.0, "before and after control was given back", within=LEFT + bench.noise)
+            self.left.found(round(left, 1) + 0.0, "before and after control was released", within=LEFT + bench.noise)
         ]
 
 
