@@ -117,7 +117,7 @@ class _Program:
         linear[-self.intervals :] = PRICE
         cost = diagonal(np.where(linear == PRICE, 0.0, REGULAR))
         matrix = below_each_other([each.matrix for each in rows])
-        solution = minimize(cost, linear, matrix, np.concatenate([each.bound for each in rows]))
+        solution = minimize(cost, linear, matrix, np.concatenate([each.bound for each in rows]), quickly=True)
         if solution is None:
             return None
         values = self.given.copy()

@@ -39,13 +39,13 @@ SMALLEST = 1e-9  # units; a segment that moves less is not scaled up further
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """How to solve a segment: pieces per interval, `directed` for no overshoot, `tension` for even speed.
+    """How to solve a segment: pieces of all or of each interval, `directed` for no overshoot, `tension` for even speed.
 
     Without `directed` each interval may leave the range of its keys by the segment's `stray`. `fine` cuts finer at the
-    keys, where an overshoot is.
+    keys, where an overshoot is; of intervals with unequal pieces, those that have most.
     """
 
-    pieces: int
+    pieces: int | Indices
     directed: bool
     tension: Tension = 0.0
     fine: bool = False
@@ -93,9 +93,11 @@ class QuadraticProgram:
         self.segment, self.limits, self.rule = segment, limits, rule
         durations, intervals, ramps = segment.cuts()
         near = change_times(segment, rule.tension)[intervals] if len(intervals) == len(segment.steps) else None
+        pieces = np.broadcast_to(rule.pieces, len(segment.steps))
         if rule.fine:
-            near = np.full((len(intervals), 2), FINE * limits.acceleration / limits.jerk)
-        cut, self.widths, knots = mesh(durations, rule.pieces, near)
+            finest = np.where(pieces == pieces.max(), FINE * limits.acceleration / limits.jerk, np.inf)
+            near = np.stack([finest, finest], axis=1)[intervals]
+        cut, self.widths, knots = mesh(durations, pieces[intervals], near)
         self.interval, self.ramps = intervals[cut], ramps[cut]
         keys = knots[np.searchsorted(intervals, np.arange(len(segment.steps) + 1))]
         self.scale = max(float(np.ptp(segment.positions)), SMALLEST)
