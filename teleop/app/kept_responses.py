@@ -7,7 +7,7 @@ what is sure is kept, however the run ended; what no longer held, and was not fo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from teleop.config.profile import Profile
@@ -26,16 +26,18 @@ from teleop.links.url import parse
 class KeptReport:
     """The axes whose responses are `kept` for the next run, and a line about each that could not be.
 
-    `delays` has the axes for which the profile's `delay` (s) counts instead.
+    `delays` has the axes for which the profile's `delay` (s) counts instead, `watched` those that are sent positions:
+    nothing goes by what was found of these.
     """
 
     kept: Sequence[Axis] = ()
     problems: Sequence[str] = ()
     delays: Mapping[Axis, float] = field(default_factory=dict)
+    watched: Collection[Axis] = ()
 
 
 class _Gimbal:
-    """A section of the profile that is sent speeds: its key, and what is kept of its axes, for any version."""
+    """A gimbal's section of the profile: its key, and what is kept of its axes, for any version."""
 
     def __init__(self, profile: Profile, section: GimbalSection, kept: Sequence[Kept]) -> None:
         self.section = section
@@ -75,7 +77,7 @@ class KeptResponses:
         self._gimbals: Sequence[_Gimbal] = ()
         self._store: ResponseStore | None = None
         self._questions: Mapping[str, VersionQuestion] = {}
-        sections = [each for each in profile.sinks if isinstance(each, GimbalSection) and each.mode != "position"]
+        sections = [each for each in profile.sinks if isinstance(each, GimbalSection)]
         if not sections:
             return
         try:
@@ -121,7 +123,8 @@ class KeptResponses:
             for axis in gimbal.axes:
                 if axis in found or axis in changed:
                     self._keep(gimbal.key, axis, found.get(axis), kept, problems)
-        return KeptReport(kept, problems, delays)
+        watched = {axis for gimbal in self._gimbals if gimbal.section.mode == "position" for axis in gimbal.axes}
+        return KeptReport(kept, problems, delays, watched)
 
     def _keep(self, key: Key, axis: Axis, response: Response | None, kept: list[Axis], problems: list[str]) -> None:
         assert self._store is not None

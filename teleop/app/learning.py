@@ -13,6 +13,7 @@ from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import DeviceCommand
+from teleop.devices.rig import Rig
 from teleop.learning.correction import Correction
 from teleop.learning.correction_file import read_correction, write_correction
 from teleop.learning.pass_learner import PassLearner, Subject
@@ -97,7 +98,7 @@ def corrected(cycle: Cycle, corrector: Corrector) -> Cycle:
     return replace(cycle, corrector=corrector, preroll=max(cycle.preroll, SETTLE))
 
 
-def observe_passes(learner: PassLearner, source: SequenceSource) -> PassObserver:
-    """What sees the passes of a source for the learner."""
-    learner.observer = PassObserver(source.place, lambda: source.move, lambda: source.waiting)
+def observe_passes(learner: PassLearner, source: SequenceSource, rig: Rig) -> PassObserver:
+    """What sees the passes of a source on a rig for the learner."""
+    learner.observer = PassObserver(source.place, lambda: source.move, lambda: source.waiting, lambda: rig.relied_on)
     return learner.observer

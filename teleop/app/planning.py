@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.config.profile import Profile
+from teleop.config.resources import is_bare
 from teleop.core.axes import Axis
 from teleop.core.errors import UsageError
 from teleop.recording import ENDING
@@ -64,12 +65,12 @@ def plan_file(file: str, profile: Profile, share: float = 1.0, by_hand: bool = F
 def plan_content(content: Mapping[str, Any], profile: Profile) -> Plan:
     """As `plan_file`, of a dict: it is written as YAML and read as a file, so that every check and default is the same.
 
-    Raises UsageError for a value that no file can hold.
+    Relative paths in it begin at the current folder. Raises UsageError for a value that no file can hold.
     """
     import yaml
 
     try:
-        text = yaml.safe_dump(_plain(content), sort_keys=False)
+        text = yaml.safe_dump(_from_here(_plain(content)), sort_keys=False)
     except yaml.YAMLError as error:
         raise UsageError(f"{CONTENT}: {' '.join(map(str, error.args))}") from None
     with tempfile.TemporaryDirectory() as folder:
@@ -100,6 +101,16 @@ def _planned(file: str, profile: Profile, share: float, by_hand: bool) -> Plan:
         return Plan(profile, timelapse.rehearsal(), timelapse)
     devices = [sink.type for sink in profile.sinks]
     return Plan(profile, load_sequence(file, limits, profile.name, devices))
+
+
+def _from_here(content: dict[str, Any]) -> dict[str, Any]:
+    """With the files that it names, a table and moves, as seen from the current folder."""
+    table, moves = content.get("source"), content.get("include")
+    named = [(table, "file")] + [(move, "move") for move in (moves if isinstance(moves, list) else [])]
+    for section, key in named:
+        if isinstance(section, dict) and isinstance(path := section.get(key), str) and path and not is_bare(path):
+            section[key] = str(Path.cwd() / Path(path).expanduser())
+    return content
 
 
 def _plain(value: Any) -> Any:

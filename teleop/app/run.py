@@ -109,6 +109,9 @@ def commands(
     return [unheard, LinkNotes(rig.connections.values(), notify)], sinks
 
 
+COLLECTING = (700, 10, 10)  # Python's own: the collector looks often and shortly, not seldom and for long
+
+
 def command_sinks(
     rig: Rig, notify: Callable[[str], object], done: Callable[[DeviceCommand], object] = lambda _command: None
 ) -> list[Sink]:
@@ -124,6 +127,8 @@ def undisturbed() -> Iterator[None]:
     Afterwards the process is as it was found, whatever was raised.
     """
     gc.collect()
+    thresholds = gc.get_threshold()
+    gc.set_threshold(*COLLECTING)
     thaw = gc.get_freeze_count() == 0  # what the caller has frozen stays frozen; a part cannot be unfrozen
     if thaw:
         gc.freeze()  # a collection of all that is loaded takes 20 ms, two ticks
@@ -131,5 +136,6 @@ def undisturbed() -> Iterator[None]:
         with short_switch_interval:
             yield
     finally:
+        gc.set_threshold(*thresholds)
         if thaw:
             gc.unfreeze()

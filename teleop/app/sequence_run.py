@@ -20,7 +20,7 @@ from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.interfaces import Clock
 from teleop.core.run_status import RunStatus
-from teleop.devices.rig import open_rig
+from teleop.devices.rig import Rig, open_rig
 from teleop.inputs.keyboard import Keyboard
 from teleop.manual.live_offset import LiveOffset
 from teleop.manual.stop_guard import Relay, StopGuard, Together
@@ -100,7 +100,7 @@ class SequenceRun:
             repeatability = Repeatability(source.place, planned) if source.cycle.compared else None
             observers, sinks = commands(rig, axes, self.notify)
             keys = None if self.keys is None else stack.enter_context(self.keys)
-            observers += [each for each in (keys, trim, repeatability, self._observed(), played) if each is not None]
+            observers += [each for each in (keys, trim, repeatability, self._observed(rig), played) if each is not None]
             status_of = partial(run_status, source) if controls is None else controls.status
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             screen = make_screen(self.limits, shown, recorder)
@@ -118,13 +118,13 @@ class SequenceRun:
                 self.learner.finish()
             return SequenceReport(report, trim, repeatability)
 
-    def _observed(self) -> PassObserver | None:
+    def _observed(self, rig: Rig) -> PassObserver | None:
         """What sees the passes for the learner."""
         if self.learner is None:
             return None
         from teleop.app.learning import observe_passes  # with scipy, only where something is learned
 
-        return observe_passes(self.learner, self.source)
+        return observe_passes(self.learner, self.source, rig)
 
     def _recording(self, aboard: Aboard) -> AbstractContextManager[Recorder | None]:
         status, title = aboard.status if is_flown(self.axes) else None, self.sequence.title

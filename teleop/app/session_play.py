@@ -91,7 +91,7 @@ def play(session: Session, move: Move, take: Path | None, speed: float, passes: 
     if learns is not None:
         from teleop.app.learning import observe_passes
 
-        observers.append(observe_passes(learns, source))
+        observers.append(observe_passes(learns, source, session.rig))
     if session.program.stopped:
         return _report(move.compiled, monitor, "STOPPED: call clear() first, then play again", None)
     reason, result, facts = "", Result.INTERRUPTED, facts_of(move.compiled)
@@ -102,6 +102,7 @@ def play(session: Session, move: Move, take: Path | None, speed: float, passes: 
         if recorder is not None:
             recorder.status = played = PlayedStatus(source, move.compiled.move, session.rig)
             observers += [played, recorder]
+        session.rig.foresee(source.foreseen)
         try:
             session.run(SourceJob(source, session.camera_waiting), observers)
             result = Result.DONE
@@ -110,6 +111,7 @@ def play(session: Session, move: Move, take: Path | None, speed: float, passes: 
         except (DeviceError, LinkError) as error:
             reason, result = str(error), Result.FAILED
         finally:
+            session.rig.foresee(None)
             if recorder is not None:
                 recorder.finish(result, [reason] if reason else [])
     if learns is not None:

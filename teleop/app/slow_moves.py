@@ -14,6 +14,7 @@ from teleop.app.planning import Plan
 from teleop.config.frame_rates import shown_rate
 from teleop.config.sinks_section import GimbalSection
 from teleop.core.axes import Axis
+from teleop.planner.median import median
 from teleop.planner.polynomial import Array
 
 STEP = 0.1  # deg: the resolution of a gimbal's position commands (docs/protocol-facts.md)
@@ -41,7 +42,7 @@ def _slow(plan: Plan, axis: Axis) -> Iterator[str]:
     if not moving.any():
         return
     steps = np.abs(np.diff(np.round(positions / STEP))).astype(int)[moving]
-    typical = float(np.median(moved[moving]))
+    typical = median(moved[moving])
     if typical >= (STEP if fps is None else SLOWEST / fps):
         return
     way, frames, still = float(np.ptp(positions)), int(moving.sum()), int((steps == 0).sum())

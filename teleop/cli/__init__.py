@@ -6,8 +6,10 @@ needs. Exit codes: 0 done, 1 the run or the check failed, 2 bad usage or a bad f
 
 from __future__ import annotations
 
+import gc
 import io
 import logging
+import os
 import sys
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
@@ -16,12 +18,14 @@ from cyclopts import App, CycloptsError, Group
 
 import teleop
 from teleop.cli.examples import examples
+from teleop.cli.screens.folded import spelled, tell
 from teleop.cli.signals import process
-from teleop.cli.staging_options import joined
+from teleop.cli.typed_triggers import joined
 from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.errors import LeaveAtOnce, TeleopError, UsageError
 
 MOST_SAID = 50  # problems of a file: more are not mended at a time
+LOADING = 50_000  # objects until the collector looks: nothing that is loaded is garbage, and looking takes a tenth
 DONE, FAILED, BAD_USAGE, INTERRUPTED = 0, 1, 2, 130
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
@@ -76,8 +80,10 @@ for _flag in ("--help", "--version"):
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """The `teleop` command; exits with one of the codes above."""
+    gc.set_threshold(LOADING)
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it has none here, and looking for them takes time
     process.own()
-    _printable()
+    printable()
     try:
         code = run(sys.argv[1:] if arguments is None else arguments)
     finally:
@@ -86,11 +92,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     sys.exit(code)
 
 
-def _printable() -> None:
+def printable() -> None:
     """No character that the terminal or a pipe cannot have ends in a traceback."""
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
-            stream.reconfigure(errors="replace")
+        if isinstance(stream, io.TextIOWrapper):
+            can_all = stream.encoding.lower().startswith("utf")  # but what is no character: a byte of a file's name
+            stream.reconfigure(errors="backslashreplace" if can_all else "replace")
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -122,8 +129,10 @@ def run(arguments: Sequence[str]) -> int:
 
 def _notify(error: Exception) -> None:
     if isinstance(error, DocumentError):
-        print("\n".join(error.problems[:MOST_SAID]), file=sys.stderr)
+        print(spelled("\n".join(error.problems[:MOST_SAID])), file=sys.stderr)
         if more := len(error.problems[MOST_SAID:]) + error.more:
             print(f"teleop: and {more} more", file=sys.stderr)
+        for verdict in getattr(error, "__notes__", ()):
+            tell(verdict)
     else:
-        print(f"teleop: {error}", file=sys.stderr)
+        print(spelled(f"teleop: {error}"), file=sys.stderr)

@@ -13,11 +13,11 @@ from cyclopts import Parameter
 from teleop.app.check import MoveCheck
 from teleop.app.check import check as check_plan
 from teleop.app.planning import Plan
-from teleop.cli.check_verdict import verdict
+from teleop.cli.check_verdict import refusal, verdict
 from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
 from teleop.cli.screens.folded import tell
 from teleop.cli.shipped_files import named
-from teleop.cli.shooting.timelapse_summary import facts, summary
+from teleop.config.documents.document import DocumentError
 
 
 def check(
@@ -27,7 +27,13 @@ def check(
     options: Options = DEFAULTS,
 ) -> int:
     """Check a sequence against a rig: every error with its line, or what the move asks of each axis."""
-    plan = options.plan(named("check", file, options.json))
+    file = named("check", file, options.json)
+    try:
+        plan = options.plan(file)
+    except DocumentError as error:
+        if not options.json:
+            error.add_note(refusal(error, options))
+        raise
     if plan.timelapse is not None:
         print_warnings(plan.sequence.warnings)
     found = check_plan(plan)
@@ -36,6 +42,8 @@ def check(
         return 0
     _print_table(plan, found)
     if plan.timelapse is not None:
+        from teleop.cli.shooting.timelapse_summary import summary
+
         tell(f"{summary(plan.timelapse)}. The table is of its rehearsal.")
     if counted := Counter(cue.name for cue in plan.sequence.cues):
         tell(f"Cues: {', '.join(f'{count} x {name}' if count > 1 else name for name, count in counted.items())}.")
@@ -50,6 +58,11 @@ def check(
 
 def _facts(plan: Plan, found: MoveCheck) -> dict[str, object]:
     sequence = plan.sequence
+    shoot: dict[str, object] = {}
+    if plan.timelapse is not None:
+        from teleop.cli.shooting.timelapse_summary import facts
+
+        shoot["timelapse"] = facts(plan.timelapse)
     return {
         "ok": True,
         "title": sequence.title,
@@ -60,7 +73,7 @@ def _facts(plan: Plan, found: MoveCheck) -> dict[str, object]:
         "remarks": list(found.remarks),
         **({"frames": {axis.value: asdict(each) for axis, each in found.frames.items()}} if found.frames else {}),
         "warnings": list(sequence.warnings),
-        **({} if plan.timelapse is None else {"timelapse": facts(plan.timelapse)}),
+        **shoot,
     }
 
 

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 
 from teleop.app.check import FramesCheck, MoveCheck
 from teleop.app.planning import Plan
+from teleop.cli.options import Options
+from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis
 
 
@@ -24,6 +26,14 @@ def verdict(plan: Plan, found: MoveCheck) -> Iterator[str]:
     count = len(plan.warnings) + len(found.remarks)
     notes = "" if not count else f", with {count} warning{'s' if count > 1 else ''}"
     yield f"OK: {plan.profile.name} can {'shoot' if plan.timelapse else 'play'} this{notes}."
+
+
+def refusal(error: DocumentError, options: Options) -> str:
+    """The verdict where there is no plan, of a sequence that the rig cannot play or a file with mistakes."""
+    count = len(error.problems) + error.more
+    problems = f"{count} problem{'s' if count > 1 else ''}"
+    what = f"{options.profile().name} cannot play this" if isinstance(error, UnplayableError) else "this cannot be read"
+    return f"Not OK: {what}, {problems}."
 
 
 def _name(axis: Axis) -> str:

@@ -47,14 +47,13 @@ class LearnedOptions:
         """The option that was given, "" for none."""
         return "--learn" if self.learn else "--learned" if self.learned else ""
 
-    def check(self, plan: Plan, is_take: bool, speed: float, staging: StagingOptions, trimmed: bool) -> None:
+    def check(self, plan: Plan, speed: float, staging: StagingOptions, trimmed: bool) -> None:
         """Raises UsageError for what does not go together with them."""
         if not self.asked:
             return
         passes = 0 if staging.passes is None else staging.passes
         refused = [
             (plan.is_flown, "a drone's move is not measured: leave it out"),
-            (is_take, "a take is played tick by tick: make a sequence of it first, with teleop take keyframes"),
             (speed != 1, "the speed of the passes is 100 %: leave out --speed"),
             (self.learn and staging.loop, "leave out --loop, and give --passes"),
             (self.learn and passes < LEAST_PASSES, "needs passes to learn from, as in --passes 3"),

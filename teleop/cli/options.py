@@ -14,7 +14,7 @@ from cyclopts import Parameter, Token
 from teleop.app.planning import Plan, plan_file
 from teleop.cli.completion import offered
 from teleop.cli.screens.busy import busy
-from teleop.cli.screens.folded import complain, tell
+from teleop.cli.screens.folded import complain, spelled, tell
 from teleop.config.documents.document import DocumentError
 from teleop.config.files import is_stdout
 from teleop.config.profile import Profile, load_profile
@@ -82,7 +82,7 @@ class Options:
 def print_warnings(warnings: Sequence[str]) -> None:
     """What is merely to be known about a sequence, on stderr."""
     for warning in warnings:
-        print(warning, file=sys.stderr)
+        print(spelled(warning), file=sys.stderr)
 
 
 def announce(line: str, *written: Path) -> None:

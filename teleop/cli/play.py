@@ -137,7 +137,7 @@ def _play(
     if plan.is_flown:
         _refuse_to_fly(ordered.speed, staging, trim)
     ask_to_fly(sequence.title, plan.axes, understood)
-    ordered.learning.check(plan, is_take(file), percentage("--speed", ordered.speed), staging, trim.trim)
+    ordered.learning.check(plan, percentage("--speed", ordered.speed), staging, trim.trim)
     cycle = staging.staging(sequence, clock, has_keys)
     lessons = _lessons(file, plan, profile, ordered.learning, Staged(cycle, take, fast, trim.left), options)
     cycle = cycle if lessons is None else lessons.staged(cycle)

@@ -67,7 +67,8 @@ def unwound_by_signals() -> Iterator[None]:
         ending.append(number)
         raise _Unwound
 
-    numbers = [each for each in _known((*STOPPING[1:], *LEAVING)) if signal.getsignal(each) == signal.SIG_DFL]
+    before = {each: signal.getsignal(each) for each in _known((*STOPPING[1:], *LEAVING))}
+    numbers = [each for each, handler in before.items() if handler in (signal.SIG_DFL, process.outside)]
     if threading.current_thread() is not threading.main_thread():
         numbers = []  # no other may have handlers
     for number in numbers:
@@ -75,11 +76,13 @@ def unwound_by_signals() -> Iterator[None]:
     try:
         yield
     except _Unwound:
+        if not ending:  # it belongs to a block around this one
+            raise
         signal.signal(ending[0], signal.SIG_DFL)
         os.kill(os.getpid(), ending[0])
     finally:
         for number in numbers:
-            signal.signal(number, signal.SIG_DFL)
+            signal.signal(number, before[number])
 
 
 class _Unwound(BaseException):
@@ -170,7 +173,7 @@ class _Process:
         self.owned = True
         for number in _known((*LEAVING, "SIGTERM")):
             if signal.getsignal(number) == signal.SIG_DFL:
-                signal.signal(number, self._outside)
+                signal.signal(number, self.outside)
         with contextlib.suppress(ImportError, OSError, ValueError, AttributeError):
             import termios
 
@@ -202,7 +205,7 @@ class _Process:
                     os.write(2, _SHOWN_AGAIN)
         os._exit(CODE)
 
-    def _outside(self, number: int, _frame: FrameType | None) -> None:
+    def outside(self, number: int, _frame: FrameType | None) -> None:
         """Before a run a signal does what it does anywhere."""
         if not self._ran:
             signal.signal(number, signal.SIG_DFL)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
@@ -21,8 +20,6 @@ if TYPE_CHECKING:
     from teleop.sequence.cycle import Cycle, Trigger
 
 KEY = "key"  # as in key3, the third keyframe
-_TRIGGER = re.compile(r"--trigger[ =](time|timecode|osc)")
-_WHAT = {"time": re.compile(r"\d+:"), "timecode": re.compile(r"\d+:"), "osc": re.compile(r"([^:/\s]+:)?\d+/")}
 
 
 @Parameter(name="*")
@@ -99,18 +96,6 @@ def _trigger(text: str, clock: Clock, keys: bool) -> Trigger:
     if isinstance(trigger, KeyTrigger) and not keys:
         raise UsageError("--trigger key: there is no terminal to press it on")
     return trigger
-
-
-def joined(arguments: Sequence[str]) -> list[str]:
-    """What was typed, with `--trigger time 18:30:00` made one word of, as it is for programs."""
-    result: list[str] = []
-    for argument in arguments:
-        kind = _TRIGGER.fullmatch(" ".join(result[-2:])) or _TRIGGER.fullmatch(" ".join(result[-1:]))
-        if kind and _WHAT[kind[1]].match(argument):
-            result[-1] += f":{argument}"
-        else:
-            result.append(argument)
-    return result
 
 
 def _key(text: str, keys: Sequence[float]) -> float:

@@ -18,8 +18,10 @@ from typing import TYPE_CHECKING
 from teleop.app.planning import is_take
 from teleop.cli.options import Options
 from teleop.cli.screens.folded import complain, tell
+from teleop.cli.signals import unwound_by_signals
 from teleop.config.documents.document import DocumentError
 from teleop.config.files import write_text
+from teleop.config.files_read import Saved, files_read, saved
 from teleop.config.resources import folder, is_bare
 
 if TYPE_CHECKING:
@@ -28,29 +30,32 @@ if TYPE_CHECKING:
 EVERY = 0.2  # s from one look at the files to the next
 LARGEST = 20_000_000  # bytes: what is larger is no sequence, profile or table
 
-Stamp = dict[Path, tuple[int, int]]
+Stamps = dict[Path, Saved | None]
 
 
 def watch_preview(file: str, options: Options, output: Path, write: Callable[[Watch | None], None]) -> int:
     """Write the page, and again after each change, until Ctrl-C; then once more, as one that is not watched."""
     beside = output.with_name(f"{output.name}.js")
-    looked: Stamp | None = None
+    looked: Stamps | None = None
+    read: Stamps = {}
     version = ""
     tell(f"Watching {file}: open {output} in a browser. Ctrl-C ends.")
-    try:
-        while True:
-            now = dict(_stamps(file, options.rig, {output.resolve(), beside.resolve()}))
-            if now != looked:
-                looked = now
-                version = _written(beside, write, version)
-            time.sleep(EVERY)
-    except KeyboardInterrupt:
-        return 0
-    finally:
-        beside.unlink(missing_ok=True)
-        if version:
-            with suppress(DocumentError):  # it was shown when it was found
-                write(None)
+    with suppress(KeyboardInterrupt), unwound_by_signals():
+        try:
+            while True:
+                folders = dict(_stamps(file, options.rig, {output.resolve(), beside.resolve()}))
+                if {**folders, **{each: saved(each) for each in read}} != looked:
+                    with files_read() as read:
+                        version = _written(beside, write, version)
+                    looked = {**folders, **read}
+                time.sleep(EVERY)
+        finally:
+            was_written = beside.exists()  # a signal may have come before its version was known here
+            beside.unlink(missing_ok=True)
+            if was_written:
+                with suppress(DocumentError):  # it was shown when it was found
+                    write(None)
+    return 0
 
 
 def _written(beside: Path, write: Callable[[Watch | None], None], version: str) -> str:
@@ -71,16 +76,14 @@ def _written(beside: Path, write: Callable[[Watch | None], None], version: str) 
     return version
 
 
-def _stamps(file: str, rig: str, but: set[Path]) -> Iterator[tuple[Path, tuple[int, int]]]:
-    """When the files that the sequence may be made of were saved last, and their sizes: those of its folder, and of
-    the rig's."""
+def _stamps(file: str, rig: str, but: set[Path]) -> Iterator[tuple[Path, Saved]]:
+    """When the files of the sequence's folder, and of the rig's, were saved last: it may come to be made of them."""
     for place in _folders([file, rig]):
         with suppress(OSError):
             for each in sorted(place.iterdir()):
-                with suppress(OSError):
-                    found = each.stat()
-                    if each.is_file() and each.resolve() not in but and found.st_size <= LARGEST:
-                        yield each, (found.st_mtime_ns, found.st_size)
+                found = saved(each)
+                if each.is_file() and each.resolve() not in but and found is not None and found[1] <= LARGEST:
+                    yield each, found
 
 
 def _folders(names: Sequence[str]) -> Iterator[Path]:

@@ -12,7 +12,7 @@ import math
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from teleop.config.device_commands import DRONE
 from teleop.config.documents.base_model import Finite, Section
@@ -35,6 +35,7 @@ from teleop.config.sinks_section import (
 )
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Action, DeviceCommand, Exposure
+from teleop.core.plain import plain
 from teleop.links.url import LinkUrlError, parse
 
 AxisName = Annotated[Axis, Field(strict=False)]
@@ -70,7 +71,7 @@ class ShootingSection(Section):
 class Profile(Section):
     """A rig: links, axes, and the sinks that drive them in their order."""
 
-    name: Annotated[str, Field(min_length=1)]
+    name: Annotated[str, Field(min_length=1), AfterValidator(plain)]
     """Name of the rig on screens and in errors."""
     links: dict[str, str]
     """URL of each link by its name: `socketcan:can0`, `serial:/dev/ttyUSB0@230400`, `sim:`."""

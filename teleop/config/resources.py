@@ -10,6 +10,7 @@ from pathlib import Path
 
 from teleop.config.documents.document import DocumentError
 from teleop.config.documents.messages import nearest
+from teleop.config.files_read import note
 
 _PACKAGE = Path(__file__).parents[1]
 
@@ -42,6 +43,7 @@ def find(name: str, kind: str, word: str, beside: Path | None = None) -> tuple[P
     if not is_bare(name):
         path = (beside or Path()) / Path(name).expanduser()
         if not path.is_file():
+            note(path)
             raise DocumentError([f"{name}: {'is no file' if path.exists() else 'no such file'}"])
         return path, name
     names = sorted(file.stem for file in folder(kind).glob("*.yaml"))

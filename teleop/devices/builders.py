@@ -34,6 +34,7 @@ from teleop.devices.drone.virtual_rc import VirtualRcControl
 from teleop.devices.focus import FocusReporter, FocusSink
 from teleop.devices.gimbal.pi_correction import Gains
 from teleop.devices.gimbal.position import Angles, PositionSink
+from teleop.devices.gimbal.position_watch import PositionWatch
 from teleop.devices.gimbal.speed import SpeedSink
 from teleop.devices.gimbal.speed_control import SpeedControl
 from teleop.devices.gimbal.stick import StickSink
@@ -59,6 +60,7 @@ class Device:
     direction: DirectionGuard | None = None  # what notices that an axis goes the other way
     exchange: ExchangedAxesGuard | None = None  # and that one axis is reported in the place of another
     control: SpeedControl | None = None  # what identifies the axes that are sent speeds
+    watch: PositionWatch | None = None  # what sees how late the axes are that are sent positions
     lines: list[str] | None = None  # what its guards have to say
 
 
@@ -88,8 +90,9 @@ def gimbal_device(
             full = {axis: section.full(axis, of.velocity) for axis, of in own.items()}
             sink = StickSink(connection, section.rate, section.delay, wiring, own, full, gains, sent, priors)
     control = None if isinstance(sink, PositionSink) else sink.control
+    watch = sink.watch if isinstance(sink, PositionSink) else None
     lines = sink.guard.lines if isinstance(sink, PositionSink) else sink.control.lines
-    return Device(list(own), sink, reporter, section.max_following_error, delay, guard, exchange, control, lines)
+    return Device(list(own), sink, reporter, section.max_following_error, delay, guard, exchange, control, watch, lines)
 
 
 def _exchange_guard(section: GimbalSection, reporter: Angles, found: set[Axis]) -> ExchangedAxesGuard | None:

@@ -87,8 +87,15 @@ class Rig:
 
     @property
     def responses(self) -> Mapping[Axis, Response]:
-        """How each axis answers that is sent speeds and has moved enough to be sure of it."""
-        found = [device.control.responses for device in self._devices if device.control is not None]
+        """How each axis answers that a gimbal moves, and that has moved enough to be sure of it."""
+        seen = [each for device in self._devices for each in (device.control, device.watch) if each is not None]
+        found = [each.responses for each in seen]
+        return {axis: response for of_device in found for axis, response in of_device.items()}
+
+    @property
+    def relied_on(self) -> Mapping[Axis, Response]:
+        """Those of the responses by which speeds are corrected: none where the profile's delay counts."""
+        found = [device.control.relied_on for device in self._devices if device.control is not None]
         return {axis: response for of_device in found for axis, response in of_device.items()}
 
     @property
@@ -107,8 +114,11 @@ class Rig:
         controls = [device.control for device in self._devices if device.control and axis in device.moves]
         return controls[0].estimators[axis].obeys(since) if controls else None
 
-    def foresee(self, foreseen: Foreseen) -> None:
-        """Have what is sent speeds led by a plan that is known ahead: where it will be at a time of the loop's."""
+    def foresee(self, foreseen: Foreseen | None) -> None:
+        """Have what is sent speeds led by a plan that is known ahead: where it will be at a time of the loop's.
+
+        None ends that.
+        """
         for device in self._devices:
             if device.control is not None:
                 device.control.foresee(foreseen)

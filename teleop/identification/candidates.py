@@ -26,6 +26,7 @@ OUTLIER = 25.0  # squares of the expected error: a reading further away counts n
 TEMPER = 0.5  # no candidate is the truth, so each reading says less than it seems to
 FORGET = 0.03  # of what was found, with each reading that tells candidates apart
 NOISIEST = 0.2  # deg
+USUAL, MOST_USUAL = 0.03, 0.5  # share of a reading's error in what is usual, and the most (deg) of that
 LEAST = -60.0  # log likelihood, against the best: it must be able to come back
 
 
@@ -48,6 +49,7 @@ class Candidates:
         self.places = np.zeros_like(lags)
         self._prior, self._start = prior, start
         self._noise = GRID**2
+        self._usual = 0.0  # squared error of the best candidate
         self.surprise = 1.0  # a running mean of the squared error of the best, over what is expected
         self.reset(0.0)
 
@@ -102,11 +104,18 @@ class Candidates:
         squares, weights = np.minimum(errors**2 / expected, OUTLIER), self.weights
         off = errors - float(weights @ errors)
         apart = float(weights @ off**2) / float(weights @ expected)
-        self.surprise += 0.15 * (float(squares[self.plausible].min()) - self.surprise)
+        self._be_surprised(errors, expected)
         told = TEMPER * 0.5 * (squares + np.log(expected))
         evidence = (1 - FORGET * min(1.0, apart)) * self.evidence - told
         self.evidence = np.maximum(evidence - evidence.max(), LEAST)
         self._judge()
+
+    def _be_surprised(self, errors: Floats, expected: Floats) -> None:
+        """An axis that rings errs as much for a while, whatever the candidates differ by at the moment."""
+        squares = np.minimum(errors**2 / (expected + self._usual), OUTLIER)
+        self.surprise += 0.15 * (float(squares[self.plausible].min()) - self.surprise)
+        least = float((errors[self.plausible] ** 2).min())
+        self._usual += USUAL * (min(least, MOST_USUAL**2) - self._usual)
 
     def _judge(self) -> None:
         self.weights = _normalized(self.evidence + self._prior)

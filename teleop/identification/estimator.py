@@ -74,7 +74,7 @@ class ResponseEstimator:
             self._begin_anew(reading.position)
         if not self._known and self.sure:
             self._known = True
-            self.changed |= self._prior is not None and not _agree(self._prior, self.response)
+            self.changed |= self._prior is not None and not agree(self._prior, self.response)
             self._prior = None
 
     def suppose(self, prior: Response | None) -> None:
@@ -178,7 +178,7 @@ def _start(prior: Response | None, start: Start) -> Start:
     )
 
 
-def _agree(before: Response, now: Response) -> bool:
+def agree(before: Response, now: Response) -> bool:
     """Whether two findings are of one gimbal."""
     delay_doubt = math.hypot(min(before.delay_doubt, 0.05), now.delay_doubt)
     gain_doubt = math.hypot(min(before.gain_doubt, 0.05), now.gain_doubt)

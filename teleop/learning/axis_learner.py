@@ -6,6 +6,8 @@ hardly more than is there, or when two trials in a row were worse.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,7 +23,7 @@ from teleop.planner.trajectory import Track
 
 WORTH = 0.8  # of the present RMS: a promise of more than that is none
 LEAST = 0.01  # units: a promise of less is none
-NOISY = 1.25  # times the noise of the readings: an RMS of less is nothing else
+NOISY = 1.6  # times the noise of the readings: an RMS of less is hardly anything else, and a trial may be worse
 NEAR = 1.5 * STEP  # s from a reading: further away nothing is known
 TRIALS = 2  # worse ones in a row, after which learning ends
 
@@ -37,10 +39,11 @@ class AxisLearner:
         self._times = np.arange(edges[0], edges[-1] + STEP / 2, STEP)
         self._counts = ((self._times > -STEP / 2) & (self._times < track_end(track) + STEP / 2)).astype(float)
         self._improver = Improver(self._basis, Room(track, limits, self._basis), self._times)
-        self._tried = np.zeros(self._basis.count) if present is None else self._basis.coefficients(present)
-        self._best, self._next = self._tried, self._tried
+        begin = np.zeros(self._basis.count) if present is None else self._basis.coefficients(present)
+        self._best, self._base, self._next = begin, begin, begin
         self.best_error: Error | None = None
         self.best_pass = 0
+        self._base_rms = math.inf
         self._worse = 0
         self.ended = ""  # why it learns no more
 
@@ -53,30 +56,33 @@ class AxisLearner:
     def best(self) -> Track:
         return self._basis.track(self._best)
 
-    def learn(self, number: int, error: Error, readings: Readings) -> None:
-        """A pass was played with `offset` and measured."""
-        if self.ended:
-            if self.best_error is None or error.rms < self.best_error.rms:
-                self.best_error, self.best_pass = error, number
-            return
+    def learn(self, number: int, error: Error, readings: Readings, settled: bool = True) -> None:
+        """A pass was played with `offset` and measured.
+
+        One that was not `settled` can be the best, but tells nothing of the next: that is played with the same offset.
+        """
         if self.best_error is None or error.rms < self.best_error.rms:
-            self._best, self.best_error, self.best_pass, self._worse = self._next, error, number, 0
+            self._best, self.best_error, self.best_pass = self._next, error, number
+        if self.ended or not settled:
+            return
+        if error.rms < self._base_rms:
+            self._base, self._base_rms, self._worse = self._next, error.rms, 0
             self._plan(error, readings)
         else:
             self._worse += 1
             if self._worse >= TRIALS:
                 self._end("it does not help any more")
             else:
-                self._next = (self._best + self._next) / 2
+                self._next = (self._base + self._next) / 2
 
     def _plan(self, error: Error, readings: Readings) -> None:
-        """The next trial, from what the best pass measured."""
-        commanded = added(self.track, self.best).sample(self._times)[0]
+        """The next trial, from what the best settled pass measured."""
+        commanded = added(self.track, self._basis.track(self._base)).sample(self._times)[0]
         measured = np.interp(self._times, *readings)
         known = self._known(readings[0])
         taps, _ = fitted(commanded, measured, known)
         planned = self.track.sample(self._times)[0]
-        better, promised = self._improver.better(self._best, planned - measured, taps, self._counts * known)
+        better, promised = self._improver.better(self._base, planned - measured, taps, self._counts * known)
         noise = _noise(readings, self.track)
         if promised > WORTH * error.rms or error.rms - promised < LEAST or error.rms < NOISY * noise:
             self._end("there is nothing more to gain")

@@ -115,7 +115,10 @@ class PassLearner:
                 if traces.has_gaps(axis, track):
                     lines.append(f"pass {number}: {axis} was measured too rarely to learn from")
                     continue
-                self._learner(axis).learn(number, errors[axis], traces.readings[axis])
+                settled = axis not in traces.identified
+                self._learner(axis).learn(number, errors[axis], traces.readings[axis], settled)
+                if not settled:
+                    lines.append(f"pass {number}: {axis} was identified in it: the next pass has the same correction")
         for axis, each in self._learners.items():
             if each.ended and not before.get(axis) and each.best_error is not None:
                 at_best = f"pass {each.best_pass} is the best, RMS {each.best_error.rms:.3f}"
@@ -123,11 +126,18 @@ class PassLearner:
         if (found := self.correction) is not None:
             self.save(found)
             self.saved = True
+        return self._next(), lines
+
+    def _next(self) -> Move:
+        """The plan with the offsets that are tried next; itself where there are none."""
+        plan, offsets = self._subject.plan, {axis: each.offset for axis, each in self._learners.items()}
+        if not self._known and not any(offset.coefficients.any() for offset in offsets.values()):
+            return plan
         tracks = {
-            axis: added(track, self._learners[axis].offset) if axis in self._learners else self.move.tracks[axis]
+            axis: added(track, offsets[axis]) if axis in offsets else self.move.tracks[axis]
             for axis, track in plan.tracks.items()
         }
-        return Move(tracks, plan.overshoots, plan.long_ramps, plan.standstills), lines
+        return Move(tracks, plan.overshoots, plan.long_ramps, plan.standstills)
 
     def _learner(self, axis: Axis) -> AxisLearner:
         if axis not in self._learners:

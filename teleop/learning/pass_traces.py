@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -11,6 +11,8 @@ import numpy as np
 
 from teleop.core.axes import Axis
 from teleop.core.events import Tick
+from teleop.core.response import Response
+from teleop.identification.estimator import agree
 from teleop.learning.correction import Error
 from teleop.planner.polynomial import Array
 from teleop.planner.trajectory import Move, Track
@@ -29,12 +31,13 @@ Place = tuple[int, float]  # the pass, from 1, and the move's own time in s
 class PassTraces:
     """`readings` by axis: times (m,) in s of the move, rising, and positions (m,).
 
-    A pass that was `changed` teaches nothing.
+    A pass that was `changed` teaches nothing. The axes that were `identified` in it answer otherwise in the next one.
     """
 
     number: int
     readings: Mapping[Axis, tuple[Array, Array]]
     changed: bool
+    identified: Collection[Axis] = ()
 
     def error(self, axis: Axis, plan: Track) -> Error | None:
         """Against the plan, within the time of the move that is `plan`'s; None without a reading there."""
@@ -61,16 +64,21 @@ class PassObserver:
     """An observer. `place` has the pass and where in the move, for a time of the loop; None outside a pass.
 
     `move` is asked for the move that is played, `waits` whether it waits for the operator: then the axes rest.
+    `responses` are those that the axes are corrected by, of the axes that are known surely enough.
     """
 
     def __init__(
-        self, place: Callable[[float], Place | None], move: Callable[[], Move], waits: Callable[[], bool]
+        self,
+        place: Callable[[float], Place | None],
+        move: Callable[[], Move],
+        waits: Callable[[], bool],
+        responses: Callable[[], Mapping[Axis, Response]] = dict,
     ) -> None:
-        self._place, self._move, self._waits = place, move, waits
+        self._place, self._move, self._waits, self._responses = place, move, waits, responses
         self._begin(0)
 
     def _begin(self, number: int) -> None:
-        self._number, self._changed = number, False
+        self._number, self._changed, self._known = number, False, dict(self._responses())
         self._last: tuple[float, float] | None = None  # the loop's time and the move's, of the tick before
         self._traces: dict[Axis, tuple[array[float], array[float]]] = {}
 
@@ -104,4 +112,6 @@ class PassObserver:
         """What pass `number` measured; it is over."""
         own: Mapping[Axis, Sequence[array[float]]] = self._traces if number == self._number else {}
         readings = {axis: (np.array(times), np.array(positions)) for axis, (times, positions) in own.items()}
-        return PassTraces(number, readings, self._changed or number != self._number)
+        now = self._responses()
+        found = {axis for axis in now if axis not in self._known or not agree(self._known[axis], now[axis])}
+        return PassTraces(number, readings, self._changed or number != self._number, found)

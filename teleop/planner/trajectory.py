@@ -115,12 +115,16 @@ class Track:
         rows[:, moving] = inside
         return rows
 
+    @cached_property
+    def _extremes(self) -> tuple[Array, Array]:
+        return extremes(self.coefficients, np.diff(self.breaks))
+
     def fastest_at(self) -> float:
         """When it is fastest (s), to a hundredth of a piece; 0 where it never moves."""
         if len(self.coefficients) == 0:
             return 0.0
         widths = np.diff(self.breaks)
-        least, greatest = extremes(self.coefficients, widths)
+        least, greatest = self._extremes
         piece = int(np.maximum(-least[1], greatest[1]).argmax())
         times = self.breaks[piece] + widths[piece] * np.linspace(0, 1, 101)[:-1]
         return float(times[np.abs(self.sample(times)[1]).argmax()])
@@ -129,7 +133,7 @@ class Track:
         """Exact extremes, from the zeros of the derivatives."""
         if len(self.coefficients) == 0:
             return Peaks(0.0, 0.0, 0.0, self.end, self.end)
-        least, greatest = extremes(self.coefficients, np.diff(self.breaks))
+        least, greatest = self._extremes
         velocity, acceleration, jerk = np.maximum(-least, greatest).max(axis=1).tolist()[1:]
         minimum, maximum = float(least[0].min()), float(greatest[0].max())
         return Peaks(velocity, acceleration, jerk, min(minimum, self.end), max(maximum, self.end))

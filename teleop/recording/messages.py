@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis, Limits
+from teleop.core.plain import plain
 from teleop.recording.format import ABOUT, CUT, END, FORMAT, LIMITS, About
 from teleop.recording.played import sequence_facts
 from teleop.recording.records import Progress, whole_records
@@ -113,7 +114,14 @@ def about(metadata: Mapping[str, str]) -> About:
         low, high = (-math.inf if low is None else low), (math.inf if high is None else high)
         limits[Axis(name)] = Limits(low, high, *magnitudes)
     played = sequence_facts(metadata)
-    return About(metadata["rig"], metadata["title"], float(metadata["started"]), limits, metadata["version"], played)
+    return About(
+        plain(metadata["rig"]),
+        plain(metadata["title"]),
+        float(metadata["started"]),
+        limits,
+        metadata["version"],
+        played,
+    )
 
 
 def ending(metadata: Mapping[str, str]) -> Ending:

@@ -11,6 +11,7 @@ from teleop.config.documents.base_model import Finite, PositionsSection, Section
 from teleop.config.documents.json_types import Ease, Overshoot, Percentage, TensionWritten, Time
 from teleop.config.frame_rates import exact_rate
 from teleop.core.axes import Axis
+from teleop.core.plain import plain
 from teleop.planner.keyframes.repeat import Repeat
 from teleop.planner.keyframes.tension import EVEN
 from teleop.sequence.aim_section import Aim, CameraMountSection, Mount, OffsetSection, Place
@@ -135,4 +136,4 @@ class SequenceModel(Section):
 
     def called(self, file: str) -> str:
         """The title in one line, else the file's name without its ending."""
-        return " ".join(self.title.split()) or Path(file).stem
+        return plain(" ".join(self.title.split()) or Path(file).stem)

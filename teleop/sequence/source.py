@@ -22,7 +22,7 @@ from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue, Wait, cues_from
-from teleop.sequence.cycle import Cycle
+from teleop.sequence.cycle import Cycle, Trigger
 from teleop.sequence.phases import BEFORE_THE_MOVE, TIMED, TRANSITIONS, PhaseEvent, SequencePhase
 from teleop.sequence.playback import Playback
 
@@ -185,15 +185,18 @@ class SequenceSource:
         if trigger is None or (self.number > 1 and (self.cycle.endless or not trigger.again)):
             self._start_pass(self.until)
             return
+        self._arm(trigger, now)
+        if self.missed and not self._suspended:
+            raise DeviceError(self.missed)
+        self._go_pressed = False
+        self._handle(PhaseEvent.ARM)
+
+    def _arm(self, trigger: Trigger, now: float) -> None:
         try:
             trigger.arm(now)
             self.missed = ""
         except DeviceError as error:
-            if not self._suspended:
-                raise
             self.missed = str(error)
-        self._go_pressed = False
-        self._handle(PhaseEvent.ARM)
 
     def _is_corrected(self) -> bool:
         """Whether what this pass plays is known."""
@@ -205,6 +208,8 @@ class SequenceSource:
 
     def _start_if_triggered(self, now: float) -> None:
         trigger = self.cycle.trigger
+        if trigger and self.missed:  # it may come once more: a clock that is set back is not there yet
+            self._arm(trigger, now)
         if self._go_pressed or (trigger and not self.missed and trigger.fired(now)):
             self._start_pass(now)
 

@@ -43,6 +43,18 @@ def test_a_dict_has_no_lines_in_its_errors(profile):
     assert all(problem.startswith("sequence: ") for problem in error.value.problems)
 
 
+def test_the_files_that_a_dict_names_are_in_the_current_folder(profile, tmp_path, monkeypatch):
+    (tmp_path / "track.csv").write_text("".join(f"{frame / 10}\n" for frame in range(48)), encoding="utf-8")
+    (tmp_path / "in.yaml").write_text("keyframes: [{at: 0, pan: 0}, {at: 2, pan: 10}]\n", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    table = plan_content({"source": {"file": "track.csv", "fps": 24, "columns": {"pan": 1}}}, profile)
+    assert table.sequence.move.duration > 47 / 24
+    included = plan_content({"include": [{"move": "in.yaml", "at": 0}]}, profile)
+    assert included.sequence.move.duration == pytest.approx(2)
+    with pytest.raises(DocumentError, match="no such file"):
+        plan_content({"source": {"file": "other.csv", "fps": 24, "columns": {"pan": 1}}}, profile)
+
+
 def test_a_drones_move_is_known(profile):
     flown = [{"at": 0, "stick_yaw": 0}, {"at": 2, "stick_yaw": 0}]
     assert plan_content({"keyframes": flown}, load_profile("m100")).is_flown

@@ -24,6 +24,14 @@ sinks:
 """
 
 
+LATE_RIG = """
+name: Late rig
+links: {gimbal: "sim:"}
+axes: {pan: {min: -90, max: 90, velocity: 120, acceleration: 240, jerk: 1200}}
+sinks: [{type: gimbal, link: gimbal, mode: speed, rate: 50, simulated: {lag: 0.2, dead_time: 0.1}}]
+"""
+
+
 @pytest.fixture
 def rig():
     with teleop.open("sim", virtual=True) as opened:
@@ -128,3 +136,13 @@ def test_a_recorded_run_is_planned_and_played_again(rig, tmp_path):
 def test_what_is_no_sequence_is_an_error_of_the_api(rig, sequence):
     with pytest.raises(teleop.UsageError, match="must be a name, a file or a dict"):
         rig.play(sequence)
+
+
+def test_a_gimbal_that_is_late_is_led_by_the_plan(tmp_path):
+    (tmp_path / "late.yaml").write_text(LATE_RIG)
+    move = {"keyframes": [{"at": 0, "pan": 0}, {"at": 2, "pan": 45, "hold": 0.5}, {"at": 5, "pan": -15}]}
+    with teleop.open(tmp_path / "late.yaml", virtual=True) as late:
+        first, second = (late.play(move).axes["pan"] for _ in range(2))
+    assert first.rms < 0.4
+    assert second.rms < 0.05
+    assert second.peak < 0.2

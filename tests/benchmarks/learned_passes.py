@@ -1,6 +1,6 @@
 """Passes that learn, on gimbals that were not measured: `learned_passes.py [COUNT [SEED [KNOWN]]]`.
 
-KNOWN is the share of each gimbal's delay that its profile has.
+KNOWN is the share of each gimbal's delay that its profile has. Without it the profile has none: it is identified.
 
 Prints for each gimbal the RMS of three passes, and at the end how many did not come down to a quarter of the first pass
 or under 0.05 degrees by the third. The exit code is 1 when one did not.
@@ -8,6 +8,7 @@ or under 0.05 degrees by the third. The exit code is 1 when one did not.
 
 from __future__ import annotations
 
+import math
 import random
 import sys
 import tempfile
@@ -40,12 +41,12 @@ def random_gimbals(count: int, seed: int) -> Iterator[Mapping[str, float]]:
 
 
 def main() -> int:
-    count, seed, known = (float(each) for each in [*sys.argv[1:], *("0", "1", "0")[len(sys.argv) - 1 :]])
+    count, seed, known = (float(each) for each in [*sys.argv[1:], *("0", "1", "nan")[len(sys.argv) - 1 :]])
     bad = total = 0
     gimbals = random_gimbals(int(count), int(seed)) if count else corners()
     for gimbal, (name, move) in product(list(gimbals), {"fast": FAST, "slow": SLOW, "tilted": TILTED}.items()):
         with tempfile.TemporaryDirectory() as folder:
-            delay = known * (gimbal["lag"] + gimbal["dead_time"])
+            delay = None if math.isnan(known) else known * (gimbal["lag"] + gimbal["dead_time"])
             found = learned(rig(gimbal, delay=delay), move, 3, Path(folder))
         for axis in found.plan.axes:
             rms = found.rms(axis.value) if len(found.learner.passes) == 3 else [1.0, 1.0, 1.0]

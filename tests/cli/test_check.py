@@ -92,3 +92,15 @@ def test_the_frames_of_a_table_are_compared_with_the_plan(capsys: pytest.Capture
     )
     found = json.loads(checked(text, capsys, "--json"))["frames"]["pan"]
     assert (found["tolerance"], found["frames"], found["off"] <= 0.1) == (0.1, 60, True)
+
+
+def test_a_refusal_ends_with_a_verdict_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "move.yaml"
+    file.write_text("keyframes:\n- {at: 0, pan: 0}\n- {at: 0.1, pan: 70}\n")
+    assert run(["check", str(file)]) == 1
+    assert capsys.readouterr().out == "Not OK: Simulated rig cannot play this, 1 problem.\n"
+    file.write_text("keyframes: 3\nfsp: 24\n")
+    assert run(["check", str(file)]) == 2
+    assert capsys.readouterr().out == "Not OK: this cannot be read, 2 problems.\n"
+    assert run(["check", str(file), "--json"]) == 2
+    assert "Not OK" not in capsys.readouterr().out

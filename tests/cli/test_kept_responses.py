@@ -217,9 +217,21 @@ def test_a_damaged_file_is_a_warning_and_stays(play: Callable[..., Any], capsys:
     assert error(play()) == error(first)
 
 
-def test_position_mode_keeps_nothing(play: Callable[..., Any]) -> None:
-    assert play(("mode: speed", "mode: position"))["responses"] == {}
-    assert kept_files() == []
+def test_position_mode_finds_how_late_it_is_and_goes_by_nothing_of_it(play: Callable[..., Any]) -> None:
+    late = ("mode: speed", "mode: position"), ("lag: 0.1,", "position_lag: 0.08,")
+    first, second = play(*late), play(*late)
+    found = first["responses"]["pan"]
+    assert found["delay"] == pytest.approx(0.13, abs=0.02)
+    assert found["kept"]
+    assert found["drift_doubt"] is None
+    assert second["axes"] == first["axes"]
+    line = "pan is 0.13 s late: the profile can make up for it, with delay: 0.13"
+    assert line in play(*late, text=True).out
+
+
+def test_position_mode_on_time_has_no_line(play: Callable[..., Any]) -> None:
+    prompt = ("mode: speed", "mode: position"), ("dead_time: 0.05", "dead_time: 0.0")
+    assert "late" not in play(*prompt, text=True).out
 
 
 def test_a_folder_that_cannot_be_written_costs_a_line_and_no_run(

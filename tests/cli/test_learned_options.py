@@ -12,13 +12,15 @@ import pytest
 from teleop.cli import run
 from teleop.recording.reader import read_take
 
-MOVE = "tension: 0\nkeyframes:\n  - {at: 0, pan: 0}\n  - {at: 2, pan: 40}\n  - {at: 4, pan: -5}\n"
+MOVE = "keyframes:\n  - {at: 0, pan: 0}\n  - {at: 2, pan: 40}\n  - {at: 4, pan: -5}\n"
 RIG = """
 name: {name}
 links: {{gimbal: "sim:"}}
 axes: {{pan: {{min: -90, max: 90, velocity: {velocity}, acceleration: 240, jerk: 1200}}}}
-sinks: [{{type: gimbal, link: gimbal, mode: speed, rate: 50, simulated: {{lag: 0.1, dead_time: 0.03, backlash: 0.05}}}}]
+sinks: [{{type: gimbal, link: gimbal, mode: speed, rate: 50,{delay} simulated: {dynamics}}}]
 """
+LATE = "{lag: 0.1, dead_time: 0.03, backlash: 0.05}"
+WRONG = " delay: 0.0,"  # what the profile has of the gimbal: so nothing is identified, and there is much to learn
 
 
 @dataclass(frozen=True)
@@ -36,13 +38,13 @@ class Shot:
         return run(["play", str(self.folder / move), "--rig", str(self.folder / rig), "--fast", *options])
 
 
-@pytest.fixture(scope="module")
-def shot(tmp_path_factory: pytest.TempPathFactory) -> Shot:
-    folder = tmp_path_factory.mktemp("shot")
+def learned(folder: Path, delay: str) -> Shot:
+    """Three passes that learn, in a new folder, on a rig with this delay."""
+    of = {"velocity": 120, "delay": delay, "dynamics": LATE}
     (folder / "move.yaml").write_text(MOVE)
     (folder / "edited.yaml").write_text(MOVE.replace("pan: 40", "pan: 40.5"))
-    (folder / "rig.yaml").write_text(RIG.format(name="Bench", velocity=120))
-    (folder / "other.yaml").write_text(RIG.format(name="Another", velocity=120))
+    (folder / "rig.yaml").write_text(RIG.format(name="Bench", **of))
+    (folder / "other.yaml").write_text(RIG.format(name="Another", **of))
     with pytest.MonkeyPatch.context() as patch:
         printed: list[str] = []
         patch.setenv("XDG_STATE_HOME", str(folder / "state"))
@@ -52,7 +54,20 @@ def shot(tmp_path_factory: pytest.TempPathFactory) -> Shot:
     return Shot(folder, json.loads(next(line for line in printed if line.startswith("{"))))
 
 
-def test_by_the_third_pass_a_quarter_of_the_error_is_left(shot: Shot):
+@pytest.fixture(scope="module")
+def shot(tmp_path_factory: pytest.TempPathFactory) -> Shot:
+    return learned(tmp_path_factory.mktemp("shot"), WRONG)
+
+
+@pytest.fixture(scope="module")
+def unmeasured(tmp_path_factory: pytest.TempPathFactory) -> Shot:
+    """Of which the profile has no delay."""
+    return learned(tmp_path_factory.mktemp("unmeasured"), "")
+
+
+@pytest.mark.parametrize("of", ["shot", "unmeasured"])
+def test_by_the_third_pass_a_quarter_of_the_error_is_left(of: str, request: pytest.FixtureRequest):
+    shot = request.getfixturevalue(of)
     passes = shot.report["learning"]["passes"]
     rms = [each["axes"]["pan"]["rms"] for each in passes]
     assert [each["pass"] for each in passes] == [1, 2, 3]
@@ -146,8 +161,22 @@ def test_a_file_is_never_replaced_by_another_run(
     assert shot.play("--learn", "--passes", "2") == 2
     assert "move.learned.json already exists" in capsys.readouterr().err
     assert (tmp_path / "move.learned.json").read_text() == "kept"
-    assert shot.play("--learn", "--passes", "2", move="a.mcap") == 2
-    assert "teleop take keyframes" in capsys.readouterr().err
+
+
+def test_a_recorded_take_can_be_learned_too(
+    shot: Shot, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+):
+    monkeypatch.chdir(tmp_path)
+    assert shot.play("--take", "hand.mcap", "--json") == 0
+    capsys.readouterr()
+    move = str(tmp_path / "hand.mcap")
+    assert shot.play("--learn", "--passes", "2", "--json", move=move) == 0
+    learned = json.loads(capsys.readouterr().out)["learning"]
+    first, second = (each["axes"]["pan"]["rms"] for each in learned["passes"])
+    assert second <= max(first / 4, 0.05)
+    assert learned["file"] == "hand.learned.json"
+    assert shot.play("--learned", "hand.learned.json", "--json", move=move) == 0
+    assert json.loads(capsys.readouterr().out)["axes"]["pan"]["rms"] <= max(first / 4, 0.06)
 
 
 def test_a_take_of_corrected_passes_has_the_plan_and_its_report_is_against_that(

@@ -108,14 +108,16 @@ def test_the_last_row_of_a_table_is_the_end_of_the_move(tmp_path: Path) -> None:
     assert [float(cell) for cell in last.split(",")[:3]] == [1.237, 3.0, pytest.approx(0.0, abs=1e-6)]
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
-def test_a_table_that_a_signal_ends_leaves_nothing_behind(tmp_path: Path, number: signal.Signals) -> None:
-    """On a file system that cannot keep a file without a name until it is whole."""
+@pytest.mark.parametrize(("number", "owned"), [(signal.SIGTERM, True), (signal.SIGHUP, True), (signal.SIGTERM, False)])
+def test_a_table_that_a_signal_ends_leaves_nothing_behind(tmp_path: Path, number: signal.Signals, owned: bool) -> None:
+    """On a file system that cannot keep a file without a name until it is whole; in the command, and elsewhere."""
     code = f"""
 import os
 from pathlib import Path
-from teleop.cli.signals import unwound_by_signals
+from teleop.cli.signals import process, unwound_by_signals
 from teleop.config import files
+if {owned}:
+    process.own()
 os.O_TMPFILE = None
 with unwound_by_signals(), files.replacing(Path("move.csv")) as stream:
     assert list(Path().glob(".*.part"))

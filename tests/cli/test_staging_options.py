@@ -7,7 +7,8 @@ import math
 import pytest
 
 from teleop.app.planning import plan_content
-from teleop.cli.staging_options import StagingOptions, joined
+from teleop.cli.staging_options import StagingOptions
+from teleop.cli.typed_triggers import joined
 from teleop.config.profile import load_profile
 from teleop.core.clock import SystemClock, VirtualClock
 from teleop.core.errors import UsageError

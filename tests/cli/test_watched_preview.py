@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import os
+import signal
+import subprocess
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from command import TELEOP
+from waiting import DEADLINE, wait_until
 
 from teleop.cli import run, watched_preview
 
@@ -60,6 +64,41 @@ def test_the_last_page_is_not_watched(steps: list[Callable[[], object]]) -> None
     assert run(["preview", "move.yaml", "-o", "move.html", "--watch"]) == 0
     assert '"watch":' not in Path("move.html").read_text()
     assert sorted(file.name for file in Path().iterdir()) == ["move.html", "move.yaml"]
+
+
+def test_what_is_included_from_another_folder_is_watched_too(steps: list[Callable[[], object]]) -> None:
+    """Also where it is not there yet."""
+    other = Path("other/part.yaml").absolute()
+    seen: list[list[str]] = []
+
+    def look() -> None:
+        page, script = Path("move.html"), Path("move.html.js")
+        seen.append([each.read_text() if each.exists() else "" for each in (page, script)])
+
+    def save_other(pan: int) -> None:
+        other.parent.mkdir(exist_ok=True)
+        other.write_text(MOVE.format(title="Part").replace("20", str(pan)))
+        os.utime(other, ns=(pan, pan))
+
+    save(f"include:\n  - {{move: {other}, at: 0}}\n", 1)
+    steps += [look, lambda: save_other(21), look, look, lambda: save_other(22), look, lambda: None, look]
+    assert run(["preview", "move.yaml", "-o", "move.html", "--watch"]) == 0
+    pages, scripts = zip(*seen, strict=True)
+    assert pages[0] == ""
+    assert pages[1] == pages[2] != pages[3] == pages[4]
+    assert scripts[1] == scripts[2] != scripts[3]
+
+
+def test_a_signal_that_ends_the_watch_leaves_a_clean_page(tmp_path: Path) -> None:
+    (tmp_path / "move.yaml").write_text(MOVE.format(title="One"))
+    page, beside = tmp_path / "move.html", tmp_path / "move.html.js"
+    command = [TELEOP, "preview", "move.yaml", "-o", "move.html", "--watch"]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.DEVNULL)
+    wait_until(beside.exists, "the page")
+    process.terminate()
+    assert process.wait(DEADLINE) == -signal.SIGTERM
+    assert not beside.exists()
+    assert '"watch":' not in page.read_text()
 
 
 def test_only_a_page_can_be_watched(steps: list[Callable[[], object]], capsys: pytest.CaptureFixture[str]) -> None:

@@ -93,6 +93,27 @@ class Heard:
     gimbal: SimulatedGimbal = field(default_factory=SimulatedGimbal)
 
 
+Runs = Callable[[str, float], Heard]
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory) -> Runs:
+    """What was heard in a mode over a bus that passes a share of what the rig sends; each is run once, on virtual time.
+
+    The tests look at the same runs from several sides, and change nothing in them.
+    """
+    known: dict[tuple[str, float], Heard] = {}
+
+    def heard(mode: str, share: float) -> Heard:
+        per_second = math.inf if math.isinf(share) else share * heard(mode, math.inf).frames / 11
+        if (mode, share) not in known:
+            with pytest.MonkeyPatch.context() as patch:
+                known[mode, share] = run(mode, per_second, tmp_path_factory.mktemp("rig"), patch)
+        return known[mode, share]
+
+    return heard
+
+
 def run(mode: str, per_second: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seconds: float = 10.0) -> Heard:
     """A run over a bus that passes so many CAN frames a second."""
     register(monkeypatch)
@@ -154,12 +175,10 @@ STREAMS = {"position": gimbal.Position, "speed": gimbal.Speed, "stick": gimbal.J
 
 
 @pytest.mark.parametrize("share", [0.85, 0.6])
-def test_commands_over_a_slow_bus_are_rarer_and_never_old(
-    mode: str, share: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    free = run(mode, math.inf, tmp_path, monkeypatch)
+def test_commands_over_a_slow_bus_are_rarer_and_never_old(mode: str, share: float, runs: Runs) -> None:
+    free = runs(mode, math.inf)
     assert (free.result, free.notes) == (Result.DONE, [])
-    slow = run(mode, share * free.frames / 11, tmp_path, monkeypatch)
+    slow = runs(mode, share)
     assert (slow.result, slow.reasons) == (Result.DONE, [])
     assert slow.damage == 0
     assert slow.counts["superseded"] > 20
@@ -173,11 +192,8 @@ def test_commands_over_a_slow_bus_are_rarer_and_never_old(
     assert slow.counts["cannot_keep_up"] == 1
 
 
-def test_orders_and_the_last_word_of_each_stream_arrive(
-    mode: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    free = run(mode, math.inf, tmp_path, monkeypatch)
-    slow = run(mode, 0.6 * free.frames / 11, tmp_path, monkeypatch)
+def test_orders_and_the_last_word_of_each_stream_arrive(mode: str, runs: Runs) -> None:
+    slow = runs(mode, 0.6)
     orders = [each for each in slow.messages if isinstance(each, camera.Command)]
     assert [order.command for order in orders] == [camera.CameraCommand.RECORD, camera.CameraCommand.STOP]
     last = {type(each): each for each in slow.messages}
@@ -191,7 +207,5 @@ def test_orders_and_the_last_word_of_each_stream_arrive(
         assert gimbal.Position not in kinds[:-1]
 
 
-def test_a_hiccup_is_not_a_link_that_cannot_keep_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    free = run("position", math.inf, tmp_path, monkeypatch)
-    nearly = run("position", 1.2 * free.frames / 11, tmp_path, monkeypatch)
-    assert nearly.notes == []
+def test_a_hiccup_is_not_a_link_that_cannot_keep_up(runs: Runs) -> None:
+    assert runs("position", 1.2).notes == []

@@ -107,6 +107,20 @@ def test_a_jump_of_the_angle_is_another_gimbal() -> None:
     assert not bench.estimator.sure
 
 
+@pytest.mark.parametrize("speed", [30, 60])
+def test_a_payload_that_rings_is_no_other_gimbal(speed: float) -> None:
+    bench = Bench(Dynamics(lag=0.04, dead_time=0.03, natural_frequency=2.0, damping=0.4))
+    bench.go(4.0, lambda time: speed / 2 * math.sin(math.pi * time / 4) ** 2)
+    bench.go(1.0, lambda _time: 0.0)
+    assert bench.estimator.sure
+    for _ in range(2):
+        begin = bench.now
+        bench.go(2.0, lambda time, begin=begin: -speed * min(1.0, 5 * max(0.0, min(time - begin, 1 + begin - time))))
+        bench.go(2.0, lambda _time: 0.0)
+    assert not bench.estimator.changed
+    assert bench.estimator.sure
+
+
 def test_an_axis_that_is_held_teaches_nothing() -> None:
     bench = Bench(Dynamics(lag=0.05))
     bench.go(4.0)

@@ -56,6 +56,20 @@ def test_a_pass_that_is_worse_is_dropped_and_the_best_is_kept():
     assert not learns.offset.coefficients.any()
 
 
+def test_a_pass_that_was_not_settled_corrects_nothing_and_may_yet_be_the_best():
+    learns = learner()
+    lucky, usual = late(learns.offset, 0.02), late(learns.offset)
+    learns.learn(1, error(lucky), lucky, settled=False)
+    assert not learns.offset.coefficients.any()
+    learns.learn(2, error(usual), usual)
+    assert learns.best_pass == 1
+    corrected = late(learns.offset)
+    assert error(corrected).rms < 0.05 * error(usual).rms
+    learns.learn(3, error(corrected), corrected)
+    assert learns.best_pass == 3
+    assert learns.best.coefficients.any()
+
+
 def test_learning_ends_where_there_is_nothing_to_gain():
     learns = learner()
     noise = np.random.default_rng(0).uniform(-0.05, 0.05, len(TIMES))

@@ -2,6 +2,7 @@
 
 import math
 from contextlib import ExitStack
+from datetime import datetime
 
 import pytest
 from at_once import AtOnce
@@ -19,6 +20,7 @@ from teleop.sequence.cycle import Cycle
 from teleop.sequence.phases import SequencePhase
 from teleop.sequence.progress import progress_text
 from teleop.sequence.source import SequenceSource
+from teleop.sequence.triggers.time_of_day import ClockTrigger
 
 PAN = Axis.PAN
 LIMITS = {PAN: Limits(-180, 180, 60, 120, 600)}
@@ -234,3 +236,22 @@ def test_paused_at_its_end_it_is_not_over():
     assert stage.source.next_change(stage.now) < stage.now + 1
     stage.source.playback.resume(stage.now)
     stage.play()
+
+
+def test_a_time_that_passed_while_the_run_was_stopped_comes_again_when_the_clock_is_set_back():
+    wall = [datetime.fromisoformat("2026-11-25T18:29:55").timestamp()]
+    trigger = ClockTrigger("18:30", lambda: wall[0])
+    stage = Stage(THERE, Cycle(0.5, trigger=trigger))
+    stage.source.suspend(stage.now)
+    wall[0] += 60
+    stage.source.resume(stage.now, {PAN: stage.pan})
+    for _ in range(100):
+        stage.step()
+    assert (stage.source.phase, stage.source.missed[:12]) == (SequencePhase.ARMED, "18:30:00 was")
+    wall[0] -= 120
+    stage.step()
+    assert (stage.source.phase, stage.source.missed) == (SequencePhase.ARMED, "")
+    assert trigger.waits_for(stage.now) == "18:30:00, in 1 min 5 s"
+    wall[0] += 65
+    stage.step()
+    assert stage.source.phase is SequencePhase.PLAYING

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import os
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 from silent_screen import SilentScreen, no_signals
 
@@ -43,8 +45,10 @@ class Learned:
         ]
 
 
-def rig(simulated: Mapping[str, Any] | None = None, mode: str = "speed", delay: float = 0.0, **more: Any) -> Profile:
-    """A rig of one gimbal, whose simulated dynamics are as in a profile; `delay` (s) is what the profile knows."""
+def rig(
+    simulated: Mapping[str, Any] | None = None, mode: str = "speed", delay: float | None = None, **more: Any
+) -> Profile:
+    """A rig of one gimbal, whose simulated dynamics are as in a profile; `delay` (s) is what the profile has."""
     gimbal = {
         "type": "gimbal",
         "link": "gimbal",
@@ -68,6 +72,7 @@ def learned(
     known: Correction | None = None,
     changed: Callable[[SequenceRun], SequenceRun] = lambda run: run,
 ) -> Learned:
+    """What was found of how the axes answer is kept in `folder`, for the next run there."""
     plan = plan_content(move, profile)
     used = devices_in_use(plan, shoots=False)
     screen = SilentScreen()
@@ -79,5 +84,6 @@ def learned(
     source = source_of(plan.sequence, used, 1.0, 1.0, cycle)
     run = SequenceRun(used, plan.sequence, source, VirtualClock(), None, screen.notify, screen.notify)
     run = changed(replace(run, patient=True, learner=learns))
-    report = run.perform(lambda _limits, _status, _recorder: screen, no_signals)
+    with mock.patch.dict(os.environ, {"XDG_STATE_HOME": str(folder / "state")}):
+        report = run.perform(lambda _limits, _status, _recorder: screen, no_signals)
     return Learned(learns, report, plan, screen, saved)

@@ -114,7 +114,7 @@ def measure_responses(
             screen = make_screen(section.mode, each, profile.limits[each], status, bool(keys))
             guard.notify = screen.notify
             rig = stack.enter_context(open_rig(bare.in_use([each]), clock))
-            traces = _Traces(rig, section, each)
+            traces = _Traces(rig, section, each, moves[each])
             notes = [LinkNotes(rig.connections.values(), warnings.append), rig.notes(screen.notify)]
             loop = rig.loop([each], [guard], [traces, *notes, *map(stack.enter_context, keys), screen])
             with signals(loop.interrupt, loop.release_at_once, screen.notify), screen:
@@ -136,11 +136,11 @@ def keep(report: ResponseReport, store: ResponseStore) -> Sequence[Axis]:
 class _Traces:
     """An observer of what is sent and read of one axis, after the sinks."""
 
-    def __init__(self, rig: Rig, section: GimbalSection, axis: Axis) -> None:
+    def __init__(self, rig: Rig, section: GimbalSection, axis: Axis, move: CalibrationMove) -> None:
         controls = [device.control for device in rig.devices if axis in device.moves and device.control is not None]
         self._control: SpeedControl | None = controls[0] if controls else None
         self.question = VersionQuestion(rig.connections[section.link])
-        self._axis = axis
+        self._axis, self._move = axis, move
         self._estimator = ResponseEstimator(None, SETTING if section.mode == "stick" else Start())
         self._sent: list[tuple[float, float]] = []
         self._readings: list[Reading] = []
@@ -170,7 +170,11 @@ class _Traces:
             self._estimator.sent(time, speed)
 
     def found(self) -> AxisResponse:
-        """Raises DeviceError when no response explains the readings."""
+        """Raises DeviceError when no response explains the readings.
+
+        After a STOP the move has begun anew: what was read before, while a hand may have turned the axis, is out.
+        """
+        self._readings = [each for each in self._readings if each.time >= self._move.begin]
         response = self._response()
         if response is None:
             raise DeviceError(

@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from threading import Event, Thread
 from typing import TextIO
 
+from teleop.core.plain import plain
+
 PATIENCE = 0.5  # s without a word, and between two
 ERASE = "\r\x1b[K"
 
@@ -37,6 +39,6 @@ def _tell(what: str, stream: TextIO, patience: float, over: Event) -> None:
     periods = 0
     while not over.wait(patience):
         periods += 1
-        print(f"{ERASE}{what}: {periods * patience:.0f} s", end="", file=stream, flush=True)
+        print(f"{ERASE}{plain(what)}: {periods * patience:.0f} s", end="", file=stream, flush=True)
     if periods:
         print(ERASE, end="", file=stream, flush=True)

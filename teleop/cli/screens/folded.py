@@ -9,12 +9,20 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
+from teleop.core.plain import plain
+
 INDENT = "  "  # of what is left of a line in the next one
 NARROWEST = 20  # cells
 
 
+def spelled(text: str) -> str:
+    """Lines in which a name from a file cannot act on the terminal."""
+    return "\n".join(map(plain, text.split("\n")))
+
+
 def folded(text: str, stream: TextIO) -> str:
-    """`text` in as many lines as it takes on the terminal that `stream` is."""
+    """`text` in as many lines as it takes on the terminal that `stream` is; what would act on a terminal is spelled."""
+    text = spelled(text)
     try:
         if not stream.isatty():
             return text

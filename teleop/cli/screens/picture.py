@@ -19,6 +19,8 @@ from rich.control import Control
 from rich.live import Live
 from rich.text import Text
 
+from teleop.core.plain import plain
+
 REDRAWS = 10  # a second
 DRAW_TIMEOUT = 2.0  # s at the end for a terminal that takes nothing
 ASCII = str.maketrans("─━●○│█", "-=*o|#")
@@ -55,7 +57,7 @@ class Rows:
         state = list(self.state) if room >= len(self.state) else written[:room]
         notes = list(self.notes)[: room - len(state)]
         blank = [Text() for _ in range(room - len(state) - len(notes))]
-        rows = [row.copy() for row in (*title, *banner, *axes, *state, *notes, *blank, *bottom)]
+        rows = [_without_control(row) for row in (*title, *banner, *axes, *state, *notes, *blank, *bottom)]
         for row in rows:
             row.truncate(width)
         return rows
@@ -118,7 +120,13 @@ class Picture:
             return  # the terminal is gone, or its stream is closed
 
 
+def _without_control(row: Text) -> Text:
+    """A copy; one with a name that would act on the terminal loses its colors, not its meaning."""
+    safe = plain(row.plain)
+    return row.copy() if safe == row.plain else Text(safe, row.style)
+
+
 def _in_ascii(row: Text) -> Text:
     """The same cells without what the terminal's encoding lacks."""
-    plain = row.plain.translate(ASCII).encode("ascii", "replace").decode("ascii")
-    return Text(plain, row.style, spans=list(row.spans))
+    text = row.plain.translate(ASCII).encode("ascii", "replace").decode("ascii")
+    return Text(text, row.style, spans=list(row.spans))

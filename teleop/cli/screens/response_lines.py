@@ -10,6 +10,8 @@ from teleop.config.response_store import Kept, Key
 from teleop.core.axes import Axis
 from teleop.core.response import Response
 
+LATE = 0.02  # s: less is not worth a line
+
 
 def response_words(response: Response) -> str:
     """`0.12 s late (doubt 0.01), gain 0.97, drift 0.2 deg/s`."""
@@ -35,10 +37,20 @@ def run_lines(report: RunReport) -> Sequence[str]:
     """What a run found of each axis, and what becomes of it."""
     lines = []
     for axis, response in report.responses.items():
+        if axis in report.kept.watched:
+            lines += _late(axis, response, _delay(report, axis) or 0.0)
+            continue
         then = f"the profile's delay of {delay:g} s counts" if (delay := _delay(report, axis)) is not None else ""
         kept = "kept for the next run" if axis in report.kept.kept else ""
         lines.append("; ".join(filter(None, (f"{axis} answers {response_words(response)}", then, kept))))
     return lines
+
+
+def _late(axis: Axis, response: Response, delay: float) -> Sequence[str]:
+    """Of an axis that is sent positions, where the profile's `delay` (s) is not what it needs."""
+    if abs(response.delay - delay) < LATE:
+        return []
+    return [f"{axis} is {response.delay:.2f} s late: the profile can make up for it, with delay: {response.delay:.2f}"]
 
 
 def run_facts(report: RunReport) -> Mapping[str, object]:

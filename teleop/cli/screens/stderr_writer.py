@@ -11,6 +11,8 @@ import sys
 import threading
 from collections import deque
 
+from teleop.cli.screens.folded import spelled
+
 MOST = 1000  # lines that wait; beyond that the oldest are left out
 LONGEST = 4096  # bytes for which a pipe that takes anything has room: PIPE_BUF
 
@@ -24,12 +26,12 @@ class StderrWriter:
         self._waiting.append(text[: LONGEST // 4 - 1])  # a character has four bytes at most, and the line its end
         with self._writing:
             while self._waiting and _has_room():
-                print(self._waiting.popleft(), file=sys.stderr)
+                print(spelled(self._waiting.popleft()), file=sys.stderr)
 
     def finish(self) -> None:
         """Write what still waits, and wait for it; to be called when nothing moves any more."""
         while self._waiting:
-            print(self._waiting.popleft(), file=sys.stderr)
+            print(spelled(self._waiting.popleft()), file=sys.stderr)
 
 
 def _has_room() -> bool:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from teleop.config.documents.messages import PHRASES, likely_key, missing_space, unknown_key
 from teleop.core.errors import UsageError
+from teleop.core.plain import plain
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -31,8 +32,8 @@ class DocumentError(UsageError):
     """A file that cannot be used: a line for each thing wrong with it, and how many more there are than `problems`."""
 
     def __init__(self, problems: Sequence[str], more: int = 0) -> None:
-        super().__init__("\n".join(problems))
-        self.problems, self.more = list(problems), more
+        self.problems, self.more = list(map(plain, problems)), more
+        super().__init__("\n".join(self.problems))
 
 
 ENTRIES = {"keyframes": "key", "cues": "cue", "include": "include", "panorama": "shot"}

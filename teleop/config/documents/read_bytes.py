@@ -5,10 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from teleop.config.documents.document import DocumentError
+from teleop.config.files_read import note
 
 
 def read_bytes(file: Path, name: str, most: int) -> bytes:
     """What is in `file`, which errors call `name`. Raises DocumentError where it cannot be read, or has over `most`."""
+    note(file)
     try:
         with file.open("rb") as stream:
             raw = stream.read(most + 1)

@@ -19,6 +19,7 @@ from teleop.config.documents.document import Document, DocumentError, Flaw, Loca
 from teleop.config.documents.messages import decimal_comma, missing_space
 from teleop.config.documents.read_bytes import read_bytes
 from teleop.config.documents.yaml_nodes import TooMuchError, compose
+from teleop.core.plain import plain
 
 MAX_BYTES = 4_000_000  # a sequence of 2000 keys is 0.2 MB
 MAX_VALUES = 100_000  # after aliases are followed: 14 000 keyframes of four axes, more than can be planned
@@ -55,7 +56,7 @@ def read_document(file: Path, name: str | None = None, note: str = "") -> Docume
 
 
 def _read(file: Path, name: str | None) -> Document:
-    name = name or str(file)
+    name = plain(name or str(file))
     raw = read_bytes(file, name, MAX_BYTES)
     try:
         return parse_document(raw.decode("utf-8-sig"), name)

@@ -19,6 +19,7 @@ from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
 from teleop.devices.connection import Answer, Connection
 from teleop.devices.gimbal.aim_guard import AimGuard
+from teleop.devices.gimbal.position_watch import PositionWatch
 from teleop.devices.rate_divider import RateDivider
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.enums import AngleKind
@@ -131,7 +132,7 @@ class PositionSink:
         self._misreported = misreported
         self._connection, self._delay, self._wiring, self._limits = connection, delay, wiring, limits
         self._pace = RateDivider(rate)
-        self.guard = AimGuard(limits)
+        self.guard, self.watch = AimGuard(limits), PositionWatch(limits, delay)
         self._refusals = Refusals(connection, gimbal.Position)
         self._sent: Mapping[Axis, float] = {}
         self._sent_at = -math.inf
@@ -146,6 +147,7 @@ class PositionSink:
         there to wherever the plan has got to since. The run is ending anyway.
         """
         self._last = tick
+        self.watch.note(tick)
         self._refusals.check()
         if self._unreached or not self._pace.due(tick.time, tick.motion):
             return

@@ -56,8 +56,8 @@ class SpeedControl:
                     self.changed.add(axis)
                     self.lines.append(f"{axis} answers otherwise than before: it is identified anew")
 
-    def foresee(self, foreseen: Foreseen) -> None:
-        """Look ahead by `foreseen` from now on."""
+    def foresee(self, foreseen: Foreseen | None) -> None:
+        """Look ahead by `foreseen` from now on; None is a hand's doing again."""
         if isinstance(self._correction, AdaptiveCorrection):
             self._correction.foreseen = foreseen
 
@@ -71,6 +71,11 @@ class SpeedControl:
         for axis, estimator in self.estimators.items():
             self.latest[axis] = now, speeds.get(axis, 0.0)
             estimator.sent(*self.latest[axis])
+
+    @property
+    def relied_on(self) -> Mapping[Axis, Response]:
+        """Those of the responses by which speeds are corrected: none where the profile's delay counts."""
+        return self.responses if isinstance(self._correction, AdaptiveCorrection) else {}
 
     @property
     def responses(self) -> Mapping[Axis, Response]:

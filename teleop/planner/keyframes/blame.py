@@ -12,6 +12,7 @@ from teleop.planner.keyframes.findings import AT_LIMIT, Finding, Unsolved
 from teleop.planner.keyframes.keys import Waypoint
 from teleop.planner.keyframes.legs import segment_of
 from teleop.planner.keyframes.program import TOLERANCE
+from teleop.planner.keyframes.windows import WHOLE, tightness
 from teleop.planner.polynomial import Array
 
 LIMITS = ("velocity", "acceleration", "jerk")
@@ -34,10 +35,15 @@ def _most(factors: Array, longer: float) -> tuple[int, float]:
 
 
 def untimed(axis: Axis, points: Sequence[Waypoint], limits: Limits) -> Iterator[tuple[int, Finding | Unsolved]]:
-    """The findings of a leg whose times were not searched for, and their intervals: what the bounds know of it."""
+    """The findings of a leg whose times were not searched for, and their intervals: what the bounds know of it.
+
+    Of a long leg at least the tightest place is known.
+    """
     segment = segment_of(points)
     factors = factors_needed(segment, limits)
     blamed = np.flatnonzero(factors.max(axis=1) > TOLERANCE).tolist()
+    if not blamed and len(points) > WHOLE + 1:
+        blamed = [int(np.argmax(tightness(segment, limits)))]
     for interval in blamed:
         had = float(segment.durations[interval])
         limit, factor = _most(factors[interval], 1.0)

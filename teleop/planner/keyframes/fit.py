@@ -11,7 +11,7 @@ all of a limit, a plan keeps headroom) it may lie a little beside them, towards 
 from __future__ import annotations
 
 from bisect import bisect, bisect_left
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -123,6 +123,14 @@ def fit(segment: SampledSegment, corners: Sequence[int], others: Sequence[int]) 
             return Fit(keys, off)
         keys, off = trial, better
     return Fit(keys, off) if off is None else _pruned(segment, keys, off)
+
+
+def fit_through(segment: SampledSegment, places: Iterable[int]) -> Fit | None:
+    """With keys at those places, or fewer, should a plan through them be near enough; else None."""
+    last = segment.begin + len(segment.positions) - 1
+    keys: Keys = {place: segment.position(place) for place in (segment.begin, *places, last)}
+    off = segment.off(keys)
+    return None if off is None or not segment.fits(off) else _pruned(segment, keys, off)
 
 
 def turning_points(positions: Array, least: float) -> Iterator[int]:

@@ -17,10 +17,11 @@ from teleop.core.axes import Limits
 from teleop.planner.keyframes.evenness import stills, urged
 from teleop.planner.keyframes.mesh import Indices
 from teleop.planner.keyframes.overshoot import NONE, least_overshoot, with_overshoot
-from teleop.planner.keyframes.program import HEADROOM, Rule
+from teleop.planner.keyframes.program import HEADROOM, TOLERANCE, Rule
 from teleop.planner.keyframes.qp import solve
 from teleop.planner.keyframes.segment import Segment
-from teleop.planner.keyframes.tension import Tension
+from teleop.planner.keyframes.tension import EVEN, Tension
+from teleop.planner.keyframes.windows import COARSE, TIGHT, WHOLE, graded, tightness
 from teleop.planner.polynomial import Array
 
 PIECES = (2, 4, 8)
@@ -67,12 +68,27 @@ def directed(segment: Segment, limits: Limits, tension: Tension) -> Pieces | Non
 
 
 def _part(part: Segment, limits: Limits, tension: Tension) -> Pieces | None:
-    for pieces in PIECES:
-        rule = Rule(pieces, True, tension)
-        solved = solve(part, limits, rule) if tension in ("even", 0) or pieces > PIECES[0] else None
+    for rule in _rules(part, limits, tension):
+        solved = solve(part, limits, rule)
         if solved is not None:
             return _moving(part, limits, rule, Pieces(*solved))
     return None
+
+
+def _rules(part: Segment, limits: Limits, tension: Tension) -> Iterator[Rule]:
+    """From coarse to fine; none where the bounds know that there is no way without overshoot."""
+    tight = tightness(part, limits)
+    if tight.max() > TOLERANCE:
+        return
+    if len(tight) > WHOLE:
+        grades = graded(tight)
+        if tight.max() < TIGHT or grades.max() == COARSE:
+            yield Rule(COARSE, True, tension)
+        yield Rule(np.maximum(grades, PIECES[1]) if grades.max() == COARSE else grades, True, tension)
+        return
+    for pieces in PIECES:
+        if tension in (EVEN, 0) or pieces > COARSE:
+            yield Rule(pieces, True, tension)
 
 
 def _moving(part: Segment, limits: Limits, rule: Rule, solved: Pieces) -> Pieces:
@@ -84,7 +100,7 @@ def _moving(part: Segment, limits: Limits, rule: Rule, solved: Pieces) -> Pieces
     still = stills(part, *solved)
     if part.ramps is not None or rule.tension == 0 or not np.any(still):
         return solved
-    finer = replace(rule, pieces=max(rule.pieces, PIECES[1]), fine=True)
+    finer = replace(rule, pieces=PIECES[1] if np.ndim(rule.pieces) else max(int(rule.pieces), PIECES[1]), fine=True)
     for first, last in _windows(np.flatnonzero(still).tolist(), len(still)):
         states = _states(part, solved)
         window = urged(part.window(first, last, states), still[first:last])

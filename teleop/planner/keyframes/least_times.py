@@ -11,17 +11,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy import sparse
 
 from teleop.core.axes import Limits
-from teleop.planner.keyframes.mesh import mesh
+from teleop.planner.keyframes.mesh import Indices, mesh
 from teleop.planner.keyframes.program import FINE, HEADROOM, SMALLEST
-from teleop.planner.keyframes.qp_solver import Sparse, minimize
+from teleop.planner.keyframes.qp_solver import minimize
 from teleop.planner.keyframes.segment import Segment
+from teleop.planner.keyframes.sparse import Entries, below_each_other, diagonal
 from teleop.planner.polynomial import BERNSTEIN, Array
-
-Indices = NDArray[np.intp]
 
 PIECES = 8  # as the planner's finest rule, and as finely cut at the keys
 ROUNDS = 8
@@ -48,7 +45,7 @@ class Window(NamedTuple):
 
 
 class _Rows(NamedTuple):
-    matrix: Sparse
+    matrix: Entries
     bound: Array
 
 
@@ -118,9 +115,9 @@ class _Program:
         linear = np.zeros(self.width)
         linear[self.states_free : -self.intervals] = self.weight * durations / float(self.weight @ durations)
         linear[-self.intervals :] = PRICE
-        cost = sparse.diags(np.where(linear == PRICE, 0.0, REGULAR), format="csc")
-        matrix = sparse.vstack([each.matrix for each in rows], format="csc")
-        solution = minimize(cost, linear, matrix, np.concatenate([each.bound for each in rows]))
+        cost = diagonal(np.where(linear == PRICE, 0.0, REGULAR))
+        matrix = below_each_other([each.matrix for each in rows])
+        solution = minimize(cost, linear, matrix, np.concatenate([each.bound for each in rows]), quickly=True)
         if solution is None:
             return None
         values = self.given.copy()
@@ -140,7 +137,7 @@ class _Program:
             excess = self._columns(np.repeat(self.interval, size), -np.ones(len(given)), -self.intervals)
             for sign in (1.0, -1.0):
                 change = self._columns(np.repeat(self.group, size), sign * bend - order, self.states_free)
-                rows.append(_Rows(sign * matrix + change + excess, 1.0 - sign * given))
+                rows.append(_Rows(matrix.times(sign).plus(change).plus(excess), 1.0 - sign * given))
         return rows
 
     def _range_rows(self, local: Array, bends: Array) -> list[_Rows]:
@@ -155,7 +152,9 @@ class _Program:
                 continue
             matrix, given, bend = self._coefficients(basis, local, bends, np.ones(len(local)))
             change = self._columns(np.repeat(self.group, len(basis)), sign * bend, self.states_free)
-            rows.append(_Rows(sign * matrix + change, np.minimum(np.repeat(room, len(basis)), FAR) - sign * given))
+            rows.append(
+                _Rows(matrix.times(sign).plus(change), np.minimum(np.repeat(room, len(basis)), FAR) - sign * given)
+            )
         return rows
 
     def _step_rows(self, durations: Array) -> list[_Rows]:
@@ -169,7 +168,7 @@ class _Program:
             _Rows(self._columns(intervals, -np.ones(self.intervals), -self.intervals), np.zeros(self.intervals)),
         ]
 
-    def _coefficients(self, basis: Array, local: Array, bends: Array, allowed: Array) -> tuple[Sparse, Array, Array]:
+    def _coefficients(self, basis: Array, local: Array, bends: Array, allowed: Array) -> tuple[Entries, Array, Array]:
         """Bernstein coefficients as shares of what each piece is `allowed`: matrix, known part, change by duration."""
         blocks = basis[None] * local[:, None, :] / allowed[:, None, None]
         count = len(local) * len(basis)
@@ -178,10 +177,10 @@ class _Program:
         value = blocks.ravel()
         given = np.bincount(row, value * self.given[place], minlength=count).astype(float)
         keep = self.free[place]
-        matrix = sparse.csr_matrix((value[keep], (row[keep], self.column[place[keep]])), shape=(count, self.width))
+        matrix = Entries(row[keep], self.column[place[keep]], value[keep], (count, self.width))
         return matrix, given, (bends @ basis.T / allowed[:, None]).ravel()
 
-    def _columns(self, column: Indices, value: Array, offset: int) -> Sparse:
+    def _columns(self, column: Indices, value: Array, offset: int) -> Entries:
         """A matrix with one value in each row, in the unknowns that begin at `offset`."""
         begin = offset if offset >= 0 else self.width + offset
-        return sparse.csr_matrix((value, (np.arange(len(column)), begin + column)), shape=(len(column), self.width))
+        return Entries(np.arange(len(column)), begin + column, value, (len(column), self.width))

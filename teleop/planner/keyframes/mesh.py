@@ -18,26 +18,27 @@ GRADE = 4.0  # largest ratio of neighboring pieces where keys of very different 
 LEFT = 0.7  # share of an even piece: no finer cut comes nearer to its end
 
 
-def mesh(durations: Array, pieces: int, near: Array | None = None) -> tuple[Indices, Array, Indices]:
-    """Each piece's interval (m,) and width (m,), and the knot of each key (n + 1,).
+def mesh(durations: Array, pieces: int | Indices, near: Array | None = None) -> tuple[Indices, Array, Indices]:
+    """Each piece's interval (m,) and width (m,), and the knot of each key (n + 1,). `pieces` are of all or of each.
 
     `near` (n, 2) is the width in s of the piece at each end of an interval, where that is to be less than the others';
     from there to the inside each piece is twice as long as the last.
     """
     equal = durations / pieces
+    counted = np.broadcast_to(pieces, len(durations)).tolist()
     before = np.concatenate([equal[:1], equal[:-1]])
     after = np.concatenate([equal[1:], equal[-1:]])
     finest = np.full((len(durations), 2), np.inf) if near is None else near
     widths, counts = [], []
     intervals = np.stack([durations, equal, before, after, *finest.T], axis=1).tolist()
-    for whole, width, left, right, near_left, near_right in intervals:
+    for count, (whole, width, left, right, near_left, near_right) in zip(counted, intervals, strict=True):
         first, last = _grading(left, width, near_left), _grading(right, width, near_right)
         if not first and not last:
-            widths += [width] * pieces
-            counts.append(pieces)
+            widths += [width] * count
+            counts.append(count)
             continue
-        inner = [width * i for i in range(1, pieces)]
-        cuts = np.unique(np.array([0.0, *inner, *first, *(whole - x for x in last), whole]))
+        inner = [width * i for i in range(1, count)]
+        cuts = sorted({0.0, *inner, *first, *(whole - x for x in last), whole})
         widths += np.diff(cuts).tolist()
         counts.append(len(cuts) - 1)
     return np.repeat(np.arange(len(durations)), counts), np.array(widths), np.cumsum([0, *counts])

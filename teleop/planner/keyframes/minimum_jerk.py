@@ -6,7 +6,6 @@ Where a plan touches no limit it is this curve, so a search for keys tries many 
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import solveh_banded
 
 from teleop.planner.polynomial import GRAM_JERK, Array
 from teleop.planner.trajectory import Track
@@ -28,6 +27,8 @@ def minimum_jerk(times: Array, positions: Array) -> Track:
 
 def _free(weights: Array, positions: Array) -> Array:
     """Velocity and acceleration (n - 2, 2) at the inner keys, of the pieces' `weights` (n - 1, 6, 6)."""
+    from scipy.linalg import solveh_banded  # where keys are sought: loading it takes as long as checking a file
+
     inner = len(positions) - 2
     own = weights[:-1, 4:, 4:] + weights[1:, 1:3, 1:3]
     beside = weights[1:-1, 1:3, 4:]

@@ -10,14 +10,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy import sparse
 
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.program import QuadraticProgram, Rows, Rule, stacked
 from teleop.planner.keyframes.qp import inequalities, solve
 from teleop.planner.keyframes.qp_solver import minimize
 from teleop.planner.keyframes.segment import Segment
+from teleop.planner.keyframes.sparse import zero
 from teleop.planner.keyframes.tension import Tension
+from teleop.planner.keyframes.windows import NEARLY, TIGHT, WHOLE, around, graded, tightness
 from teleop.planner.polynomial import Array
 
 SHARE = 0.01  # of the range between two keys: an overshoot tolerated where the file does not say
@@ -27,6 +28,7 @@ MOST = 0.1  # of the range of all keys: the most
 LOOSER = 1.1  # times the least overshoot: what the smoothest way may use
 ROOM = 0.02  # of what is tolerated, beside that
 NONE = 1e-3  # of what is tolerated: less is the solver's tolerance
+DOUBTFUL = 0.8, 2.0  # of what is tolerated: between these the least overshoot is found exactly
 SUM = 0.01  # weight of all overshoots beside that of the largest
 FINEST = Rule(pieces=8, directed=False, fine=True)
 
@@ -42,8 +44,24 @@ def tolerated(axis: Axis, segment: Segment, asked: Sequence[float | None]) -> Ar
 def least_overshoot(segment: Segment, limits: Limits) -> Array | None:
     """Per interval by how much (n,) it leaves the range of its two keys at least, in units; None if nothing helps.
 
-    Least in shares of the segment's `stray`, the tolerated ones. One linear program, about as costly as a plan.
+    Least in shares of the segment's `stray`, the tolerated ones. A long segment is looked at only where it is tight.
     """
+    if len(segment.steps) <= WHOLE:
+        return _least(segment, limits)
+    least = np.zeros(len(segment.steps))
+    tight = tightness(segment, limits)
+    for first, last in around(tight > min(TIGHT, NEARLY * float(tight.max()))):
+        states = np.full((len(segment.times), 2), np.nan)
+        states[[0, -1]] = segment.ends
+        found = _least(segment.window(first, last, states), limits)
+        if found is None:
+            return None
+        least[first:last] = found
+    return least
+
+
+def _least(segment: Segment, limits: Limits) -> Array | None:
+    """The same, by one linear program. Velocity and acceleration are free at an end where they are not known."""
     program = QuadraticProgram(replace(segment, stray=None), limits, FINEST)
     count, unknowns = len(segment.steps), program.unknowns
     weight = _weight(segment)
@@ -61,8 +79,13 @@ def least_overshoot(segment: Segment, limits: Limits) -> Array | None:
     blocks.append(Rows(-ones[:, None], slacks[:, None], np.zeros(count)))
     blocks.append(Rows(np.stack([ones, -ones], axis=1), np.stack([slacks, largest], axis=1), np.zeros(count)))
     linear = np.concatenate([np.zeros(unknowns), SUM / count * ones, [1.0]])
-    solution = minimize(sparse.csc_matrix((len(linear), len(linear))), linear, *stacked(blocks, len(linear)))
-    return None if solution is None else np.maximum(solution[unknowns:-1], 0.0) * weight
+    none = zero(len(linear))
+    system = stacked(blocks, len(linear))
+    for quickly in (True, False):
+        solution = minimize(none, linear, *system, quickly=quickly)
+        if solution is not None and not (quickly and DOUBTFUL[0] < solution[-1] < DOUBTFUL[1]):
+            return np.maximum(solution[unknowns:-1], 0.0) * weight
+    return None
 
 
 def _weight(segment: Segment) -> Array:
@@ -75,12 +98,15 @@ def with_overshoot(segment: Segment, limits: Limits, least: Array, tension: Tens
     """Widths and coefficients of the smoothest way that overshoots about as little as the `least` (n,)."""
     weight, most = _weight(segment), np.maximum(segment.strays(directed=False), SMALLEST)
     strays = np.maximum(np.minimum(LOOSER * least + ROOM * weight, most), least + NONE * weight)
+    rule = replace(FINEST, tension=tension)
+    if len(segment.steps) > WHOLE:
+        rule = replace(rule, pieces=graded(tightness(segment, limits)))
     flat = segment.steps == 0
     beyond = (least > NONE * weight) | flat
     around = beyond | np.concatenate([beyond[1:], [False]]) | np.concatenate([[False], beyond[:-1]])
     for bent in (beyond, around, np.ones_like(beyond)):
         bounded = replace(segment, stray=np.where(bent, strays, 0.0))
-        solved = solve(bounded, limits, replace(FINEST, tension=tension))
+        solved = solve(bounded, limits, rule)
         if solved is not None:
             return solved
     return None

@@ -23,7 +23,6 @@ from teleop.planner.keyframes.findings import (
     PlanError,
     Standstill,
 )
-from teleop.planner.keyframes.infeasibility import infeasibilities, with_overshoots
 from teleop.planner.keyframes.keys import Key, ramps_asked, ramps_fit, segment_between, waypoints
 from teleop.planner.keyframes.ladder import Overshot, Pieces, directed, overshooting
 from teleop.planner.keyframes.legs import Points, legs, shortened
@@ -35,7 +34,6 @@ from teleop.planner.trajectory import Move, Track
 
 STRETCH = 0.002  # relative, of the least factor
 MOST = 2.0**20  # times longer: what is impossible then is so at any speed
-MANY = 40  # keys between rests: the least overshoot of more is not searched for, time after time
 NEGLIGIBLE = 1e-9  # units
 
 
@@ -61,10 +59,10 @@ def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tens
     }
     refused = {axis: outcome.refused for axis, outcome in outcomes.items() if outcome.refused}
     if refused or any(beyond.values()):
+        from teleop.planner.keyframes.infeasibility import infeasibilities, with_overshoots  # with all that it searches
 
         def possible(axis: Axis, points: Points) -> bool:
-            clean = len(points) > MANY
-            return _plan_leg(axis, points, limits[axis], tension, clean, _Outcome()) is not None
+            return _plan_leg(axis, points, limits[axis], tension, False, _Outcome()) is not None
 
         within = {axis: keys[axis] for axis in outcomes}
         found = infeasibilities(within, limits, refused, possible) if refused else []

@@ -19,14 +19,14 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.evenness import change_times, velocity_weights
 from teleop.planner.keyframes.mesh import Indices, mesh
-from teleop.planner.keyframes.qp_solver import Sparse
 from teleop.planner.keyframes.segment import Segment
+from teleop.planner.keyframes.sparse import Columns, Entries
 from teleop.planner.keyframes.tension import Tension
+from teleop.planner.median import median
 from teleop.planner.polynomial import BERNSTEIN, GRAM_ACCELERATION, GRAM_JERK, GRAM_VELOCITY, HERMITE, Array
 
 HEADROOM = 0.95  # share of V, A and J, so that each sample is one legal step from the last (planning page, "B")
@@ -39,13 +39,13 @@ SMALLEST = 1e-9  # units; a segment that moves less is not scaled up further
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """How to solve a segment: pieces per interval, `directed` for no overshoot, `tension` for even speed.
+    """How to solve a segment: pieces of all or of each interval, `directed` for no overshoot, `tension` for even speed.
 
     Without `directed` each interval may leave the range of its keys by the segment's `stray`. `fine` cuts finer at the
-    keys, where an overshoot is.
+    keys, where an overshoot is; of intervals with unequal pieces, those that have most.
     """
 
-    pieces: int
+    pieces: int | Indices
     directed: bool
     tension: Tension = 0.0
     fine: bool = False
@@ -73,8 +73,8 @@ class Rows(NamedTuple):
         )
 
 
-def stacked(blocks: Sequence[Rows], unknowns: int) -> tuple[Sparse, Array]:
-    """All rows as one matrix A in csc, and its b."""
+def stacked(blocks: Sequence[Rows], unknowns: int) -> tuple[Columns, Array]:
+    """All rows as one matrix A, and its b."""
     rows, columns, values, count = [], [], [], 0
     for block in blocks:
         row, entry = np.nonzero(block.columns >= 0)
@@ -82,11 +82,8 @@ def stacked(blocks: Sequence[Rows], unknowns: int) -> tuple[Sparse, Array]:
         columns.append(block.columns[row, entry])
         values.append(block.values[row, entry])
         count += len(block.bounds)
-    row, column, value = np.concatenate(rows), np.concatenate(columns), np.concatenate(values)
-    order = np.argsort(column * count + row, kind="stable")
-    starts = np.concatenate([[0], np.cumsum(np.bincount(column, minlength=unknowns))])
-    matrix = sparse.csc_matrix((value[order], row[order], starts), shape=(count, unknowns))
-    return matrix, np.concatenate([block.bounds for block in blocks])
+    matrix = Entries(np.concatenate(rows), np.concatenate(columns), np.concatenate(values), (count, unknowns))
+    return matrix.by_column(), np.concatenate([block.bounds for block in blocks])
 
 
 class QuadraticProgram:
@@ -96,9 +93,11 @@ class QuadraticProgram:
         self.segment, self.limits, self.rule = segment, limits, rule
         durations, intervals, ramps = segment.cuts()
         near = change_times(segment, rule.tension)[intervals] if len(intervals) == len(segment.steps) else None
+        pieces = np.broadcast_to(rule.pieces, len(segment.steps))
         if rule.fine:
-            near = np.full((len(intervals), 2), FINE * limits.acceleration / limits.jerk)
-        cut, self.widths, knots = mesh(durations, rule.pieces, near)
+            finest = np.where(pieces == pieces.max(), FINE * limits.acceleration / limits.jerk, np.inf)
+            near = np.stack([finest, finest], axis=1)[intervals]
+        cut, self.widths, knots = mesh(durations, pieces[intervals], near)
         self.interval, self.ramps = intervals[cut], ramps[cut]
         keys = knots[np.searchsorted(intervals, np.arange(len(segment.steps) + 1))]
         self.scale = max(float(np.ptp(segment.positions)), SMALLEST)
@@ -127,11 +126,11 @@ class QuadraticProgram:
         powers = np.arange(3)
         self.local = np.hstack([(widths / times[:-1])[:, None] ** powers, (widths / times[1:])[:, None] ** powers])
 
-    def cost(self) -> tuple[Sparse, Array]:
+    def cost(self) -> tuple[Columns, Array]:
         """The weighted squares of jerk, acceleration and velocity, as the solver's P (upper triangle) and q."""
         jerk, acceleration = self._smoothness()
         velocity = velocity_weights(self.segment, self.rule.tension)[self.interval] / self.widths
-        middle = np.median(jerk + velocity)
+        middle = median(jerk + velocity)
         velocity = np.clip(velocity / middle, 0.0, CLIP)
         acceleration = np.clip(acceleration / middle, 0.0, CLIP)
         jerk = np.clip(jerk / middle, np.maximum(1 / CLIP, SMOOTHING * np.maximum(velocity, acceleration)), CLIP)
@@ -145,7 +144,7 @@ class QuadraticProgram:
         columns = np.broadcast_to(self.columns[:, None, :], blocks.shape)
         kept = (rows >= 0) & (columns >= rows)
         size = (self.unknowns, self.unknowns)
-        return sparse.csc_matrix((blocks[kept], (rows[kept], columns[kept])), shape=size), linear
+        return Entries(rows[kept], columns[kept], blocks[kept], size).by_column(), linear
 
     def _smoothness(self) -> tuple[Array, Array]:
         """The weights of jerk and acceleration by piece.

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
 
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.program import QuadraticProgram, Rows, Rule, stacked
 from teleop.planner.keyframes.qp_solver import minimize
 from teleop.planner.keyframes.segment import Segment
+from teleop.planner.keyframes.sparse import zero
 from teleop.planner.polynomial import Array
 
 UNBOUND = 1e6  # a limit this many times beyond the segment's whole range is left out
@@ -74,6 +74,5 @@ def least_factors(segment: Segment, limits: Limits, rule: Rule) -> Array | None:
             relative = Rows(sign * rows.values / limit[:, None], rows.columns, 1.0 + sign * rows.bounds / limit)
             blocks.append(relative.with_slack(-1.0, slack))
     linear = np.concatenate([np.zeros(unknowns), np.ones(3 * intervals)])
-    cost = sparse.csc_matrix((len(linear), len(linear)))
-    solution = minimize(cost, linear, *stacked(blocks, len(linear)))
+    solution = minimize(zero(len(linear)), linear, *stacked(blocks, len(linear)))
     return None if solution is None else 1.0 + solution[unknowns:].reshape(-1, 3)

@@ -91,7 +91,7 @@ class Segment:
     def _with(self, others: Array) -> Array:
         """The times of the keys, and of those others that are between them and not too near to one of all."""
         near = NEAR * float(self.times[-1] - self.times[0])
-        others = np.unique(others[(others > self.times[0]) & (others < self.times[-1])])
+        others = np.sort(others[(others > self.times[0]) & (others < self.times[-1])])
         at = np.searchsorted(self.times, others)
         others = others[np.minimum(others - self.times[at - 1], self.times[at] - others) > near]
         others = others[np.diff(others, prepend=-np.inf) > near]

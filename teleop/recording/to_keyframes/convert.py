@@ -19,21 +19,24 @@ import numpy as np
 from teleop.config.documents.document import UnplayableError
 from teleop.core.axes import Axis
 from teleop.core.events import Action
-from teleop.planner.keyframes.fit import SampledSegment, Style, fit
+from teleop.planner.keyframes.fit import SampledSegment, Style, fit, fit_through
 from teleop.planner.keyframes.program import HEADROOM
+from teleop.planner.keyframes.tension import EVEN, Tension
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
 from teleop.recording.replay import cues
+from teleop.recording.to_keyframes.knots import planned_keys
 from teleop.recording.to_keyframes.merge_keys import AxisKey, MergedKey, merge_keys
 from teleop.recording.to_keyframes.reference import GRID, Reference, references, too_fast
 from teleop.recording.to_keyframes.sequence_text import SequenceText, sequence_text
 from teleop.sequence.compile import load_sequence
 
 SLACK = 4  # places by which rests may give way
-STICK = ((1.0, 0), (0.5, 0)), ((1.0, SLACK),), ((0.0, 0),)
-PLANNED = ((0.0, 0), (0.5, 0)), ((1.0, 0),), ((1.0, SLACK),)
-"""Tension and slack to be tried, the likeliest first: where a stick was held the speed was even, a planned move is as
-smooth as can be. Of the first that do the sparsest is taken."""
+Trials = Sequence[Sequence[tuple[Tension, int]]]
+STICK: Trials = ((EVEN, 0), (1.0, 0), (0.5, 0)), ((1.0, SLACK),), ((0.0, 0),)
+PLANNED: Trials = ((EVEN, 0), (0.0, 0), (0.5, 0)), ((1.0, 0),), ((1.0, SLACK),)
+"""Tension and slack to be tried, the likeliest first: a planned move has the tension of its file, `even` where that has
+none; where a stick was held the speed was even. Of the first that do the sparsest is taken."""
 TIGHTER = (1.0, 0.9, 0.7)  # of the tolerance, for the fit, should the whole file be further off than its parts were
 HELD = 0.15  # of the time in motion at an even speed, from which on it was a stick
 NEAREST = 3  # places between two keys
@@ -107,7 +110,7 @@ def _best(take: Take, refs: Mapping[Axis, Reference], tolerance: float) -> _Atte
 
 @dataclass(frozen=True)
 class _Attempt:
-    tension: float
+    tension: Tension
     frames: Sequence[MergedKey]
     problems: Sequence[str]
 
@@ -120,7 +123,7 @@ def _held(refs: Mapping[Axis, Reference]) -> float:
     return even / max(whole - still, 1)
 
 
-def _fitted(take: Take, refs: Mapping[Axis, Reference], tolerance: float, tension: float, slack: int) -> _Attempt:
+def _fitted(take: Take, refs: Mapping[Axis, Reference], tolerance: float, tension: Tension, slack: int) -> _Attempt:
     """Every axis in turn, each with its keys where those before it have some, if that is as good."""
     keys: dict[Axis, Sequence[AxisKey]] = {}
     problems: list[str] = []
@@ -140,7 +143,8 @@ def _axis_keys(
     keys, unfit = [], []
     for before, after in pairwise(reference.rests):
         segment = SampledSegment(before.end, reference.positions[before.end : after.begin + 1], style)
-        found = fit(segment, reference.corners(before.end, after.begin), others)
+        found = fit_through(segment, planned_keys(reference.knots, before.end, after.begin))
+        found = found or fit(segment, reference.corners(before.end, after.begin), others)
         if found.off is None or not segment.fits(found.off):
             unfit.append((segment, found.off))
         inner = sorted(place for place in found.keys if before.end < place < after.begin)

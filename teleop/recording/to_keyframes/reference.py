@@ -16,6 +16,7 @@ from teleop.core.axes import Axis, Limits
 from teleop.planner.polynomial import Array
 from teleop.recording.reader import Take
 from teleop.recording.replay import lead, recorded_move
+from teleop.recording.to_keyframes.knots import knots
 from teleop.recording.to_keyframes.rests import Span, aligned, even_ways, rests
 
 GRID = 100  # places in a second: the loop's, and fine enough to be edited
@@ -27,12 +28,13 @@ INSET = 3  # places from the ends of an even way to its corners: room for a plan
 class Reference:
     """`positions` (n,) in units at every place of the grid; it begins and ends with a rest.
 
-    `even` are the ways made at one speed.
+    `even` are the ways made at one speed, `knots` where the jerk jumps.
     """
 
     positions: Array
     rests: Sequence[Span]
     even: Sequence[Span]
+    knots: Sequence[int] = ()
 
     def slackened(self, places: int) -> Reference:
         """With rests that are shorter by so many places where they can be: more time for the ramps between them."""
@@ -73,7 +75,7 @@ def references(take: Take, speed: float = 1.0, *, measured: bool = False) -> Map
     found = {}
     for axis, (position, velocity, acceleration, _) in sampled.items():
         positions = np.interp(times - lead(take), *take.measured[axis]) if measured else position
-        found[axis] = Reference(positions, still[axis], even_ways(velocity, acceleration))
+        found[axis] = Reference(positions, still[axis], even_ways(velocity, acceleration), knots(acceleration))
     return found
 
 

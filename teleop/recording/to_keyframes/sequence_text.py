@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from teleop.core.axes import Axis
 from teleop.core.events import Action
+from teleop.planner.keyframes.tension import EVEN, Tension
 from teleop.recording.to_keyframes.merge_keys import MergedKey
 from teleop.recording.to_keyframes.reference import GRID
 
@@ -17,7 +18,7 @@ class SequenceText:
     """What is to stand in the file; cues are (s, action), `digits` those of positions behind the point."""
 
     title: str
-    tension: float
+    tension: Tension
     frames: Sequence[MergedKey]
     cues: Sequence[tuple[float, Action]]
     digits: Mapping[Axis, int]
@@ -30,7 +31,8 @@ def sequence_text(sequence: SequenceText) -> str:
 
 def _lines(sequence: SequenceText) -> Iterator[str]:
     yield f"title: {_quoted(sequence.title)}"
-    yield f"tension: {sequence.tension:g}"
+    if sequence.tension != EVEN:
+        yield f"tension: {sequence.tension:g}"
     yield "keyframes:"
     for frame in sequence.frames:
         yield f"  - {{{', '.join(_frame(frame, sequence.digits))}}}"

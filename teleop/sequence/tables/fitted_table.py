@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from teleop.config.documents.document import Document, DocumentError, UnplayableError
+from teleop.config.files_read import note
 from teleop.config.frame_rates import shown_rate
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.frame_keys import Frames
@@ -63,6 +64,7 @@ class TableReader:
         """Raises DocumentError for what is wrong with the table, UnplayableError for what only the rig cannot do."""
         file = self.folder / Path(self.section.file).expanduser()
         if not file.is_file():
+            note(file)
             raise DocumentError([self._problem(f": no such file: {self.section.file}", "file")])
         table = read_table(file, str(Path(self.document.name).parent / self.section.file))
         numbers = self._numbers(table)

@@ -13,9 +13,9 @@ LIMITS = Limits(-100, 100, 120, 240, 1200)
 
 
 def recorded(*keys: Key, allowed: float = 0.2) -> SampledSegment:
-    move = plan({Axis.PAN: list(keys)}, {Axis.PAN: LIMITS}, 0.0)
+    move = plan({Axis.PAN: list(keys)}, {Axis.PAN: LIMITS})
     positions = move.sample(np.arange(round(move.duration * 100) + 1) / 100)[Axis.PAN][0]
-    return SampledSegment(0, positions, Style(Axis.PAN, LIMITS, allowed, 3, 0.0, 100, 3))
+    return SampledSegment(0, positions, Style(Axis.PAN, LIMITS, allowed, 3, "even", 100, 3))
 
 
 def test_a_move_from_rest_to_rest_needs_its_two_ends() -> None:
@@ -40,7 +40,7 @@ def test_a_smaller_tolerance_needs_no_fewer_keys() -> None:
 
 def test_what_the_limits_cannot_follow_has_no_keys_that_are_good_enough() -> None:
     segment = recorded(Key(0, 0), Key(2, 80))
-    slow = SampledSegment(0, segment.positions, Style(Axis.PAN, LIMITS.scaled(0.1), 0.2, 3, 0.0, 100, 3))
+    slow = SampledSegment(0, segment.positions, Style(Axis.PAN, LIMITS.scaled(0.1), 0.2, 3, "even", 100, 3))
     assert fit(slow, [], []).off is None
 
 

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy import sparse
 
 from teleop.planner.keyframes.qp_solver import minimize
+from teleop.planner.keyframes.sparse import Entries, diagonal
 
 
 def solved(rows: list[list[float]], bound: list[float]) -> list[float] | None:
     """The x nearest to (1, 2) with rows x <= bound."""
-    cost = sparse.identity(2, format="csc")
-    found = minimize(cost, np.array([-1.0, -2.0]), sparse.csc_matrix(np.array(rows)), np.array(bound))
+    matrix = np.array(rows, float)
+    row, column = np.nonzero(matrix)
+    entries = Entries(row, column, matrix[row, column], (len(bound), 2))
+    found = minimize(diagonal(np.ones(2)), np.array([-1.0, -2.0]), entries.by_column(), np.array(bound))
     return None if found is None else found.tolist()
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from refused_moves import CASES, LIMITS, Refused, needs_of, random_file, taken
 
 from teleop.planner.keyframes import least_times, qp
-from teleop.planner.keyframes.findings import Finding, Infeasible
+from teleop.planner.keyframes.findings import Finding, Infeasible, Unsolved
 from teleop.planner.keyframes.planner import plan
 
 
@@ -39,9 +39,9 @@ def work(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], fl
     solved = [0.0]
     minimize = qp.minimize
 
-    def counting(*problem):
+    def counting(*problem, **quickly):
         solved[0] += problem[2].nnz + 2000  # a call costs as much as so many entries
-        return minimize(*problem)
+        return minimize(*problem, **quickly)
 
     monkeypatch.setattr(qp, "minimize", counting)
     monkeypatch.setattr(least_times, "minimize", counting)
@@ -60,6 +60,7 @@ SMALLER: dict[str, Callable[[], Refused]] = {
     "panorama": lambda: CASES["panorama"](1.0, 40.0),
     "stops": lambda: CASES["stops"](40),
     "bounce": lambda: CASES["bounce"](99),
+    "wander": lambda: CASES["wander"](120),
 }
 
 
@@ -68,6 +69,17 @@ def test_a_refusal_costs_at_most_three_plans_of_its_size(name: str, work) -> Non
     case = SMALLER[name]()
     planned = work(lambda: plan(case.partner, LIMITS))
     assert work(lambda: refusal(case.keys)) <= 3 * planned
+
+
+@pytest.mark.parametrize("slower", [1.15, 1.3, 1.5])
+def test_a_long_leg_that_is_almost_possible_is_refused_as_soon_and_with_a_place(slower: float, work) -> None:
+    case = CASES["wander"](200)
+    keys = {axis: [key.later(slower) for key in of_axis] for axis, of_axis in case.keys.items()}
+    planned = work(lambda: plan(case.partner, LIMITS))
+    assert work(lambda: refusal(keys)) <= 3.5 * planned
+    error = refusal(keys)
+    assert error is not None
+    assert not any(isinstance(finding, Unsolved) for finding in error.findings)
 
 
 def test_a_bounce_that_takes_its_suggestions_is_playable() -> None:

@@ -37,7 +37,7 @@ MOVES = {
 
 
 def planned_take(path: Path, keys: dict[Axis, list[Key]], seconds: float) -> Take:
-    move = plan(keys, SIM, tension=0.0)
+    move = plan(keys, SIM)
     motion = {axis: move.tracks[axis].at for axis in keys}
     return read_take(write_take(path, motion, seconds, limits={axis: SIM[axis] for axis in keys}))
 
@@ -172,7 +172,7 @@ def test_a_take_that_is_too_fast_for_a_sequence_is_fitted_at_the_speed_it_was_to
 
 def test_an_axis_that_never_moved_has_one_key(tmp_path: Path) -> None:
     take = read_take(write_take(tmp_path / "t.mcap", {PAN: at_rest(12.5)}, 2.0, limits={PAN: LIMITS}))
-    assert keyframes(take, 0.2).text == 'title: "t"\ntension: 0\nkeyframes:\n  - {at: 0, pan: 12.5, hold: 2s}\n'
+    assert keyframes(take, 0.2).text == 'title: "t"\nkeyframes:\n  - {at: 0, pan: 12.5, hold: 2s}\n'
 
 
 def test_the_command_writes_a_file_that_check_accepts_and_says_how_far_off_it_is(tmp_path: Path) -> None:

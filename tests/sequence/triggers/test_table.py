@@ -2,7 +2,7 @@
 
 import pytest
 
-from teleop.cli.staging_options import joined
+from teleop.cli.typed_triggers import joined
 from teleop.core.errors import UsageError
 from teleop.sequence.triggers.midi import StartTrigger, TimecodeTrigger
 from teleop.sequence.triggers.osc import OscTrigger
