@@ -40,7 +40,8 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
     "take recover": ["teleop take recover run.mcap"],
     "commission": [
         "teleop commission",
-        "teleop commission --rig rs4-pro --link gimbal=slcan:/dev/ttyACM0 -o my-rig.yaml",
+        "teleop commission -o rehearsal.yaml",
+        "teleop commission --rig rs5 --link gimbal=socketcan:can0",
     ],
     "calibrate": [
         "teleop calibrate --dry-run --rig rs2",
