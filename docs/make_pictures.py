@@ -42,6 +42,14 @@ TELEOP = [sys.executable, "-c", "import sys; from teleop.cli import main; main(s
 SCREENS: dict[str, tuple[list[str], Keys, str]] = {
     "check": (["check", "reveal"], (), r"OK: "),
     "play": (["play", "reveal"], (), r"[5-9]\.\d / 15\.0 s"),
+    "commission": (
+        ["commission", "-o", "my-rig.yaml"],
+        (
+            *(("Leave 10 cm", "\n"), ("unlocked and on", "y"), ("Balanced and", "\n")),
+            *((f"step {number} ", "s") for number in range(5, 9)),
+        ),
+        "pan goes 2 deg",
+    ),
     "live": (["live"], (("arrows jog", "L"), (r"pan .* \+10\.00 ", "K"), (r"tilt .* \+10\.00 ", "s1")), "presets +1"),
 }
 """By picture: the command, what is typed, and the text that it has when the picture is taken."""

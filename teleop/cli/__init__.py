@@ -38,6 +38,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "list": ("teleop.cli.shipped_files:list_shipped", "List the shipped moves, rigs and pads."),
     "copy": ("teleop.cli.shipped_files:copy", "Copy a shipped move, rig or pad to a file of yours."),
     "take": ("teleop.cli.take.commands:app", "List, report, export and repair recorded runs."),
+    "commission": ("teleop.cli.commission:commission", "Find out what a gimbal does, and write its profile."),
     "calibrate": ("teleop.cli.calibration.delay:app", "Measure how the axes of a gimbal answer, or its signs."),
     "devices": ("teleop.cli.record_device:app", "List CAN interfaces, serial ports and HID devices."),
     "doctor": ("teleop.cli.doctor.command:doctor", "Check what this machine can do, and what it lacks."),

@@ -43,6 +43,11 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "teleop take certificate pass1.mcap pass2.mcap -o shot.html --fps 25",
     ],
     "take recover": ["teleop take recover run.mcap"],
+    "commission": [
+        "teleop commission",
+        "teleop commission -o rehearsal.yaml",
+        "teleop commission --rig rs5 --link gimbal=socketcan:can0",
+    ],
     "calibrate": [
         "teleop calibrate --dry-run --rig rs2",
         "teleop calibrate --rig rs2 --link gimbal=socketcan:can0 -o response.html",
@@ -64,9 +69,14 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
     ],
     "monitor": [
         "teleop monitor --rig rs2 --link gimbal=socketcan:can0",
+        "teleop monitor --rig rs2 --link gimbal=socketcan:can0 -o bus.log",
         "teleop monitor drone --rig m100 --link drone=serial:/dev/ttyUSB0@230400",
     ],
-    "sim": ["teleop sim --link gimbal=udp_multicast:239.74.163.2", "teleop sim --drone"],
+    "sim": [
+        "teleop sim --link gimbal=udp_multicast:239.74.163.2",
+        "teleop sim --drone",
+        "teleop sim --replay bus.log --link gimbal=udp_multicast:239.74.163.2",
+    ],
     "schema": ["teleop schema sequence"],
     "decode": ["teleop decode r-sdk aa1a0003..."],
     "decode r-sdk": ["teleop decode r-sdk aa1a0003...", "teleop decode r-sdk --candump log.txt"],

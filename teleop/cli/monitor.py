@@ -16,26 +16,21 @@ import threading
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Annotated
 
 from cyclopts import Parameter
 from cyclopts.validators import Number
 
-from teleop.cli.codec.drone_options import Model, cipher_of
+from teleop.cli.capture_options import NO_CAPTURE, CaptureOptions, capturing
+from teleop.cli.codec.drone_options import Model
 from teleop.cli.codec.format_message import line
+from teleop.cli.monitored_link import Tap, tap
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.signals import signals_to
-from teleop.config.documents.document import DocumentError
-from teleop.config.profile import Profile
 from teleop.core.clock import SystemClock
-from teleop.dji.drone.onboard_sdk import MODELS
 from teleop.dji.frame import Damage, Frame, FrameReader
-from teleop.dji.gimbal.r_sdk import R_SDK
-from teleop.dji.json_record import MakeCipher, Transcriber
-from teleop.dji.registry import Registry
-from teleop.links import FAR_END, Listener, open_listener, parse
-from teleop.links.can import GIMBAL_ID, HOST_ID
+from teleop.dji.json_record import Transcriber
+from teleop.links import Listener
 
 POLL_PERIOD = 0.002  # s between looks at the bus, and so the precision of the times
 _MOST_NAMED = 5  # foreign ids in the summary
@@ -64,72 +59,33 @@ def monitor(
             show_default=False,
         ),
     ] = math.inf,
+    capture: CaptureOptions = NO_CAPTURE,
     model: Model = "m100",
     options: Options = DEFAULTS,
 ) -> int:
-    """Show the traffic between host and device on a link of the rig. Transmits nothing.
+    """Show the traffic between host and device on a link of the rig, and record it with -o. Transmits nothing.
 
     A CAN bus shows both directions. A serial line shows only what the device sends, to one program at a time; an
     acknowledgement there does not name its command.
     """
     tapped = tap(options.profile(), place, model)
     clock, stop = SystemClock(), threading.Event()
-    listener = open_listener(tapped.url, now=clock.now)
-    watch = Watch(listener, tapped, options.json)
-    try:
-        with signals_to(lambda _reason: stop.set()), _status_line(watch):
-            print(f"listening on {tapped}", file=sys.stderr)
-            due = begin = clock.now()
-            while not stop.is_set() and due - begin <= seconds:
-                clock.sleep_until(due)
-                watch.look(clock.now() - begin)
-                due = max(due + POLL_PERIOD, clock.now())
-    finally:
-        listener.close()
-        print(watch.summary(), file=sys.stderr)
+    with capturing(capture, tapped, clock.now) as (listener, recording):
+        watch = Watch(listener, tapped, options.json)
+        try:
+            with signals_to(lambda _reason: stop.set()), _status_line(watch):
+                print(f"listening on {tapped}", file=sys.stderr)
+                due = begin = clock.now()
+                while not stop.is_set() and due - begin <= seconds:
+                    clock.sleep_until(due)
+                    watch.look(clock.now() - begin)
+                    if recording:
+                        recording.look()
+                    due = max(due + POLL_PERIOD, clock.now())
+        finally:
+            listener.close()
+            print(watch.summary(), file=sys.stderr)
     return 130 if stop.is_set() else 0
-
-
-@dataclass(frozen=True)
-class Tap:
-    """A link to listen on: where it is, the far end's name and protocol, and the directions it carries.
-
-    `directions` are by the listener's key for what it received.
-    """
-
-    url: str
-    device: str
-    registry: Registry
-    directions: Mapping[int, str]
-    cipher: MakeCipher | None = None
-
-    @property
-    def is_bus(self) -> bool:
-        """Whether both directions arrive, and others' traffic too."""
-        return len(self.directions) > 1
-
-    def __str__(self) -> str:
-        if self.is_bus:
-            return f"{self.url}: time in s, -> to the {self.device}, <- from it"
-        return f"{self.url}: time in s, <- from the {self.device}; a serial line does not show what is sent to it"
-
-
-def tap(profile: Profile, link: str, model: str) -> Tap:
-    """What there is to listen on. Raises DocumentError when there is nothing, or no such link."""
-    if link and link not in profile.links:
-        raise DocumentError([f"{profile.name} has no link {link!r}; it has {', '.join(profile.links)}"])
-    heard = [link] if link else sorted(profile.links, key=lambda name: parse(profile.links[name]).kind != "can")
-    for name in heard:
-        url, device = profile.links[name], "drone" if name in profile.drones else "gimbal"
-        registry, cipher = (MODELS[model], cipher_of(None)) if device == "drone" else (R_SDK, None)
-        match parse(url).kind:
-            case "can":
-                return Tap(url, device, registry, {HOST_ID: f"to {device}", GIMBAL_ID: f"from {device}"}, cipher)
-            case "serial":
-                return Tap(url, device, registry, {FAR_END: f"from {device}"}, cipher)
-    places = ", ".join(profile.links[name] for name in heard) or "no link"
-    hint = "--link gimbal=socketcan:can0 names one"
-    raise DocumentError([f"there is nothing to monitor on {places} (simulated): {hint}"])
 
 
 class Watch:

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import json
+import random
 import sys
 import threading
 from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.screens.refusal_lines import RefusalLines
 from teleop.cli.signals import signals_to
 from teleop.cli.sim_dynamics import DYNAMICS_DEFAULTS, DynamicsSim
-from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL_DEFAULTS, DroneSim, GimbalSim
+from teleop.cli.sim_options import DRONE_DEFAULTS, GIMBAL, GIMBAL_DEFAULTS, DroneSim, GimbalSim
+from teleop.cli.sim_replay import facts, replayed, summary
 from teleop.config.documents.document import DocumentError
 from teleop.core.clock import SystemClock
 from teleop.core.errors import DeviceError
@@ -21,12 +27,13 @@ from teleop.links.can import CanLink
 from teleop.sim.drone.device import SimulatedDrone
 from teleop.sim.gimbal.device import SimulatedGimbal
 from teleop.sim.gimbal.foreign_traffic import ForeignTraffic
+from teleop.sim.gimbal.replayed import ReplayedGimbal
 
 POLL_PERIOD = 0.002  # s between looks at the bus: a real gimbal answers within 5 ms
 STATUS = 1.0  # s between status lines
 BAUD = 230400  # of the Matrice 100: docs/protocol-facts.md; a pseudo-terminal does not mind
 
-SimulatedDevice = SimulatedGimbal | SimulatedDrone
+SimulatedDevice = SimulatedGimbal | SimulatedDrone | ReplayedGimbal
 
 
 def sim(
@@ -34,6 +41,15 @@ def sim(
     drone: DroneSim = DRONE_DEFAULTS,
     gimbal: GimbalSim = GIMBAL_DEFAULTS,
     dynamics: DynamicsSim = DYNAMICS_DEFAULTS,
+    replay: Annotated[
+        Path | None,
+        Parameter(
+            metavar="CAPTURE",
+            group=GIMBAL,
+            help="Answer as the gimbal of this capture did (candump or MCAP); it cannot move.",
+            show_default=False,
+        ),
+    ] = None,
     options: Options = DEFAULTS,
 ) -> int:
     """Simulate the devices of a rig on real links, so that another process drives them: --link gimbal=URL.
@@ -41,6 +57,7 @@ def sim(
     What a device refuses is printed with the reason: each kind at once, then how often, and at the end all of it.
     """
     profile = options.profile()
+    captured = None if replay is None else replayed(replay, gimbal, dynamics)
     urls = {name: url for name, url in profile.links.items() if parse(url).kind != "sim"}
     if not urls and not drone.drone:
         raise DocumentError(
@@ -55,6 +72,8 @@ def sim(
         for name, url in urls.items():
             if name in profile.drones:
                 devices[name] = drone.made(clock.now())
+            elif captured:
+                devices[name] = ReplayedGimbal(captured)
             else:
                 settings = dynamics.settings(simulated_settings(profile, name))
                 devices[name] = gimbal.made(settings, simulated_firmware(profile, name))
@@ -70,8 +89,10 @@ def sim(
                 text = f"the simulated drone cannot have a serial line here: {error}: a profile with sim: needs none"
                 raise DeviceError(text) from None
             _ready("drone", f"serial:{line.path}@{BAUD}", options.json)
+        if captured and replay:
+            _write(json.dumps(facts(replay, captured)) if options.json else summary(replay, captured))
         with signals_to(lambda _reason: stop.set()):
-            serve(links, devices, clock, stop, refusals, gimbal.foreign_traffic)
+            serve(links, devices, clock, stop, refusals, gimbal.foreign_traffic, gimbal.bus_errors)
     finally:
         for link in links.values():
             link.close()
@@ -96,16 +117,18 @@ def serve(
     stop: threading.Event,
     refusals: RefusalLines | None = None,
     foreign_traffic: bool = False,
+    bus_errors: float = 0.0,
 ) -> None:
     """Pass bytes between links and devices until stopped; raises LinkError when a link is lost."""
     due = clock.now()
     printed = -STATUS
     strangers = _strangers(links, due) if foreign_traffic else []
+    noises = {name: BusNoise(link, bus_errors) for name, link in links.items()}
     while not stop.is_set():
         now = clock.now()
         for name, link in links.items():
-            devices[name].receive(link.receive(), now)
-            if answer := devices[name].advance(now):
+            devices[name].receive(noises[name].left(link.receive()), now)
+            if answer := noises[name].left(devices[name].advance(now)):
                 link.send(answer)
             if refusals:
                 refusals.look(name, devices[name], now)
@@ -116,6 +139,21 @@ def serve(
             print(*(status(name, device) for name, device in devices.items()), sep="   ", file=sys.stderr)
         due = max(due + POLL_PERIOD, now)
         clock.sleep_until(due)
+
+
+class BusNoise:
+    """A bus without termination: a share of what passes ends as error frames."""
+
+    def __init__(self, link: ClosableLink, share: float) -> None:
+        self._link, self._share, self._chance = link, share, random.Random(1)
+
+    def left(self, data: bytes) -> bytes:
+        """What is left of it: all, or nothing."""
+        if not data or self._chance.random() >= self._share:
+            return data
+        if isinstance(self._link, CanLink):
+            self._link.send_error()
+        return b""
 
 
 def _strangers(links: Mapping[str, ClosableLink], now: float) -> list[Callable[[float], None]]:
@@ -141,6 +179,8 @@ def status(name: str, device: SimulatedDevice) -> str:
         where = f"{pose.north:+.1f} {pose.east:+.1f} m, {pose.height:.1f} m high"
         refused = f", {device.refusals.total} refused" if device.refusals.total else ""
         return f"{name}: {state}, {where}, flown by {autopilot.pilot.value}, battery {autopilot.battery:.0f} %{refused}"
+    if isinstance(device, ReplayedGimbal):
+        return f"{name}: replayed, {device.counts.total()} messages, {device.refusals.total} not in the capture"
     yaw, roll, pitch = device.angles
     taken = ", speed control taken over" if device.controlled else ""
     recording = ", recording" if device.recording else ""

@@ -6,12 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from cyclopts import Group, Parameter
 
 from teleop.cli.codec.drone_options import cipher_of
 from teleop.cli.sim_dynamics import numbers_by_axis
+from teleop.config.simulated_firmware import Refusable
 from teleop.core.errors import UsageError
 from teleop.dji.drone.encryption import Cipher
 from teleop.sim.drone.device import SimulatedDrone
@@ -92,6 +93,15 @@ class DroneSim:
 class GimbalSim:
     """How the simulated gimbals behave; without options, as the R SDK document V2.5 says."""
 
+    signs: Annotated[
+        str,
+        Parameter(
+            metavar="AXIS=SIGN",
+            group=GIMBAL,
+            help="Axes that it counts the other way: yaw=-1 or yaw=-1,roll=-1.",
+            show_default=False,
+        ),
+    ] = ""
     speed_signs: Annotated[
         str,
         Parameter(
@@ -161,6 +171,18 @@ class GimbalSim:
         Parameter(group=GIMBAL, help="A position while speed control is taken over: obey or ignore it."),
     ] = "obey"
     autotune_needs_type: Annotated[bool, flag(GIMBAL, "Start automatic tuning with type 1 only.")] = False
+    refuses: Annotated[
+        str,
+        Parameter(
+            metavar="COMMANDS",
+            group=GIMBAL,
+            help="Commands that it refuses: position, speed, stick, mode, with commas between.",
+            show_default=False,
+        ),
+    ] = ""
+    bus_errors: Annotated[
+        float, Parameter(metavar="SHARE", group=GIMBAL, help="Share of the frames that end as error frames, 0..1.")
+    ] = 0.0
     foreign_traffic: Annotated[
         bool, flag(GIMBAL, "Send on ids 0x530, 0x531 and 0x426 400 times a second, as gimbals do.")
     ] = False
@@ -177,6 +199,8 @@ class GimbalSim:
             raise UsageError(f"--roll-error must be -30..30 deg, not {self.roll_error:g}")
         if not 0 < self.pitch_max < 180:
             raise UsageError(f"--pitch-max must be 1..179 deg, not {self.pitch_max}")
+        if not 0 <= self.bus_errors <= 1:
+            raise UsageError(f"--bus-errors must be 0..1, not {self.bus_errors:g}")
         if not 0 <= self.reply_delay <= 1:
             raise UsageError(f"--reply-delay must be 0..1 s, not {self.reply_delay:g}")
         given = {each.name: value for each in fields(self) if (value := getattr(self, each.name)) != each.default}
@@ -184,13 +208,29 @@ class GimbalSim:
         for option, field in _FIELDS.items():
             if option in given:
                 given[field] = given.pop(option)
+        if "signs" in given:
+            made["signs"] = _signs("--signs", given.pop("signs"))
         for key in ("speed_signs", "report_signs"):
             if key in given:
-                given[key] = _signs(f"--{key.replace('_', '-')}", given[key])
+                signs = _signs(f"--{key.replace('_', '-')}", given[key])
+                given[key] = tuple(sign * of for sign, of in zip(signs, made.get("signs", (1, 1, 1)), strict=True))
+        if "refuses" in given:
+            given["refuses"] = _refused(given["refuses"])
         if "stick_speed" in given:
             given["stick_speed"] = _stick_speed(given["stick_speed"])
-        given.pop("foreign_traffic", None)
+        for key in ("foreign_traffic", "bus_errors"):
+            given.pop(key, None)
         return SimulatedGimbal(**made, firmware=replace(profile, **given))
+
+
+def _refused(text: str) -> tuple[Refusable, ...]:
+    """Raises UsageError."""
+    known: Mapping[str, Refusable] = {name: name for name in get_args(Refusable)}
+    names = list(filter(None, text.replace(" ", "").split(",")))
+    for name in names:
+        if name not in known:
+            raise UsageError(f"--refuses {text}: write {', '.join(known)}, not {name}")
+    return tuple(known[name] for name in names)
 
 
 def _stick_speed(text: str) -> tuple[float, ...]:

@@ -16,11 +16,14 @@ from teleop.config.wiring import Angle, AngleOrder, Sign
 FocusMotorState = Literal["calibrated", "uncalibrated", "absent"]
 BeyondStop = Literal["stop", "refuse"]
 PositionUnderSpeed = Literal["obey", "ignore"]
+Refusable = Literal["position", "speed", "stick", "mode"]
 
 
 class SimulatedFirmwareSection(Section):
     """How the firmware of the simulated gimbal differs from the document."""
 
+    signs: dict[Angle, Sign] = Field(default_factory=dict)
+    """-1 for an axis whose positions it counts the other way, and its speeds and reports with them."""
     speed_signs: dict[Angle, Sign] = Field(default_factory=dict)
     """-1 for an axis whose speeds it counts the other way than its positions; unless given, as the profile has it."""
     report_signs: dict[Angle, Sign] = Field(default_factory=dict)
@@ -59,6 +62,8 @@ class SimulatedFirmwareSection(Section):
     """Time from a command to anything of it, in s, for all axes."""
     autotune_needs_type: bool = False
     """Automatic tuning starts with type 1 only, as the document has it; type 0 was seen to work."""
+    refuses: list[Refusable] = Field(default_factory=list)
+    """Commands that it refuses: position, speed, stick, mode."""
     focus_motor: FocusMotorState = "calibrated"
     """State of the focus motor; one that is not calibrated ignores positions."""
     ignore_zero_focus: bool = False

@@ -100,6 +100,12 @@ class SimulatedSection(SimulatedFirmwareSection):
     """Yaw in deg to which the mount is turned when the gimbal boots; unless given, the yaw of the gimbal's `mount`."""
     lost_readings: Annotated[float, Field(ge=LOST_READINGS.low, le=LOST_READINGS.high)] = 0.0
     """Share of the reported angles that get lost, 0..1."""
+    bus_errors: Annotated[float, Field(ge=0, le=1)] = 0.0
+    """Share of the frames that end as error frames, 0..1, as on a bus without termination."""
+    adapter_reset: Annotated[float, Field(ge=0)] = 0.0
+    """Time in s after which the adapter is gone once; 0: never."""
+    foreign_traffic: bool = False
+    """Frames of other ids, 400 a second, as gimbals send them."""
 
     def of(self, axis: str | None) -> dict[str, float]:
         """The values of one axis, by key; None for an axis that the mapping leaves out."""

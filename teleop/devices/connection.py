@@ -17,7 +17,7 @@ from teleop.dji.drone import movement, virtual_rc
 from teleop.dji.drone.session import OnboardSession
 from teleop.dji.gimbal import focus
 from teleop.dji.gimbal import messages as gimbal
-from teleop.dji.gimbal.session import Session
+from teleop.dji.gimbal.session import Received, Session
 from teleop.dji.message import Message
 from teleop.links.buffered import BufferedLink
 from teleop.links.outbox import Traffic
@@ -65,6 +65,7 @@ class Connection:
         self.opened = now
         self._handlers: dict[type[Message], list[Callable[[Answer], None]]] = {}
         self._push_handlers: dict[type[Message], list[Callable[[Message, float], None]]] = {}
+        self._receivers: list[Callable[[Received, float], object]] = []
         self._sent: dict[int, float] = {}
         self._queue = link if isinstance(link, BufferedLink) else None
         self._latest: dict[type[Message], int] = {}  # the sequence of the last request of each stream
@@ -93,6 +94,11 @@ class Connection:
         return {**counts, "cannot_keep_up": 1} if self._behind else counts
 
     @property
+    def foreign(self) -> int:
+        """CAN frames of other ids than the gimbal's, so far; 0 on a link that has no ids."""
+        return sum(getattr(self._link, "foreign", {}).values())
+
+    @property
     def warnings(self) -> Iterator[str]:
         """What is wrong with it and ends nothing, in a line each that stays the same."""
         if self._behind:
@@ -117,6 +123,10 @@ class Connection:
     def on_push(self, kind: type[Message], handler: Callable[[Message, float], None]) -> None:
         """Have `handler` called with each message of a kind that comes unasked, and the time of the poll it came in."""
         self._push_handlers.setdefault(kind, []).append(handler)
+
+    def on_received(self, handler: Callable[[Received, float], object]) -> None:
+        """Have `handler` called with all that a gimbal sends, its frame included, and the time of the poll."""
+        self._receivers.append(handler)
 
     def stream(self, message: Message) -> None:
         """Send a message that has no reply. Raises LinkError, or FieldError when a field is out of its range."""
@@ -147,6 +157,8 @@ class Connection:
         strangers = self.session.counts.foreign_replies
         for received in self.session.receive(self._link.receive(), now):
             self._heard, self._unanswered = now, 0
+            for receiver in self._receivers:
+                receiver(received, now)
             if received.request is not None:
                 self._answer(received.request, received.frame.sequence, received.message, received.bare)
             for handler in self._push_handlers.get(type(received.message), ()):

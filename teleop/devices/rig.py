@@ -30,8 +30,7 @@ from teleop.devices.connection import Connection
 from teleop.devices.drone.sink import DroneSink
 from teleop.devices.gimbal.guard_notes import GuardNotes
 from teleop.devices.gimbal.outlook import Foreseen
-from teleop.devices.gimbal.profile_firmware import profile_firmware
-from teleop.devices.gimbal.profile_simulation import simulated_settings
+from teleop.devices.gimbal.simulated import simulated_gimbal, simulated_wire
 from teleop.dji.drone.session import OnboardSession
 from teleop.dji.gimbal.session import Session
 from teleop.links import open_link, parse
@@ -236,10 +235,9 @@ class _Opening:
         if name in profile.drones:
             far = self._drones[name] = SimulatedDrone(now=clock.now(), cipher=app_cipher(name in profile.encrypted))
         else:
-            settings, firmware = simulated_settings(profile, name), profile_firmware(profile, name)
-            far = self._simulated[name] = SimulatedGimbal(
-                continuous=_turns_for_ever(profile), firmware=firmware, **settings
-            )
+            far = self._simulated[name] = simulated_gimbal(profile, name, SimulatedGimbal)
+            wire = simulated_wire(profile, name, far, clock.now)
+            return Connection(name, url, wire, clock.now(), wire.counts, session)
         return Connection(name, url, SimLink(far, clock.now), clock.now(), None, session)
 
 
@@ -251,8 +249,3 @@ def _unlike_the_last() -> int:
 def _unlike_others(clock: Clock) -> int:
     """Where a session with a gimbal begins to number: elsewhere than another program on its bus, by the time in us."""
     return round(clock.now() * 1e6) & 0xFFFF
-
-
-def _turns_for_ever(profile: Profile) -> bool:
-    """Whether the simulated gimbal must, because the profile says that the real one does."""
-    return Axis.PAN in profile.limits and profile.limits[Axis.PAN].continuous

@@ -129,6 +129,11 @@ class FrameReader:
         self._taken = 0  # bytes at the head of the buffer that already belong to a frame
         self._last_arrival = 0.0
 
+    @property
+    def held(self) -> int:
+        """How many of the last bytes may yet become a frame."""
+        return len(self._buffer)
+
     def feed(self, data: bytes, now: float) -> list[Frame | Damage]:
         """What is known once `data` has arrived at `now` (seconds, any origin), in wire order."""
         found = self.flush(now)

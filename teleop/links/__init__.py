@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from typing import Final, Protocol
+from typing import Any, Final, Protocol
 
 from teleop.core.interfaces import Link
 from teleop.links.url import LinkAddress, LinkUrlError, parse
 
 __all__ = [
     "FAR_END",
+    "NEAR_END",
     "ClosableLink",
     "LinkAddress",
     "LinkUrlError",
@@ -26,6 +27,7 @@ __all__ = [
 ]
 
 FAR_END: Final = 0  # the sender on a serial line, which has no CAN ids
+NEAR_END: Final = 1
 
 
 class ClosableLink(Link, Protocol):
@@ -66,8 +68,12 @@ class Listener(Protocol):
     def close(self) -> None: ...
 
 
-def open_listener(address: str | LinkAddress, *, now: Callable[[], float]) -> Listener:
+def open_listener(
+    address: str | LinkAddress, *, now: Callable[[], float], tap: Callable[[Any], object] | None = None
+) -> Listener:
     """Opens a link to hear what host and device say to each other. `now` is a clock in seconds.
+
+    `tap` is called with all that arrives: each BusFrame of a CAN bus, the bytes of a serial line.
 
     Raises LinkUrlError where there is nothing to hear, LinkError when it cannot be opened.
     """
@@ -76,11 +82,11 @@ def open_listener(address: str | LinkAddress, *, now: Callable[[], float]) -> Li
     if address.kind == "can":
         from teleop.links.can import CanListener
 
-        return CanListener(address, now=now)
+        return CanListener(address, now=now, tap=tap)
     if address.kind == "serial":
         from teleop.links.serial import SerialListener
 
-        return SerialListener(address, now=now)
+        return SerialListener(address, now=now, tap=tap)
     raise LinkUrlError(f"link {str(address)!r} is simulated in each process: there is nothing to listen on")
 
 

@@ -30,11 +30,28 @@ class Arrival(NamedTuple):
     data: bytes
 
 
+class BusFrame(NamedTuple):
+    """Any frame of a bus, for a capture. `stamp` is when the adapter received it, s since 1970, None if unknown."""
+
+    id: int
+    data: bytes
+    extended: bool = False
+    remote: bool = False
+    error: bool = False  # a report of the adapter's, not a frame of the bus; its id has the classes of error
+    stamp: float | None = None
+
+
+Tap = Callable[[BusFrame], object]
+
+
 class Adapter(Protocol):
     """One CAN adapter, open. Calls raise LinkError, OSError or one of `failures` when it is lost, and never wait.
 
-    They raise StalledError while the bus is off: both calls do, and either notices when it is back.
+    They raise StalledError while the bus is off: both calls do, and either notices when it is back. `tap` is called
+    with every frame that is read, those that are no Arrival too.
     """
+
+    tap: Tap | None
 
     @property
     def failures(self) -> tuple[type[Exception], ...]: ...
@@ -54,8 +71,9 @@ class CanLink(BufferedLink):
     """DJI frames over CAN: sends on `transmit_id`, receives `receive_id`, counts the frames of other ids in `foreign`.
 
     The defaults are the host's ids; a simulated gimbal has them the other way round. `counts` has the outbox's and the
-    adapter's: `damage` (what arrived was no CAN frame), `bus off`, `refused`. `now` is a clock in seconds. Raises
-    LinkError when the bus cannot be opened.
+    adapter's: `damage` (what arrived was no CAN frame), `error frames`, `bus off`, `refused`. `now` is a clock in
+    seconds. Raises LinkError when the bus cannot be opened. `tap` is called with every frame of the bus, those sent
+    here too.
     """
 
     def __init__(
@@ -72,13 +90,31 @@ class CanLink(BufferedLink):
         self._adapter = _open(address, self.counts, now)
         self._failures = self._adapter.failures
 
+    @property
+    def tap(self) -> Tap | None:
+        return self._adapter.tap
+
+    @tap.setter
+    def tap(self, tap: Tap | None) -> None:
+        self._adapter.tap = tap
+
     def send_foreign(self, can_id: int, data: bytes) -> None:
         """Sends one CAN frame of another id; a full queue drops it. Raises LinkError when the link is lost."""
         with self._latching():
             self._adapter.put(can_id, data)
 
+    def send_error(self) -> None:
+        """Sends an error frame, where the adapter can. Raises LinkError when the link is lost."""
+        if send := getattr(self._adapter, "put_error", None):
+            with self._latching():
+                send()
+
     def _put(self, piece: bytes) -> int:
-        return len(piece) if self._adapter.put(self._transmit_id, piece) else 0
+        if not self._adapter.put(self._transmit_id, piece):
+            return 0
+        if self._adapter.tap:
+            self._adapter.tap(BusFrame(self._transmit_id, piece))
+        return len(piece)
 
     def _take(self) -> bytes:
         return b"".join(arrival.data for arrival in self._adapter.take() if self._is_ours(arrival))
@@ -97,17 +133,23 @@ class CanLink(BufferedLink):
 class CanListener:
     """Hears what others say on a CAN bus, in both directions, and transmits nothing (an adapter may still acknowledge).
 
-    Frames of other ids than `ids` are counted in `foreign`. `counts` and `now` are as for CanLink. Raises LinkError
-    when the bus cannot be opened.
+    Frames of other ids than `ids` are counted in `foreign`. `tap` is called with every frame, in their order. `counts`
+    and `now` are as for CanLink. Raises LinkError when the bus cannot be opened.
     """
 
     def __init__(
-        self, address: LinkAddress, ids: Collection[int] = (HOST_ID, GIMBAL_ID), *, now: Callable[[], float]
+        self,
+        address: LinkAddress,
+        ids: Collection[int] = (HOST_ID, GIMBAL_ID),
+        *,
+        now: Callable[[], float],
+        tap: Tap | None = None,
     ) -> None:
         self.foreign: Counter[int] = Counter()
         self.counts: Counter[str] = Counter()
         self._address, self._ids = address, ids
         self._adapter = _open(address, self.counts, now)
+        self._adapter.tap = tap
 
     def receive(self) -> list[tuple[int, bytes]]:
         """The id and data of each CAN frame since the last call, in their order. Raises LinkError when it is lost."""

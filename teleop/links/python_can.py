@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import logging
 import select
@@ -18,7 +19,7 @@ from typing import Any
 
 import can
 
-from teleop.links.can import Arrival
+from teleop.links.can import Arrival, BusFrame, Tap
 from teleop.links.faults import driver_missing, opening_failed, system_error
 from teleop.links.outbox import Stall
 from teleop.links.url import LinkAddress
@@ -32,7 +33,10 @@ _OPTIONS: Mapping[str, Mapping[str, Any]] = {
 
 
 class PythonCanAdapter:
-    """A teleop.links.can.Adapter. Counts `damage` and `bus off`. Raises LinkError when the bus cannot be opened."""
+    """A teleop.links.can.Adapter. Counts `damage`, `error frames` and `bus off`.
+
+    Raises LinkError when the bus cannot be opened.
+    """
 
     failures = (can.CanError, OSError)
 
@@ -41,6 +45,7 @@ class PythonCanAdapter:
         self._counts = counts
         self._off = Stall(now)
         self._arrived: list[Arrival] = []
+        self.tap: Tap | None = None
         self._bus = _open(address)
         try:
             self._descriptor = self._bus.fileno()
@@ -61,6 +66,11 @@ class PythonCanAdapter:
             raise
         return True
 
+    def put_error(self) -> None:
+        """Send an error frame; one that cannot be sent is left out."""
+        with contextlib.suppress(can.CanError, NotImplementedError):
+            self._bus.send(can.Message(is_error_frame=True), timeout=0)
+
     def take(self) -> list[Arrival]:
         self._read()
         self._check()
@@ -72,6 +82,8 @@ class PythonCanAdapter:
 
     def _read(self) -> None:
         for message in self._messages():
+            if self.tap:
+                self.tap(_bus_frame(message))
             if message.is_error_frame:
                 self._note_state(message.arbitration_id)
                 continue
@@ -104,6 +116,19 @@ class PythonCanAdapter:
             self._off.begin()
         elif classes & _RESTARTED:
             self._off.end()
+        else:
+            self._counts["error frames"] += 1
+
+
+def _bus_frame(message: can.Message) -> BusFrame:
+    return BusFrame(
+        message.arbitration_id,
+        bytes(message.data),
+        message.is_extended_id and not message.is_error_frame,
+        message.is_remote_frame,
+        message.is_error_frame,
+        message.timestamp or None,
+    )
 
 
 def _open(address: LinkAddress) -> can.BusABC:

@@ -15,7 +15,7 @@ from typing import Protocol
 
 import serial
 
-from teleop.links import FAR_END
+from teleop.links import FAR_END, NEAR_END
 from teleop.links.buffered import BufferedLink
 from teleop.links.faults import opening_failed
 from teleop.links.url import LinkAddress
@@ -67,20 +67,30 @@ class SerialPort:
 
 
 class SerialLink(BufferedLink):
-    """Bytes over a serial line, at the address's baud rate. Raises LinkError when it cannot be opened."""
+    """Bytes over a serial line, at the address's baud rate. Raises LinkError when it cannot be opened.
+
+    `tap` is called with all bytes that pass, and before them NEAR_END or FAR_END, which sent them.
+    """
 
     def __init__(self, address: LinkAddress, *, now: Callable[[], float]) -> None:
         super().__init__(address, _PIECE, now)
+        self.tap: Callable[[int, bytes], object] | None = None
         try:
             self._port = SerialPort(address.channel, address.bitrate)
         except (OSError, ValueError) as error:
             raise opening_failed(address, error) from error
 
     def _put(self, piece: bytes) -> int:
-        return self._port.write(piece)
+        count = self._port.write(piece)
+        if count and self.tap:
+            self.tap(NEAR_END, piece[:count])
+        return count
 
     def _take(self) -> bytes:
-        return self._port.read()
+        data = self._port.read()
+        if data and self.tap:
+            self.tap(FAR_END, data)
+        return data
 
     def _shut(self) -> None:
         self._port.close()
@@ -89,12 +99,17 @@ class SerialLink(BufferedLink):
 class SerialListener:
     """Hears what the far end of a serial line says, and transmits nothing: the other direction has a wire of its own.
 
-    It needs the port for itself. `foreign` stays empty. Raises LinkError when it cannot be opened.
+    It needs the port for itself. `foreign` stays empty. `tap` is called with all bytes that arrive. Raises LinkError
+    when it cannot be opened.
     """
 
-    def __init__(self, address: LinkAddress, *, now: Callable[[], float]) -> None:
+    def __init__(
+        self, address: LinkAddress, *, now: Callable[[], float], tap: Callable[[bytes], object] | None = None
+    ) -> None:
         self.foreign: Counter[int] = Counter()
         self._link = SerialLink(address, now=now)
+        if tap:
+            self._link.tap = lambda _sender, data: tap(data)
         self.counts = self._link.counts
 
     def receive(self) -> list[tuple[int, bytes]]:

@@ -19,7 +19,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
-from teleop.links.can import Arrival
+from teleop.links.can import Arrival, BusFrame, Tap
 from teleop.links.faults import opening_failed
 from teleop.links.outbox import Stall
 from teleop.links.serial import Port, SerialPort
@@ -48,6 +48,7 @@ class SlcanAdapter:
         self._acknowledges = False  # some adapters never do, and one answer of theirs proves nothing
         self._text = b""  # arrived, and not yet a line
         self._arrived: list[Arrival] = []
+        self.tap: Tap | None = None
         self._unsent = b""
 
     def command(self, text: bytes) -> None:
@@ -126,6 +127,8 @@ class SlcanAdapter:
             self._refusing.end()
         elif arrival := _parse(line):
             self._arrived.append(arrival)
+            if self.tap:
+                self.tap(BusFrame(arrival.id, arrival.data, line[:1] in b"TR", line[:1] in b"rR"))
         else:
             self._counts["damage"] += 1
 

@@ -28,6 +28,7 @@ class Why(Enum):
     MODE = "wrong mode"
     STATE = "not now"
     REPLY = "reply bit set"
+    NOT_CAPTURED = "not in the capture"
 
 
 class Refusal(NamedTuple):

@@ -5,15 +5,23 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
-from teleop.sim.drone.device import SimulatedDrone
-from teleop.sim.gimbal.device import SimulatedGimbal
-from teleop.sim.refusals import Refusal, Why
+from teleop.sim.refusals import Refusal, Refusals, Why
 
 AGAIN = 10.0  # s between two lines of the same kind
 
 Kind = tuple[str, str, Why]  # device, command, reason
+
+
+class Refusing(Protocol):
+    """A simulated device: `counts` has the messages that came, by name."""
+
+    @property
+    def counts(self) -> Counter[str]: ...
+
+    @property
+    def refusals(self) -> Refusals: ...
 
 
 class RefusalLines:
@@ -24,7 +32,7 @@ class RefusalLines:
         self._shown: Counter[Kind] = Counter()
         self._last: dict[Kind, float] = {}
 
-    def look(self, name: str, device: SimulatedGimbal | SimulatedDrone, now: float) -> None:
+    def look(self, name: str, device: Refusing, now: float) -> None:
         """Write what `device` has refused of late, as far as it is to be written now (s)."""
         latest = {(name, refusal.command, refusal.why): refusal for refusal in device.refusals.take()}
         for kind, refusal in latest.items():
@@ -34,7 +42,7 @@ class RefusalLines:
             if kind[0] == name and now - time >= AGAIN and device.refusals.counts[kind[1:]] > self._shown[kind]:
                 self._show(kind, latest.get(kind), device, now)
 
-    def summary(self, name: str, device: SimulatedGimbal | SimulatedDrone) -> None:
+    def summary(self, name: str, device: Refusing) -> None:
         """Write how many messages came and how many were refused for which reason."""
         messages = sum(count for message, count in device.counts.items() if message != "refused")
         refused = device.refusals.counts
@@ -46,7 +54,7 @@ class RefusalLines:
         for (command, why), count in refused.most_common():
             self._write(f"  {command}: {why.value}, {count} x")
 
-    def _show(self, kind: Kind, refusal: Refusal | None, device: SimulatedGimbal | SimulatedDrone, now: float) -> None:
+    def _show(self, kind: Kind, refusal: Refusal | None, device: Refusing, now: float) -> None:
         name, command, why = kind
         self._last[kind] = now
         more = device.refusals.counts[command, why] - self._shown[kind]

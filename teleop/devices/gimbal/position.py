@@ -66,7 +66,7 @@ class Angles:
         if self._unanswered and self._push_request.due(now):
             self._connection.request(gimbal.PushSettings(gimbal.Switch.ON), now)
         if self._greeting.due(now):
-            self._connection.stream(gimbal.VersionPush(version=_own_version()))
+            self._connection.stream(gimbal.VersionPush(version=own_version()))
         return self._readings
 
     def _answered(self, answer: Answer) -> None:
@@ -214,7 +214,7 @@ def position_command(angles: Mapping[Axis, float], wiring: Wiring, seconds: floa
 
 
 @cache
-def _own_version() -> str:
+def own_version() -> str:
     """This program's version as AA.BB.CC.DD."""
     numbers = [int(part) for part in version("rs-teleop").split(".")[:4] if part.isdecimal()]
     return ".".join(f"{number:02}" for number in (numbers + [0] * 4)[:4])

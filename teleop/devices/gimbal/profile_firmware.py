@@ -8,15 +8,15 @@ from dataclasses import replace
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import GimbalSection
 from teleop.core.axes import Axis
-from teleop.devices.gimbal.profile_simulation import sections_on, simulated_firmware
+from teleop.devices.gimbal.profile_simulation import position_signs, sections_on, simulated_firmware
 from teleop.sim.gimbal.firmware import Firmware
 
 
 def profile_firmware(profile: Profile, link: str) -> Firmware:
     """The firmware that the profile simulates, with the `speed_signs` and `report_signs` of the sections on `link`.
 
-    The simulated gimbal counts positions as `core.axes` does. Its other signs are therefore those of the profile
-    relative to the profile's `signs`: 1 where speeds or reports count as positions do.
+    The simulated gimbal counts positions as `core.axes` does, unless `simulated` has `signs`. Its other signs are
+    therefore those of the profile relative to the profile's `signs`: 1 where speeds or reports count as positions do.
     """
     sections, made = sections_on(profile, link), simulated_firmware(profile, link)
     if not any(section.speed_signs or section.report_signs for section in sections):
@@ -32,6 +32,7 @@ def _relative(sections: list[GimbalSection], sign_of: Callable[[GimbalSection, A
     for section in sections:
         for index, axis in enumerate(section.axes):
             if axis is not None:
-                signs[index] = section.wiring.sign(axis) * sign_of(section, axis)
+                counted = position_signs(section)[index]
+                signs[index] = counted * section.wiring.sign(axis) * sign_of(section, axis)
     yaw, roll, pitch = signs
     return yaw, roll, pitch

@@ -79,6 +79,10 @@ class Session:
         """The frame that sends `message`, whose reply, if any, will not be missed. Raises FieldError."""
         return self._send(message)[0]
 
+    def push(self, message: Message) -> bytes:
+        """The frame that pushes `message`, as a device does: its values may be beyond the document's tables."""
+        return self._send(message, checked=False)[0]
+
     def request(self, message: Message, now: float, timeout: float = REPLY_TIMEOUT) -> tuple[bytes, int]:
         """The frame that sends `message`, and its sequence number; a reply is due `timeout` seconds after `now`.
 
@@ -126,8 +130,9 @@ class Session:
         """No reply is waited for any more: the request has not left."""
         self._open.pop(sequence, None)
 
-    def _send(self, message: Message) -> tuple[bytes, int]:
-        message.check()
+    def _send(self, message: Message, checked: bool = True) -> tuple[bytes, int]:
+        if checked:
+            message.check()
         sequence = self._sequence
         frame = Frame(message.data(), message.cmd_type, sequence).encode()
         self._sequence = sequence + 1 & 0xFFFF

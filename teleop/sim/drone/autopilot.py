@@ -15,6 +15,7 @@ from dataclasses import replace
 
 from teleop.sim.drone.controls import Controls, Pilot, Status, Switch, TaskState
 from teleop.sim.drone.flight import Flight, Pose
+from teleop.sim.drone.hand import Hand
 from teleop.sim.drone.settings import M100, DroneSettings
 from teleop.sim.drone.tasks import FINISHING, Automatic, Due
 
@@ -29,6 +30,7 @@ class Autopilot:
 
     def __init__(self, now: float, yaw: float = 0.0, battery: float = 100.0, settings: DroneSettings = M100) -> None:
         self.flight = Flight(now, yaw)
+        self.hand = Hand()
         self._automatic = Automatic(self.flight)
         self._settings = settings
         self.rc = Controls(switch=Switch.F)
@@ -53,7 +55,14 @@ class Autopilot:
 
     @property
     def pose(self) -> Pose:
-        return self.flight.pose()
+        pose = self.flight.pose()
+        return pose if self.flight.motors else self.hand.held(pose, self.time)
+
+    @property
+    def rates(self) -> tuple[float, float, float]:
+        """Of roll, pitch and yaw, rad/s."""
+        roll, pitch = (0.0, 0.0) if self.flight.motors else self.hand.rates(self.time)[:2]
+        return roll, pitch, self.pose.yaw_rate
 
     @property
     def battery(self) -> float:

@@ -55,7 +55,7 @@ class SimulatedDrone:
         self.refusals = Refusals()
         self.settings = settings
         self.acknowledges = True
-        self._telemetry = TelemetrySender(mirrors, health)
+        self._telemetry = TelemetrySender(mirrors, health, settings)
         self._session = OnboardSession()
         self._cipher = cipher
         self._outgoing = bytearray()
@@ -108,6 +108,13 @@ class SimulatedDrone:
         """The pilot turns the mode switch of the real RC."""
         self._pass(now)
         self.autopilot.turn_switch(switch)
+
+    def carry(
+        self, now: float, seconds: float, *, roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0, up: float = 0.0
+    ) -> None:
+        """A hand turns and lifts it, with its motors off, within so many seconds: deg and m against how it stands."""
+        self._pass(now)
+        self.autopilot.hand.move(now, (math.radians(roll), math.radians(pitch), math.radians(yaw), up), seconds)
 
     def lose_control(self, now: float) -> None:
         """Control is taken from the onboard computer, by whatever has the right to."""

@@ -10,7 +10,7 @@ MOVEMENT_TIMEOUT = 0.5  # s for which a movement command is obeyed; the real tim
 
 @dataclass(frozen=True)
 class DroneSettings:
-    """Times are seconds.
+    """Times are seconds. Signs are 1 or -1: how it broadcasts against the documents.
 
     `asks_twice`: obtain and release are answered by 3 or 4 first and confirmed when they are sent again, as
     OPENProtocol.md 3.1.9 says of 01 00 ("sent twice, the first ACK will be fail"). `broadcasts_before_activation`: it
@@ -22,6 +22,9 @@ class DroneSettings:
     answer_delay: float = 0.0
     virtual_rc_timeout: float = VIRTUAL_RC_TIMEOUT
     movement_timeout: float = MOVEMENT_TIMEOUT
+    attitude_signs: tuple[int, int, int] = (1, 1, 1)  # of roll, pitch and yaw
+    rate_signs: tuple[int, int, int] = (1, 1, 1)
+    climb_sign: int = 1
 
 
 M100 = DroneSettings()

@@ -27,6 +27,7 @@ from teleop.sim.drone.autopilot import Autopilot
 from teleop.sim.drone.controls import Controls, Pilot, Switch
 from teleop.sim.drone.flight import Pose
 from teleop.sim.drone.payload import Payload
+from teleop.sim.drone.settings import M100, DroneSettings
 from teleop.sim.gimbal.pushes import Beat
 
 BEAT = 0.01  # s
@@ -52,12 +53,12 @@ class TelemetrySender:
     `mirrors`: whether the RC that is broadcast is the virtual one while that flies; what real ones do is not known.
     """
 
-    def __init__(self, mirrors: bool, health: int) -> None:
+    def __init__(self, mirrors: bool, health: int, settings: DroneSettings = M100) -> None:
         self.rates = dict(DEFAULTS)
         self.hidden: Collection[str] = ()
         self.health = health
         self.mode = CurrentMode.ATTI_STOP
-        self._mirrors = mirrors
+        self._mirrors, self._settings = mirrors, settings
         self._beat: Beat | None = None
 
     def begin(self, now: float) -> None:
@@ -92,13 +93,17 @@ class TelemetrySender:
 
         Vertical velocity is up: the 3.1.9 sample takeoffConverged waits for v.z > 0.25 (docs/protocol-facts.md).
         """
-        pose = autopilot.pose
+        pose, signs = autopilot.pose, self._settings
+        rates = (sign * rate for sign, rate in zip(signs.rate_signs, autopilot.rates, strict=True))
+        turned = (
+            sign * angle for sign, angle in zip(signs.attitude_signs, (pose.roll, pose.pitch, pose.yaw), strict=True)
+        )
         whole = {
             "time": lambda: Time(round(autopilot.time * 400) & 0xFFFFFFFF, round(autopilot.time % 1 * 1e9), 0),
-            "quaternion": lambda: quaternion(pose.roll, pose.pitch, pose.yaw),
+            "quaternion": lambda: quaternion(*turned),
             "acceleration": lambda: Acceleration(0.0, 0.0, 0.0),
-            "velocity": lambda: Velocity(pose.velocity_north, pose.velocity_east, pose.climb),
-            "angular_rate": lambda: AngularRate(0.0, 0.0, pose.yaw_rate),
+            "velocity": lambda: Velocity(pose.velocity_north, pose.velocity_east, signs.climb_sign * pose.climb),
+            "angular_rate": lambda: AngularRate(*rates),
             "position": lambda: self._position(pose),
             "magnetometer": lambda: Magnetometer(0, 0, 0),
             "rc": lambda: _rc(autopilot.virtual if self._mirrors and autopilot.virtual_on else autopilot.rc),

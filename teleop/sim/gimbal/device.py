@@ -39,6 +39,7 @@ JOYSTICK_SPEED = 60.0, 30.0, 60.0  # deg/s of yaw, roll and pitch at full deflec
 PUSH_RATE = 10.0  # Hz; it varies with the firmware, from 1 Hz up (docs/protocol-facts.md)
 
 _MOTION = gimbal.Position, gimbal.Speed, gimbal.Joystick, gimbal.Mode
+_REFUSABLE = {"position": gimbal.Position, "speed": gimbal.Speed, "stick": gimbal.Joystick, "mode": gimbal.Mode}
 _READ_GENEROUSLY = gimbal.Joystick, gimbal.Dial
 _REPLY_TYPE = 0x1F  # bits of cmd_type; 0 is the only type that is not answered: section 2.2
 
@@ -199,7 +200,7 @@ class SimulatedGimbal:
             beats = self._push.due(self._now)
             due += [(time, self._parameters(time)) for time in beats if self._tells_angles_now()]
         for _, push in sorted(due, key=itemgetter(0)):
-            self._outgoing.push(pushed(self._session.command(push), push, self._firmware))
+            self._outgoing.push(pushed(self._session.push(push), push, self._firmware))
 
     def _tells_angles_now(self) -> bool:
         return self.tells_angles and not (self._lost_readings and self._chance.random() < self._lost_readings)
@@ -217,6 +218,8 @@ class SimulatedGimbal:
         if isinstance(message, _MOTION) and (self.settings.asleep or self._tuning.running(self._now)):
             doing = "its motors are off" if self.settings.asleep else "it is calibrating"
             return self._refused(message, ReturnCode.FAILED, Why.STATE, doing)
+        if any(isinstance(message, _REFUSABLE[name]) for name in self._firmware.refuses):
+            return self._refused(message, ReturnCode.FAILED, Why.STATE, "this firmware does not take it")
         if isinstance(message, _MOTION) and self._reaction:
             self._to_come.append((self._now + self._reaction, message))
             return ReturnCode.OK

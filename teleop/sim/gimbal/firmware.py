@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from teleop.config.simulated_firmware import BeyondStop, FocusMotorState, PositionUnderSpeed
+from teleop.config.simulated_firmware import BeyondStop, FocusMotorState, PositionUnderSpeed, Refusable
 from teleop.config.wiring import AngleOrder as Order
 
 
@@ -28,6 +28,7 @@ class Firmware:
     - `focus_motor`: one that is not calibrated ignores positions; without one, it is answered that that failed.
       `ignores_zero_focus`: position 0 does nothing, as with some motors.
     - `roll_error`: how far from level (deg) the roll is left when speed control is given back, until a position comes.
+    - `refuses`: commands that it refuses (`position`, `speed`, `mode`); one without a reply does nothing (`stick`).
     - `pitch_max`: the upper limit of pitch (deg) that it reports; an RS 5 reports 155, beyond the document's 145.
     """
 
@@ -50,6 +51,7 @@ class Firmware:
     beyond_stop: BeyondStop = "stop"
     position_under_speed: PositionUnderSpeed = "obey"
     autotune_needs_type: bool = False
+    refuses: tuple[Refusable, ...] = ()
 
 
 DOCUMENTED = Firmware()

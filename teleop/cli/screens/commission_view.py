@@ -1,0 +1,114 @@
+"""The screen of `teleop commission`: a page at a time, on any size of terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import ExitStack
+from typing import Self
+
+from rich.text import Text
+
+from teleop.cli.screens.picture import Picture, Rows
+from teleop.cli.screens.stderr_writer import StderrWriter
+from teleop.commission.changes import written
+from teleop.commission.findings import Fact, Verdict
+from teleop.commission.page import Page, Stage
+
+_TITLE = 46  # cells of what a fact is about
+_STYLES = {Verdict.DOCUMENTED: "green", Verdict.DIFFERENT: "yellow", Verdict.NOT_SEEN: "dim"}
+_KEYS = {"enter": "Enter", "space": "space"}
+
+
+class CommissionView:
+    """Shows the page while it is entered: on a terminal a screen, elsewhere what is asked and found as lines."""
+
+    def __init__(self, rig: str, page: Callable[[], Page]) -> None:
+        self._rig, self._page = rig, page
+        self._picture = Picture(self._draw)
+        self._lines = StderrWriter()
+        self._said = ""
+        self._shown = page()
+        self._stack = ExitStack()
+
+    def __enter__(self) -> Self:
+        if self._picture.possible:
+            self._stack.enter_context(self._picture)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+        self._lines.finish()
+
+    def notify(self, text: str) -> None:
+        """A line about a signal: it must not wait."""
+        if not self._picture.possible:
+            self._lines.notify(text)
+
+    def update(self) -> None:
+        """Take the page as it is now, from the thread that turns the runner."""
+        self._shown = page = self._page()
+        if self._picture.possible:
+            return
+        said = f"{page.key} {page.stage} {page.question}"
+        if said != self._said:
+            self._said = said
+            for line in _in_lines(page):
+                self._lines.notify(line)
+
+    def _draw(self, width: int, height: int) -> Rows:  # noqa: ARG002 - Rows fit themselves
+        page = self._shown
+        place = f"step {page.number} of {page.total}"
+        title = f" {self._rig}: {page.title}"[: max(0, width - len(place) - 2)]
+        state: list[Text] = []
+        if page.stage is Stage.SHOWN:
+            state = [_fact_row(fact) for fact in page.facts]
+            if page.displaced:
+                state.append(Text(f" It goes back to where it began: {page.displaced}", "yellow"))
+        elif page.progress:
+            state = [Text(f" {page.progress}", "cyan")]
+        return Rows(
+            title=Text(title.ljust(width - len(place) - 1) + place, "reverse"),
+            banner=Text(f" {page.trouble}", "bold red") if page.trouble else Text(),
+            axes=[Text(), *_head(page), Text()],
+            state=state,
+            bottom=[Text(f" {line}", "bold" if page.question else "") for line in _bottom(page)],
+        )
+
+
+def _head(page: Page) -> list[Text]:
+    if page.stage is Stage.SHOWN and not page.trouble:
+        return [Text(" Found:", "bold")]
+    style = "" if page.stage is Stage.PROMPT else "dim"
+    lines = [Text(f" {line}", style) for line in page.lines]
+    return [*lines, *([Text(f" {page.consent}", "yellow")] if page.consent else [])]
+
+
+def _bottom(page: Page) -> list[str]:
+    keys = "   ".join(f"{_KEYS.get(key, key)} {does}" for key, does in page.keys.items())
+    asked = [] if not page.question else [page.question]
+    typed = [f"> {page.typed}_"] if page.typed is not None else []
+    match page.stage:
+        case Stage.RUNNING | Stage.RESTORING:
+            keys = "space is STOP"
+        case Stage.RELEASING:
+            keys = "coming to rest"
+    return [*asked, *typed, keys]
+
+
+def _fact_row(fact: Fact) -> Text:
+    row = Text(f" {fact.title[:_TITLE]:<{_TITLE}} {written(fact.found, fact.unit):<14} ")
+    row.append(fact.verdict, _STYLES[fact.verdict])
+    return row
+
+
+def _in_lines(page: Page) -> list[str]:
+    """The page where there is no screen."""
+    if page.stage is Stage.SHOWN:
+        return (
+            [page.trouble]
+            if page.trouble
+            else [f"{fact.title}: {written(fact.found, fact.unit)}" for fact in page.facts]
+        )
+    if page.stage is Stage.PROMPT:
+        return [page.title, *page.lines, *filter(None, [page.consent]), *_bottom(page)]
+    return _bottom(page) if page.question else [page.trouble] if page.trouble else []

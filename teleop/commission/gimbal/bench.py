@@ -1,0 +1,307 @@
+"""A gimbal on the bench: what it is sent, what it answers, where it is, and how it is brought to rest.
+
+Everything is in the gimbal's own order and signs (yaw, roll, pitch, as the document has them): what a profile makes of
+that is what is to be found. Positions are sent as increments, so that nothing leaps whatever the signs are.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from statistics import fmean
+
+from teleop.commission.gimbal.motion import home
+from teleop.commission.gimbal.places import ANGLES, Places, around
+from teleop.commission.gimbal.rest import Rest
+from teleop.commission.step import Script
+from teleop.config.sinks_section import GimbalSection
+from teleop.core.axes import Axis
+from teleop.core.errors import DeviceError
+from teleop.devices.connection import Answer, Connection
+from teleop.devices.gimbal.position import own_version
+from teleop.dji.gimbal import camera, focus
+from teleop.dji.gimbal import messages as gimbal
+from teleop.dji.gimbal.enums import AngleKind
+from teleop.dji.gimbal.session import Received
+from teleop.dji.message import Message
+
+ASK = 0.02  # s between two questions for the angles
+GREETING = 1.0  # s between two pushes of our own version: V2.5, section 2.3.4.10
+ALIVE = 0.25  # s between two questions for the version, where those for the angles stay unanswered
+KEPT = 15.0  # s for which readings are kept
+SAME_PLACE = 0.25  # deg: nearer than that an axis is where it was
+STILL, STILL_SPREAD = 0.3, 0.15  # an axis that moves less (deg) in so many s rests
+REQUESTS = (
+    gimbal.Position,
+    gimbal.Speed,
+    gimbal.Angles,
+    gimbal.Limits,
+    gimbal.Stiffness,
+    gimbal.PushSettings,
+    gimbal.Version,
+    gimbal.Parameters,
+    gimbal.Mode,
+    camera.Command,
+    camera.Status,
+    focus.Get,
+)
+
+
+class GimbalBench:
+    """`open_link` opens the link, and closes the one before. `section` says which axes the profile drives.
+
+    While `quiet` nothing is sent. `swapped` is whether roll and pitch are exchanged in the replies, as far as it is
+    known.
+    """
+
+    def __init__(self, open_link: Callable[[], Connection], section: GimbalSection) -> None:
+        self._open = open_link
+        self.section = section
+        self.now = 0.0
+        self.quiet = True
+        self.swapped = self.knows_order = False
+        self.noise = 0.0  # deg
+        self.position_signs = [1, 1, 1]  # of the reading for a positive position; likewise below for a positive speed
+        self.speed_signs: list[int | None] = [None, None, None]
+        self.obeys_position = [False, False, False]
+        self.bare = self.legacy = False
+        self.answered: dict[int, Answer] = {}
+        self.frames: list[tuple[float, Received]] = []  # all that came, while `keeps_frames`
+        self.keeps_frames = False
+        self.asked = self.replied = 0  # questions for the angles
+        self.reply_times: deque[float] = deque(maxlen=200)  # s
+        self.begin: tuple[float, float, float] | None = None
+        self.back_speed = 4.0  # deg/s of the way back
+        self.full_stick = [0.0, 0.0, 0.0]  # deg/s of the reading at full deflection, with its sign; 0 where unknown
+        self.pushes_on = False
+        self._places: deque[Places] = deque()
+        self._reach: float | None = None
+        self._reach_from: tuple[float, float, float] = (0.0, 0.0, 0.0)
+        self._ask_at = self._greet_at = self._alive_at = -math.inf
+        self._unanswered = 0
+        self.reopen()
+
+    # what the runner needs
+
+    def poll(self, now: float) -> None:
+        """Raises LinkError as the link does, DeviceError when an axis goes further than it was sent."""
+        self.now = now
+        self.connection.poll(now)
+        while self._places and now - self._places[0].time > KEPT:
+            self._places.popleft()
+        if not self.quiet:
+            self._ask()
+        self._check_reach()
+
+    def release(self, now: float) -> float | None:
+        self._reach = None
+        return self.rest.release(now)
+
+    def release_at_once(self) -> None:
+        """One attempt to end whatever is in force, without waiting for anything."""
+        if not self.quiet:
+            self.rest.at_once(self.now)
+
+    def reopen(self) -> None:
+        self.connection = self._open()
+        self._places.clear()
+        self._unanswered = 0
+        self._ask_at = self._greet_at = self._alive_at = -math.inf
+        self.rest = Rest(self)
+        for request in REQUESTS:
+            self.connection.on_answer(request, self._answered)
+        self.connection.on_answer(gimbal.Angles, self._told)
+        self.connection.on_received(self._received)
+        self.connection.on_push(gimbal.Push, self._pushed)
+        self.connection.on_push(gimbal.ShortPush, self._pushed)
+
+    def displaced(self) -> str:
+        if self.begin is None or not self._places:
+            return ""
+        ways = self.ways_back()
+        return ", ".join(f"{self.name(index)} {abs(way):.1f} deg" for index, way in ways.items())
+
+    # where it is
+
+    @property
+    def driven(self) -> Sequence[int]:
+        """The gimbal's angles that the profile drives, by their places in yaw, roll, pitch."""
+        return [index for index, axis in enumerate(self.section.axes) if axis is not None]
+
+    def axis(self, index: int) -> Axis:
+        """The operator's axis of one of the gimbal's angles. Raises DeviceError where the profile drives none."""
+        axis = self.section.axes[index]
+        if axis is None:
+            raise DeviceError(f"the profile drives no {ANGLES[index]}")
+        return axis
+
+    def name(self, index: int) -> str:
+        axis = self.section.axes[index]
+        return ANGLES[index] if axis is None else axis.value
+
+    @property
+    def reads(self) -> bool:
+        """Whether angles arrive."""
+        return bool(self._places) and self.now - self._places[-1].time < 1.5
+
+    def since(self, time: float) -> list[Places]:
+        """The readings asked for after `time`, each in the order yaw, roll, pitch."""
+        recent: list[Places] = []
+        for each in reversed(self._places):
+            if each.time <= time:
+                break
+            recent.append(Places(each.time, self.ordered(each), each.pushed))
+        return recent[::-1]
+
+    def ordered(self, places: Places) -> tuple[float, float, float]:
+        """As yaw, roll, pitch. Pushes are not known to have another order than the document's."""
+        yaw, second, third = places.angles
+        return (yaw, third, second) if self.swapped and not places.pushed else places.angles
+
+    def mean(self, seconds: float = STILL) -> tuple[float, float, float]:
+        """Where it is, over the last readings. Raises DeviceError without any."""
+        return self._mean([each.angles for each in self.since(self.now - seconds)])
+
+    def _mean(self, angles: Sequence[tuple[float, float, float]]) -> tuple[float, float, float]:
+        if not angles:
+            if not self._places:
+                raise DeviceError("no angles arrive: neither in answers nor in pushes")
+            angles = [self.ordered(self._places[-1])]
+        first = angles[0]
+        unrolled = [[a + 360 * round((b - a) / 360) for a, b in zip(each, first, strict=True)] for each in angles]
+        yaw, roll, pitch = (fmean(column) for column in zip(*unrolled, strict=True))
+        return yaw, roll, pitch
+
+    @property
+    def still(self) -> bool:
+        """Whether the last readings are of one place."""
+        recent = [each.angles for each in self.since(self.now - STILL)]
+        if len(recent) < 2:
+            return bool(recent)
+        spread = STILL_SPREAD + 4 * self.noise
+        return all(max(column) - min(column) <= spread for column in zip(*recent, strict=True))
+
+    def ways_back(self) -> Mapping[int, float]:
+        """How far (deg) each driven angle is from where it began, those that are there left out."""
+        if self.begin is None:
+            return {}
+        here, near = self.mean(), SAME_PLACE + self.noise
+        ways = {index: around(self.begin[index] - here[index]) for index in self.driven}
+        return {index: way for index, way in ways.items() if abs(way) > near}
+
+    def restore(self) -> Script:
+        yield from home(self)
+        return ()
+
+    def mark_begin(self) -> None:
+        """It begins here."""
+        self.begin = self.mean()
+
+    def exchange(self) -> None:
+        """Roll and pitch are exchanged in the replies: what was read so far was the other way round."""
+        self.swapped = not self.swapped
+        if self.begin is not None:
+            yaw, second, third = self.begin
+            self.begin = yaw, third, second
+
+    def allow(self, reach: float) -> None:
+        """From now on no angle goes further than `reach` (deg) from here, and a little."""
+        self._reach, self._reach_from = reach + 1.0 + 4 * self.noise, self.mean()
+
+    def _check_reach(self) -> None:
+        if self._reach is None or not self._places:
+            return
+        here = self.ordered(self._places[-1])
+        for index, (angle, start) in enumerate(zip(here, self._reach_from, strict=True)):
+            if abs(moved := around(angle - start)) > self._reach:
+                self._reach = None
+                raise DeviceError(f"{self.name(index)} moved {abs(moved):.1f} deg, more than it was sent: stopped")
+
+    # what it is sent
+
+    def request(self, message: Message) -> int:
+        self.rest.note(message, self.now)
+        return self.connection.request(message, self.now)
+
+    def stream(self, message: Message) -> None:
+        self.rest.note(message, self.now)
+        self.connection.stream(message)
+
+    def increment(self, index: int, way: float, seconds: float) -> int:
+        """Turn one angle by `way` (deg, in the signs of positions)."""
+        angles = [way if each == index else 0.0 for each in range(3)]
+        ignored = [each != index for each in range(3)]
+        return self.request(gimbal.Position(*angles, False, *ignored, time_for_action=round(seconds, 1)))
+
+    def target(self, index: int, angle: float, seconds: float) -> int:
+        """Turn one angle to `angle` (deg, as positions count it)."""
+        angles = [around(angle) if each == index else 0.0 for each in range(3)]
+        ignored = [each != index for each in range(3)]
+        return self.request(gimbal.Position(*angles, True, *ignored, time_for_action=round(seconds, 1)))
+
+    def speed(self, index: int, value: float) -> int:
+        """Turn one angle at `value` deg/s, in the signs of speeds; 0 for the others."""
+        yaw, roll, pitch = (round(value, 1) if each == index else 0.0 for each in range(3))
+        return self.request(gimbal.Speed(yaw, roll, pitch, take_over=True, ignore_focal_length=True))
+
+    def push(self, index: int, deflection: int) -> None:
+        """Deflect the joystick for one angle; -15000..15000."""
+        yaw, roll, pitch = (deflection if each == index else 0 for each in range(3))
+        self.stream(gimbal.Joystick(pitch=pitch, roll=roll, yaw=yaw))
+
+    def code(self, sequence: int) -> int | None:
+        """The return code of the answer to a request, None while there is none."""
+        answer = self.answered.get(sequence)
+        reply = None if answer is None else answer.reply
+        return getattr(reply, "return_code", None) if reply is not None else None
+
+    # what comes in
+
+    def _ask(self) -> None:
+        now = self.now
+        if now >= self._greet_at - 1e-6:
+            self._greet_at = now + GREETING
+            self.connection.stream(gimbal.VersionPush(version=own_version()))
+        if now >= self._ask_at - 1e-6:
+            self._ask_at = now + ASK
+            self.asked += 1
+            self.connection.request(gimbal.Angles(AngleKind.ATTITUDE), now)
+        if self._unanswered > 3 and now >= self._alive_at - 1e-6:
+            self._alive_at = now + ALIVE
+            self.connection.request(gimbal.Version(), now)
+            if not self.pushes_on:
+                self.pushes_on = True
+                self.connection.request(gimbal.PushSettings(gimbal.Switch.ON), now)
+
+    def _answered(self, answer: Answer) -> None:
+        self.answered[answer.sequence] = answer
+        if len(self.answered) > 500:
+            del self.answered[next(iter(self.answered))]
+
+    def _told(self, answer: Answer) -> None:
+        reply = answer.reply
+        if reply is None:
+            self._unanswered += 1
+            return
+        self._unanswered = 0
+        self.replied += 1
+        self.reply_times.append(self.now - answer.sent)
+        if not isinstance(reply, gimbal.LegacyAnglesReply | gimbal.AnglesReply) or reply.return_code:
+            return
+        legacy = isinstance(reply, gimbal.LegacyAnglesReply)
+        if isinstance(reply, gimbal.LegacyAnglesReply) or reply.kind == AngleKind.ATTITUDE:
+            self.bare, self.legacy = answer.bare, legacy
+            self._add(Places(answer.sent, (reply.yaw, reply.roll, reply.pitch)))
+
+    def _pushed(self, push: Message, now: float) -> None:
+        if isinstance(push, gimbal.Push | gimbal.ShortPush) and push.angles_valid and self._unanswered > 3:
+            self._add(Places(now, (push.yaw, push.roll, push.pitch), pushed=True))
+
+    def _add(self, places: Places) -> None:
+        if not self._places or places.time > self._places[-1].time:
+            self._places.append(places)
+
+    def _received(self, received: Received, now: float) -> None:
+        if self.keeps_frames:
+            self.frames.append((now, received))

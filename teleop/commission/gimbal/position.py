@@ -1,0 +1,171 @@
+"""The position command of one angle: whether it is obeyed, which way, how exactly, how fast; and the one after it."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from itertools import pairwise
+
+import numpy as np
+
+from teleop.commission.findings import Fact, Findings, Subject
+from teleop.commission.gimbal.base import WAYS, GimbalStep, direction_question
+from teleop.commission.gimbal.bench import GimbalBench
+from teleop.commission.gimbal.motion import FURTHEST, MOVED, SETTLE, TRIES, Shift, home, moving_part, rest, shift, wait
+from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
+from teleop.commission.step import Question, Script, Wait
+
+REACH, SECONDS, SHORT = 2.0, 1.0, 0.5  # deg and s
+SLOWEST = 25.5  # s: a place that is not where it is thought to be is approached slowly
+LEAPS = 0.6  # deg
+LATEST, LONGEST = 0.9, 2.0  # s: the beginnings and lengths of a move that are tried
+NAMEABLE = ((-180.0, 180.0), (-30.0, 30.0), (-56.0, 146.0))  # yaw, roll, pitch: V2.5, figure 7
+
+
+class PositionStep(GimbalStep):
+    """2 degrees to one side and back, at 2 deg/s; then what a second command does to the first."""
+
+    moves = True
+
+    def __init__(self, bench: GimbalBench, index: int) -> None:
+        super().__init__(bench)
+        self.index, self.name = index, bench.name(index)
+        name, way = self.name, WAYS[self.name][0]
+        self.key, self.title = f"position-{name}", f"Position command: {name}"
+        self.about = (
+            f"{name} goes {REACH:g} deg to one side, slowly ({REACH / SECONDS:g} deg/s), and back.",
+            f"By the document it should {way}: you are asked whether it did.",
+            f"Then it goes {REACH:g} deg out again, and is called back on the way.",
+            "It ends where it began.",
+        )
+        self.obeyed = Subject(f"position.obeyed.{name}", f"{name} obeys position commands (0E 00)", True)
+        self.error = Subject(f"position.error.{name}", f"Where {name} arrives, less where it was sent", 0.0, "deg")
+        self.travel = Subject(f"position.travel.{name}", f"Time of a move of {name} over {SECONDS:g} s", SECONDS, "s")
+        self.brief = Subject(f"position.brief.{name}", f"Time of a move of {name} over {SHORT:g} s", SHORT, "s")
+        self.absolute = Subject(f"position.absolute.{name}", f"Absolute positions of {name} are its readings", True)
+        self.newer = Subject(f"position.newer.{name}", f"A newer command of {name} replaces the older one", True)
+        self.step = Subject(f"angles.resolution.{name}", f"Steps of the angle of {name}", 0.1, "deg")
+        self.signs = sign_subjects(name)
+        own = (self.obeyed, self.error, self.travel, self.brief, self.absolute, self.newer, self.step)
+        self.subjects = (*own, self.signs.order, self.signs.position, self.signs.report)
+
+    def script(self, findings: Findings) -> Script:  # noqa: ARG002
+        bench, index = self.bench, self.index
+        bench.allow(FURTHEST)
+        first = yield from shift(bench, index, REACH, SECONDS, f"{self.name} goes {REACH:g} deg out")
+        moved = main_angle(first.moved)
+        if moved is None:
+            return [self.obeyed.found(False, f"{_answered(first.code)}, and it did not move")]
+        order = settle_order(bench, self.signs.order, index, moved)
+        way = bench.mean()[index] - self._began(first)
+        bench.position_signs[index], bench.obeys_position[index] = (1 if way > 0 else -1), True
+        facts = [self.obeyed.found(True, f"{_answered(first.code)}, moved {abs(way):.1f} of {REACH:g} deg"), *order]
+        facts.append(self.error.found(round(abs(way) - REACH, 2), f"after {REACH:g} deg", within=0.2 + bench.noise))
+        facts += self._track_facts(first)
+        facts += yield from self._direction(way)
+        yield from home(bench)
+        facts += yield from self._second()
+        facts += yield from self._frame()
+        yield from home(bench)
+        return facts
+
+    def _began(self, first: Shift) -> float:
+        """Where the angle was before; roll and pitch may only now be known to be exchanged."""
+        track = moving_part(self.bench.since(first.sent - 0.3), self.index)
+        before = [place for time, place in track if time <= first.sent]
+        return sum(before) / len(before) if before else track[0][1]
+
+    def _track_facts(self, first: Shift) -> list[Fact]:
+        bench, index = self.bench, self.index
+        track = moving_part(bench.since(first.sent - 0.3), index)
+        seconds, steps = travel_time(track), smallest_step(track)
+        how = "the constant speed that the readings fit best"
+        facts = [self.travel.not_seen("too few readings") if seconds is None else self._time(self.travel, seconds, how)]
+        if bench.noise or steps is None:
+            return [*facts, self.step.not_seen("the readings are noisy" if bench.noise else "too few readings")]
+        return [*facts, self.step.found(round(steps, 2), "the smallest step between two readings", within=0.03)]
+
+    def _time(self, subject: Subject, seconds: float, how: str) -> Fact:
+        return subject.found(round(seconds, 2), how, within=0.15 + 0.3 * self.bench.noise)
+
+    def _direction(self, way: float) -> Script:
+        """Ask which way it went; where that was unclear, it goes once more."""
+        while (seen := (yield direction_question(self.name))) == "u":
+            yield from home(self.bench)
+            again = yield from shift(self.bench, self.index, REACH, SECONDS, "once more")
+            way = again.moved[self.index]
+        report = (1 if way > 0 else -1) * (1 if seen == "y" else -1)
+        return sign_facts(self.bench, self.signs, self.index, report)
+
+    def _second(self) -> Script:
+        """Out by 2 deg in 1 s, and half way the first half of that back."""
+        bench, index = self.bench, self.index
+        sign = bench.position_signs[index]
+        for _ in range(TRIES):
+            begin, sent = bench.mean()[index], bench.now
+            if (yield from self._out_and_back()):
+                break
+            yield from home(bench)
+        track = [(time, sign * (place - begin)) for time, place in moving_part(bench.since(sent), index)]
+        furthest, end = max(place for _, place in track), track[-1][1]
+        slack = 0.3 + 2 * bench.noise
+        how = f"called back after {SHORT:g} s of {SECONDS:g}: it got {furthest:.1f} deg far and ended at {end:.1f}"
+        replaces = furthest < REACH - slack and end < REACH / 2 + slack
+        yield from home(bench)
+        facts = [self.newer.found(replaces, how)]
+        brief = yield from shift(bench, index, 1.0, SHORT, f"1 deg in {SHORT:g} s")
+        seconds = travel_time(moving_part(bench.since(brief.sent - 0.3), index))
+        if seconds is None:
+            return [*facts, self.brief.not_seen("too few readings")]
+        return [*facts, self._time(self.brief, seconds, "the constant speed that the readings fit best")]
+
+    def _out_and_back(self) -> Generator[Wait | Question, str, bool]:
+        """Whether both commands were answered: one that is lost says nothing."""
+        bench, index = self.bench, self.index
+        sent = [bench.increment(index, REACH, SECONDS)]
+        yield from wait(bench, SHORT, f"{self.name} goes out")
+        sent.append(bench.increment(index, -REACH / 2, SHORT))
+        yield from wait(bench, SHORT, "and is called back")
+        yield from rest(bench)
+        return all(bench.code(each) is not None for each in sent)
+
+    def _frame(self) -> Script:
+        """To where it is, as an absolute position: it must stay. Where it does not, it is on a long way, slowly."""
+        bench, index = self.bench, self.index
+        here = bench.mean()[index]
+        angle = bench.position_signs[index] * here
+        low, high = NAMEABLE[index]
+        if not low <= angle <= high:
+            return [self.absolute.not_seen(f"{angle:.0f} deg is beyond what a position command can say")]
+        sequence = bench.target(index, angle, SLOWEST)
+        yield from wait(bench, 1.5, "sent to where it is: it must not move")
+        moved, code = bench.mean()[index] - here, bench.code(sequence)
+        while (after := bench.rest.release(bench.now)) is not None:
+            yield from wait(bench, after - bench.now)
+        stays = abs(moved) < LEAPS / 2 + bench.noise and not code
+        return [self.absolute.found(stays, f"{_answered(code)}, moved {moved:+.1f} deg when sent to where it was")]
+
+
+def travel_time(track: list[tuple[float, float]]) -> float | None:
+    """How long a move at constant speed took, in s: of all such moves the one that the readings fit best."""
+    if len(track) < 8:
+        return None
+    times, places = np.asarray(track).T
+    settled = places[times > times[-1] - SETTLE]
+    start, end = places[0], settled.mean()
+    if abs(end - start) < MOVED:
+        return None
+    shares = (places - start) / (end - start)
+    begins = np.arange(times[0], times[0] + LATEST, 0.01)[:, None, None]
+    lengths = np.arange(0.1, LONGEST, 0.02)[None, :, None]
+    left = ((np.clip((times - begins) / lengths, 0.0, 1.0) - shares) ** 2).sum(axis=2)
+    return float(lengths[0, np.unravel_index(left.argmin(), left.shape)[1], 0])
+
+
+def smallest_step(track: list[tuple[float, float]]) -> float | None:
+    """The smallest difference between two readings in a row, in deg."""
+    steps = [abs(b - a) for (_, a), (_, b) in pairwise(track) if abs(b - a) > 0.01]
+    return min(steps) if len(steps) >= 3 else None
+
+
+def _answered(code: int | None) -> str:
+    return "not answered" if code is None else f"return code {code:#04x}"

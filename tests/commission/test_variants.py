@@ -1,0 +1,92 @@
+"""The right profile comes out of each variant of the known unknowns, whichever come together.
+
+What a gimbal can be one by one, and many of the combinations, are in tests/benchmarks/commissioned_gimbals.py.
+"""
+
+from __future__ import annotations
+
+import copy
+from pathlib import Path
+
+import pytest
+from commission_bench import CommissionBench
+from commission_variants import VARIANTS, Variant, check
+from hypothesis import HealthCheck, given, settings
+
+from teleop.commission.page import Page, Stage
+
+TOGETHER = {
+    "legacy and exchanged, every sign otherwise, no focus motor, silent pushes, turned round": Variant(
+        *((-1, 1, -1), (1, -1, -1), (-1, -1, 1), "legacy", "yaw-pitch-roll"),
+        silent_pushes=True,
+        focus_motor="absent",
+        mount=180.0,
+        boot=(10.0, 0.0, -5.0),
+    ),
+    "positions refused": Variant(refuses=("position",), report_signs=(-1, 1, 1), lag=0.12),
+    "only the joystick, the adapter resets": Variant(
+        refuses=("position", "mode"), ignores_speed=True, speed_signs=(1, 1, -1), reset=31.3
+    ),
+    "drift, exchanged in every reply, a blocked axis, a bus that is not terminated": Variant(
+        order="all-yaw-pitch-roll", signs=(1, 1, -1), report_signs=(1, 1, -1), held="roll", bus_errors=0.05, drift=0.4
+    ),
+}
+SHORT = "settings", "latency", "follow", "soft", "camera", "stop"
+"""Steps that say nothing about these variants."""
+
+
+def brief(page: Page) -> bool:
+    return page.key.startswith(SHORT)
+
+
+@pytest.mark.parametrize("variant", TOGETHER.values(), ids=TOGETHER)
+def test_the_right_profile_comes_out_of_a_variant(variant: Variant, tmp_path: Path) -> None:
+    bench = variant.bench(tmp_path)
+    bench.operator.skips = brief
+    bench.run()
+    check(variant, bench)
+
+
+@settings(max_examples=1, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True)
+@given(variant=VARIANTS)
+def test_the_right_profile_comes_out_of_any_combination(variant: Variant, tmp_path_factory: pytest.TempPathFactory):
+    bench = variant.bench(tmp_path_factory.mktemp("rig"))
+    bench.operator.skips = brief
+    bench.run()
+    check(variant, bench)
+
+
+def test_no_step_is_faster_or_further_than_it_says_and_killed_at_any_moment_nothing_moves_on(tmp_path: Path) -> None:
+    """What the gimbal does alone, once nothing more is sent, is seen on a copy of it, twice a second."""
+    bench = CommissionBench(tmp_path / "out.yaml")
+    looked: set[str] = set()
+
+    def watch() -> None:
+        key, now = bench.runner.step.key, bench.clock.now()
+        if key.startswith(("recenter", "soft")):  # these ask for more
+            return
+        assert max(map(abs, bench.gimbal.rates)) <= 5.0, key
+        assert max(map(abs, bench.gimbal.angles)) <= 5.0, key
+        if round(now * 100) % 50 == 0 and any(bench.gimbal.rates):
+            alone = copy.deepcopy(bench.gimbal)
+            alone.advance(now + 1.3)
+            assert max(map(abs, alone.rates)) < 1e-3, key
+            looked.add(key)
+
+    bench.watch = watch
+    findings = bench.run()
+    assert {f"{kind}-{axis}" for kind in ("position", "speed", "stick") for axis in ("pan", "tilt")} <= looked
+    assert "stop" in looked
+    assert findings["stop.works"].found is True
+    assert (bench.profile.limits["pan"].minimum, bench.profile.limits["pan"].maximum) == (-20, 30)
+    assert bench.gimbal.angles == pytest.approx((0, 0, 0), abs=0.3)
+
+
+def test_a_camera_that_records_is_a_reason_not_to_begin(tmp_path: Path) -> None:
+    bench = CommissionBench(tmp_path / "out.yaml")
+    bench.gimbal._camera.recording = True
+    bench.run()
+    assert bench.runner.stage is Stage.OVER
+    assert "the camera is recording" in bench.runner.reason
+    assert not bench.gimbal.counts["gimbal.position"]
+    assert not bench.file.file.exists()
