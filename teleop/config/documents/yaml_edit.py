@@ -142,10 +142,10 @@ def _applied(text: str, edit: _Edit) -> str:
     node = compose(text, MAX_DEPTH, MAX_NODES)
     parent, key_node = None, None
     for step in edit.path[:-1]:
-        node = _child(node, step)[1]
+        node = child(node, step)[1]
     if edit.path:
         parent = node
-        key_node, node = _child(parent, edit.path[-1])
+        key_node, node = child(parent, edit.path[-1])
     if edit.delete:
         return _without(text, parent, edit.path[-1])
     if node is None or edit.insert:
@@ -153,7 +153,7 @@ def _applied(text: str, edit: _Edit) -> str:
     return _with_value(text, parent, key_node, node, edit.value)
 
 
-def _child(node: Any, step: str | int) -> tuple[Any, Any]:
+def child(node: Any, step: str | int) -> tuple[Any, Any]:
     """The key and the value below a node; None for one that is not there."""
     if isinstance(node, yaml.MappingNode):
         return next(((key, value) for key, value in node.value if key.value == step), (None, None))
