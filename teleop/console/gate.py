@@ -24,6 +24,7 @@ from teleop.console.settings import ConsoleSettings, Role
 
 REQUEST_RATE, REQUEST_BURST = 200.0, 400.0  # requests/s and at once, of one client; STOP is not counted
 WRONG_RATE, WRONG_BURST = 0.1, 10.0  # wrong tokens/s and at once, of one client
+MAPPED = "::ffff:"  # an IPv4 address at a socket that takes both kinds
 STOP_PATH = "/api/stop"
 PUBLIC = {("GET", "/"), ("HEAD", "/"), ("GET", "/login"), ("HEAD", "/login"), ("POST", "/api/login")}
 """What is answered without a login: the login page. `/` is that page then."""
@@ -78,7 +79,7 @@ class Gate:
         headers, address = Headers(scope=scope), client_address(scope)
         method, path = scope.get("method", "GET"), scope["path"]
         is_page = scope["type"] == "http" and method in ("GET", "HEAD") and not path.startswith("/api")
-        local = (scope.get("server") or ("", None))[0]
+        local = str((scope.get("server") or ("", None))[0]).removeprefix(MAPPED)
         if problem := self._origins.refusal(headers, local, is_page):
             raise Refusal(403, problem)
         if path != STOP_PATH and not self._requests.take(address):
@@ -110,7 +111,7 @@ class Gate:
 
 def client_address(scope: Scope) -> str:
     """The address of the client's computer."""
-    return str((scope.get("client") or ("unknown", 0))[0])
+    return str((scope.get("client") or ("unknown", 0))[0]).removeprefix(MAPPED)
 
 
 async def _refuse(refusal: Refusal, scope: Scope, receive: Receive, send: Send) -> None:

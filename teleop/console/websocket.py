@@ -182,14 +182,14 @@ class Client:
             return
         elif do == "ping":
             self._answer({"type": "pong", "id": id_})
-        elif do == "plan":
-            self._start(self._plan(message, id_), id_)
-        elif self._role != "operate":
+        elif self._role != "operate" and do != "plan":
             raise Refusal(403, WATCHERS)
         elif do == "stick":
             pass_stick(self._door, message, self._session)
         elif len(self._commands) >= MOST_COMMANDS:
             raise Refusal(429, "too many commands at once")
+        elif do == "plan":
+            self._start(self._plan(message, id_), id_)
         else:
             self._start(self._command(message, id_), id_)
 

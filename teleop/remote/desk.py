@@ -41,7 +41,7 @@ class Desk:
         self._socket, self.stick, self.actions = socket, stick, actions
         self.control = Control(notify)
         self.counts = Counts()
-        self.tick, self._now = 0, 0.0
+        self.tick, self.polled_at = 0, -math.inf
         self.gateway_at = -math.inf  # when the gateway was heard last
         self._answers: OrderedDict[tuple[str, int], bytes] = OrderedDict()
         self._seen: dict[str, float] = {}  # sessions whose page tells that it lives, and when it last did
@@ -63,7 +63,7 @@ class Desk:
         self._presses.append(Press(command, number, device_command, name))
 
     def poll(self, now: float) -> None:
-        self._now = now
+        self.polled_at = now
         for datagram in self._socket.receive(MOST):
             self.counts.taken += 1
             self.take(datagram, now)
@@ -196,8 +196,8 @@ class Desk:
         """A control that was taken for one action alone ends with it."""
         session = asked.command.session
         if asked.command.brief and self.control.brief and self.control.holds(session):
-            self.control.release(session, self._now)
-            self.control.step(self._now, self.actions.rests, False)
+            self.control.release(session, self.polled_at)
+            self.control.step(self.polled_at, self.actions.rests, False)
 
     # --- answers
 

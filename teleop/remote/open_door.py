@@ -13,6 +13,8 @@ from teleop.door.sockets import CommandSocket
 from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway, GatewayChild
 
+LISTENS = 1.0  # s without a tick, after which the gateway's silence says nothing: a shoot that waits for its rig
+
 
 class OpenDoor:
     """Open until the stack is left."""
@@ -31,8 +33,10 @@ class OpenDoor:
         """Have the gateway run from now on."""
 
         def heard() -> float:
-            """When the gateway was heard last, by the machine's clock."""
-            return desk.gateway_at - clock.now() + time.monotonic()
+            """When the gateway was heard last, by the machine's clock; now, while this process does not listen."""
+            now = clock.now()
+            listens = now - desk.polled_at < LISTENS
+            return time.monotonic() - (now - desk.gateway_at if listens else 0.0)
 
         settings = {**gateway.settings, "door": str(self.address.folder)}
         child = GatewayChild(settings, gateway.passed, heard, notify, self._end)

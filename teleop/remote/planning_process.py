@@ -39,11 +39,15 @@ def receive(stream: IO[bytes]) -> Any:
 
 
 class PlanningProcess:
-    """Started with the first plan; one that has ended is started again. `plan` waits, so call it in a thread."""
+    """One that has ended is started again. `plan` waits, so call it in a thread."""
 
     def __init__(self, profile: Profile) -> None:
         self._profile = profile
         self._process: subprocess.Popen[bytes] | None = None
+
+    def start(self) -> None:
+        """Have it load what it needs before the first plan is asked for."""
+        self._running()
 
     def plan(self, what: str | Mapping[str, Any]) -> CompiledSequence:
         """The move in a file, or with this content. Raises TeleopError with the reason."""

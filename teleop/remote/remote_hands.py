@@ -79,6 +79,7 @@ class RemoteHands:
         stack.callback(lambda: self._publisher.publish("over", rig.clock.now()))
         if self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, rig.clock, operator.notify)
+            self._works.start()
             operator.notify(self._gateway.greeting)
         return self, self
 

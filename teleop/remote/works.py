@@ -36,6 +36,10 @@ class Works:
         self._under_way: Asked | None = None
         self._thread: threading.Thread | None = None
 
+    def start(self) -> None:
+        """Before the run begins: what plans is loaded before the first move is asked for."""
+        self._planner.start()
+
     @property
     def planning(self) -> bool:
         return self._under_way is not None

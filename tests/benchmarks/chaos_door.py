@@ -103,7 +103,7 @@ def stops() -> None:
 
 
 def flood() -> None:
-    with tempfile.TemporaryDirectory() as folder, chaos_bench(Path(folder)) as bench:
+    with tempfile.TemporaryDirectory() as folder, chaos_bench(Path(folder), fifo=True) as bench:
         client = bench.client("flood", FLOOD)
         assert client.stdout is not None
         begin = time.monotonic()

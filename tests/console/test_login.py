@@ -7,7 +7,7 @@ from console_bench import BASE, LOCKED, OPERATE, TOKEN, WATCH, ConsoleBench
 from starlette.testclient import WebSocketDenialResponse
 from starlette.websockets import WebSocketDisconnect
 
-from teleop.console.gate import HEADERS
+from teleop.console.gate import HEADERS, client_address
 from teleop.console.login import COOKIE_SECONDS, Logins
 from teleop.console.rate_limit import RateLimit, client_key
 from teleop.console.settings import ConsoleSettings
@@ -159,6 +159,14 @@ def test_a_wildcard_address_takes_the_address_of_the_connection_only():
     with ConsoleBench(everywhere, base_url="http://192.168.1.7:8470") as bench:
         assert bench.get("/api/state", headers=OPERATE).status_code == 200
         assert bench.get("/api/state", headers={**OPERATE, "host": "192.168.1.8:8470"}).status_code == 403
+
+
+def test_an_ipv4_client_of_a_socket_for_both_kinds_is_known_by_its_address():
+    everywhere = ConsoleSettings(host="::", token=TOKEN, watch_token=WATCH)
+    client = {"client": ("::ffff:192.168.1.9", 1), "base_url": "http://[::ffff:192.168.1.7]:8470"}
+    with ConsoleBench(everywhere, **client) as bench:
+        assert bench.get("/api/state", headers={**OPERATE, "host": "192.168.1.7:8470"}).status_code == 200
+    assert client_address({"client": ("::ffff:192.168.1.9", 1)}) == "192.168.1.9"
 
 
 @pytest.mark.parametrize("site", ["cross-site", "same-site"])

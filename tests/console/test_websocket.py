@@ -10,7 +10,7 @@ from console_bench import LOCKED, WATCHING, ConsoleBench
 from starlette.websockets import WebSocketDisconnect
 
 from teleop.console.merge_patch import changes
-from teleop.console.websocket import MOST_IGNORED
+from teleop.console.websocket import MOST_COMMANDS, MOST_IGNORED
 
 
 @pytest.fixture
@@ -170,6 +170,22 @@ def test_above_the_rate_only_stop_is_obeyed_and_then_the_connection_ends(bench):
         for _ in range(MOST_IGNORED + 500):
             socket.send_text('{"do": "ping"}')
         assert end(socket) == 1008
+
+
+def test_commands_and_plans_under_way_are_bounded_and_a_stop_is_not(bench):
+    bench.door.action_seconds = 60
+    with bench.page() as socket:
+        for number in range(MOST_COMMANDS + 5):
+            socket.send_json({"id": number, "do": "take_control"})
+        socket.send_json({"id": "plan", "do": "plan", "move": "nudge"})
+        socket.send_json({"id": "stop", "do": "stop"})
+        answers = {}
+        while "stop" not in answers:
+            message = until(socket, "answer")
+            answers[message["id"]] = message
+    refused = [number for number, answer in answers.items() if answer.get("error") == "too many commands at once"]
+    assert refused == [*range(MOST_COMMANDS, MOST_COMMANDS + 5), "plan"]
+    assert answers["stop"]["stopped"] is True
 
 
 def test_states_come_at_most_30_times_a_second(bench):

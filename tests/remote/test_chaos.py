@@ -27,7 +27,7 @@ def assert_at_rest_in_time(bench: ChaosBench) -> None:
 
 @pytest.mark.parametrize("what", [signal.SIGSTOP, signal.SIGKILL])
 def test_a_gateway_that_stops_or_dies_while_a_hand_holds_a_stick(tmp_path: Path, what: signal.Signals) -> None:
-    with chaos_bench(tmp_path) as bench:
+    with chaos_bench(tmp_path, fifo=True) as bench:
         client = bench.client("hold")
         bench.until_full_speed()
         os.kill(client.pid, what)
@@ -42,7 +42,7 @@ def test_a_gateway_that_stops_or_dies_while_a_hand_holds_a_stick(tmp_path: Path,
 
 
 def test_a_page_whose_script_hangs_while_its_connection_lives(tmp_path: Path) -> None:
-    with chaos_bench(tmp_path) as bench:
+    with chaos_bench(tmp_path, fifo=True) as bench:
         bench.client("hang")
         bench.until_full_speed()
         bench.until_rest()
@@ -50,17 +50,17 @@ def test_a_page_whose_script_hangs_while_its_connection_lives(tmp_path: Path) ->
 
 
 def test_a_network_that_gives_out_in_bursts(tmp_path: Path) -> None:
-    with chaos_bench(tmp_path) as bench:
+    with chaos_bench(tmp_path, fifo=True) as bench:
         bench.client("stretch")
         bench.until_full_speed()
         count = len(bench.ticks)
-        wait_until(lambda: len(bench.ticks) > count + 200)
+        wait_until(lambda: len(bench.ticks) > count + 130)
         assert bench.overruns() <= 0
         assert not bench.loop.faults
 
 
 def test_a_flood_of_what_is_no_command_does_not_keep_a_hand_or_a_stop_from_the_loop(tmp_path: Path) -> None:
-    with chaos_bench(tmp_path) as bench:
+    with chaos_bench(tmp_path, fifo=True) as bench:
         bench.client("flood", 3000)
         bench.until_full_speed()
         wait_until(lambda: bench.door.counts.malformed > 500)

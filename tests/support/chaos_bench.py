@@ -14,6 +14,7 @@ from pathlib import Path
 from remote_bench import remote_bench
 from waiting import wait_until
 
+from teleop.app.realtime import realtime
 from teleop.core.axes import Axis
 from teleop.core.clock import SystemClock
 from teleop.core.events import Tick
@@ -27,7 +28,8 @@ HAND = Path(__file__).with_name("door_hand.py")
 class ChaosBench:
     """`ticks` are the time and the commanded speed of pan; `heard` when the newest stick was sent, at each of them."""
 
-    def __init__(self, folder: Path, stack: ExitStack) -> None:
+    def __init__(self, folder: Path, stack: ExitStack, fifo: bool = False) -> None:
+        self._fifo = fifo
         self.ticks: list[tuple[float, float]] = []
         self.heard: list[float] = []
         self.desk: Desk | None = None
@@ -36,7 +38,7 @@ class ChaosBench:
         self.desk = self.door
         self.wire = self._bench.tap
         self._stack = stack
-        self._thread = threading.Thread(target=self.loop.run, daemon=True)
+        self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
         stack.callback(self._end)
 
@@ -81,12 +83,17 @@ class ChaosBench:
         if process.stdout is not None:
             process.stdout.close()
 
+    def _run(self) -> None:
+        with realtime(self._fifo, lambda _line: None):
+            self.loop.run()
+
     def _end(self) -> None:
         self.loop.interrupt("the test is over")
         self._thread.join(10)
 
 
 @contextmanager
-def chaos_bench(folder: Path) -> Iterator[ChaosBench]:
+def chaos_bench(folder: Path, fifo: bool = False) -> Iterator[ChaosBench]:
+    """With `fifo` the loop is a real-time thread, where that is permitted: a machine under load does not stall it."""
     with ExitStack() as stack:
-        yield ChaosBench(folder, stack)
+        yield ChaosBench(folder, stack, fifo)

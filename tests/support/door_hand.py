@@ -1,6 +1,6 @@
 """A client of a door in a process of its own, as a gateway is: `python door_hand.py FOLDER WHAT [AMOUNT]`.
 
-`hold`: takes control and holds pan over. `hang`: the same for a second, then its sticks are silent and all else goes
+`hold`: takes control and holds pan over. `hang`: the same for a moment, then its sticks are silent and all else goes
 on. `stretch`: the same, but from then on the network gives out nothing for half a second at a time, and then all of it.
 `flood`: the same, and then sends AMOUNT of what is no command as fast as they leave. `stops`: presses STOP and clears
 it AMOUNT times, and says how long each took to reach the loop, in ms.
@@ -20,7 +20,7 @@ from teleop.door.address import DoorAddress
 from teleop.door.sockets import client_socket
 from teleop.gateway.door_client import DoorClient
 
-BEFORE = 1.0  # s that the stick is held before anything happens
+BEFORE = 0.7  # s that the stick is held before anything happens
 OUTAGE = 0.5
 PERIOD = 0.02
 NEARLY = 59.0  # units/s: the bench's full speed is 60
