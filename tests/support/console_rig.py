@@ -90,7 +90,7 @@ class ConsoleRig:
             if self.frozen is None:
                 self.turn(PERIOD)
 
-    async def command(self, command: Mapping[str, Any], session: str, name: str) -> dict[str, Any]:
+    async def command(self, command: Mapping[str, Any], session: str, name: str, brief: bool = False) -> dict[str, Any]:
         self.commands.append({**command, "session": session})
         do = command["do"]
         free = ("take_control", "stop", "release_control")

@@ -2,7 +2,7 @@
 import { html, useEffect, useRef, useSignal } from "../vendor/preact/preact.min.js";
 import { axes as rigAxes, part, state } from "../store.js";
 import { axis as chosenAxis, doc, edit, plan, planning } from "./document.js";
-import { padded, ROOM, scaleOf, ticks } from "./scale.js";
+import { LINE, padded, ROOM, scaleOf, ticks } from "./scale.js";
 import { Diamond } from "./diamond.js";
 
 export const isShare = (/** @type {string} */ name) => !["pan", "tilt", "roll"].includes(name);
@@ -59,9 +59,9 @@ function fitted({ width, height }, names) {
 /** @param {{scale: import("./scale.js").Scale, names: string[]}} props */
 function Grid({ scale, names }) {
   const bottom = scale.height - ROOM.bottom, right = scale.width - ROOM.right;
-  const times = ticks(0, scale.span, Math.max(scale.width / 80, 2)), degrees = ticks(scale.low, scale.high, Math.max(scale.height / 45, 2));
+  const times = ticks(0, scale.span, Math.max(scale.width / (1.8 * LINE), 2)), degrees = ticks(scale.low, scale.high, Math.max(scale.height / LINE, 2));
   return html`<g class="grid">
-    ${times.map((t) => html`<path d=${`M${scale.x(t)} ${ROOM.top}V${bottom}`} /><text x=${scale.x(t)} y=${bottom + 18} text-anchor="middle">${t} s</text>`)}
+    ${times.map((t) => html`<path d=${`M${scale.x(t)} ${ROOM.top}V${bottom}`} /><text x=${scale.x(t)} y=${bottom + 0.7 * ROOM.bottom} text-anchor="middle">${t} s</text>`)}
     ${names.some((name) => !isShare(name)) && degrees.map((v) => html`<path d=${`M${ROOM.left} ${scale.y("pan", v)}H${right}`} /><text x=${ROOM.left - 6} y=${scale.y("pan", v) + 4} text-anchor="end">${v}°</text>`)}
     ${names.includes("focus") && [0, 0.5, 1].map((v) => html`<text class="focus-tick" x=${right + 6} y=${scale.y("focus", v) + 4}>${v}</text>`)}
   </g>`;
@@ -76,7 +76,7 @@ function Limits({ scale }) {
 
 /** @param {{scale: import("./scale.js").Scale}} props */
 const Cues = ({ scale }) => html`<g class="cues">${(plan.value?.cues ?? []).map((cue) => html`<path d=${`M${scale.x(cue.at)} ${ROOM.top}V${scale.height - ROOM.bottom}`} />
-  <text x=${scale.x(cue.at) + (scale.x(cue.at) > scale.width / 2 ? -4 : 4)} y=${ROOM.top + 9} text-anchor=${scale.x(cue.at) > scale.width / 2 ? "end" : "start"}>${cue.name}</text>`)}</g>`;
+  <text x=${scale.x(cue.at) + (scale.x(cue.at) > scale.width / 2 ? -4 : 4)} y=${ROOM.top + 0.7 * ROOM.top} text-anchor=${scale.x(cue.at) > scale.width / 2 ? "end" : "start"}>${cue.name}</text>`)}</g>`;
 
 /** The planned curve, and in red where the rig cannot do it: there, from key to key. @param {{name: string, scale: import("./scale.js").Scale}} props */
 function Line({ name, scale }) {

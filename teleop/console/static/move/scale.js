@@ -1,7 +1,9 @@
 // From seconds and degrees to pixels and back, and where the lines of a grid are.
 
 const STEPS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 20, 30, 45, 60, 90, 120, 180, 300, 360, 600, 900, 1800, 3600];
-export const ROOM = { left: 46, right: 40, top: 14, bottom: 26 }; // px around the curves
+const REM = parseFloat(getComputedStyle(document.documentElement).fontSize);
+export const ROOM = { left: 2.9 * REM, right: 2.5 * REM, top: 0.9 * REM, bottom: 1.65 * REM }; // px around the curves
+export const LINE = 2.8 * REM; // px from one line of the grid to the next, at least
 
 /** @typedef {{x: (t: number) => number, y: (axis: string, v: number) => number, time: (x: number) => number, value: (axis: string, y: number) => number,
  *   low: number, high: number, span: number, width: number, height: number, valueRange: (axis: string) => [number, number]}} Scale */
