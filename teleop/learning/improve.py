@@ -17,6 +17,7 @@ from teleop.learning.basis import Basis, Sparse, diagonals
 from teleop.learning.response_model import STEP
 from teleop.learning.room import Room
 from teleop.planner.keyframes.qp_solver import minimize
+from teleop.planner.keyframes.sparse import Columns
 from teleop.planner.polynomial import Array
 
 CUTOFF = 3.0  # Hz
@@ -73,12 +74,20 @@ class Improver:
                 unit = max(float(np.abs(limit[finite]).max(initial=0.0)), 1.0)
                 rows.append(sign / unit * matrix[finite])
                 bound.append(limit[finite] / unit)
-        upper = sparse.triu(cost, format="csc")
-        answer = minimize(upper, -aim, sparse.vstack(rows).tocsc(), np.concatenate(bound))
+        upper, matrix = sparse.triu(cost), sparse.vstack(rows)
+        answer = minimize(_columns(upper), -aim, _columns(matrix), np.concatenate(bound))
         found = np.zeros(self._basis.count)
         if answer is not None:
             found[self._basis.free] = answer
         return found
+
+
+def _columns(matrix: Sparse) -> Columns:
+    by_column = matrix.tocsc()
+    by_column.sum_duplicates()
+    numbers = by_column.data, by_column.indices, by_column.indptr
+    data, indices, starts = (each.tolist() for each in numbers)
+    return Columns(data, indices, starts, by_column.shape)
 
 
 def _widths(basis: Basis) -> Array:

@@ -62,7 +62,7 @@ def _drawn(rows: Sequence[Sequence[str]], widths: Sequence[int], left: Sequence[
     """The lines of a table: `rows` with the headings first."""
     yield _rule(lines.top, widths)
     for number, row in enumerate(rows):
-        cells = [_aligned(text, *each, lines) for text, *each in zip(row, widths, left, strict=True)]
+        cells = [_aligned(text, width, at, lines) for text, width, at in zip(row, widths, left, strict=True)]
         if number == 0:
             yield _row([_styled(cell, "1") for cell in cells], lines.head)
             yield _rule(lines.below_head, widths)

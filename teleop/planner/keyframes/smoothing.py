@@ -48,20 +48,18 @@ def smoothest(low: Array, high: Array, step: float, limits: Limits | None, rests
 
 
 class _Differences(NamedTuple):
-    """Differences of one order: the `samples` (k, order + 1) of `count` that each is made of, and their `weights`."""
+    """Differences of one order: the `samples` (k, order + 1) of `width` that each is made of, and their `weights`."""
 
     samples: Indices
     weights: Array
-    count: int
+    width: int
 
     @staticmethod
     def of(count: int, order: int, rests: tuple[bool, bool]) -> _Differences:
         """The `order`-th differences of `count` samples, with those of a rest before and after."""
         before, after = (RESTING * rest for rest in rests)
         repeated = np.clip(np.arange(-before, count + after), 0, count - 1)
-        weights = np.diff(
-            np.eye(2 * order + 1)[order], n=order
-        )  # the differences of a single 1, from its last to its first
+        weights = np.diff(np.eye(2 * order + 1)[order], n=order)  # of a single 1, from its last to its first
         first = np.arange(max(len(repeated) - order, 0))
         return _Differences(repeated[first[:, None] + np.arange(order + 1)], weights, count)
 
@@ -69,7 +67,7 @@ class _Differences(NamedTuple):
         """As rows, one for each."""
         row = np.repeat(np.arange(len(self.samples)), len(self.weights))
         value = np.tile(self.weights, len(self.samples))
-        return Entries(row, self.samples.ravel(), value, (len(self.samples), self.count))
+        return Entries(row, self.samples.ravel(), value, (len(self.samples), self.width))
 
     def squares(self) -> Columns:
         """The sum of their squares, as the upper triangle of a quadratic form."""
@@ -78,4 +76,4 @@ class _Differences(NamedTuple):
         column = np.broadcast_to(self.samples[:, None, :], shape)
         value = np.broadcast_to(np.outer(self.weights, self.weights), shape)
         upper = row <= column
-        return Entries(row[upper], column[upper], value[upper], (self.count, self.count)).by_column()
+        return Entries(row[upper], column[upper], value[upper], (self.width, self.width)).by_column()

@@ -43,8 +43,9 @@ class Entries(NamedTuple):
 
     def plus(self, other: Entries) -> Entries:
         """The sum of both, of the same shape."""
-        parts = (np.concatenate([mine, its]) for mine, its in zip(self[:3], other[:3], strict=True))
-        return Entries(*parts, self.shape)
+        rows = np.concatenate([self.rows, other.rows])
+        columns = np.concatenate([self.columns, other.columns])
+        return Entries(rows, columns, np.concatenate([self.values, other.values]), self.shape)
 
     def times(self, factor: float) -> Entries:
         return self._replace(values=factor * self.values)
