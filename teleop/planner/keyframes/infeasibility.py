@@ -95,14 +95,16 @@ class _Search:
 
     def _has_ramps(self, way: Way, points: Points) -> bool:
         """Whether there is time for both ramps of a leg; else it is needed first."""
-        asked, duration = ramps_asked(points), points[-1].time - points[0].time
+        asked = ramps_asked(points)
         if asked is None or ramps_fit(points):
             return True
         leave, arrive = points[0].leave or points[-1].arrive, points[-1].arrive or points[0].leave
         shortest = together(leave, arrive) if leave and arrive else None
         shortest = shortest and math.ceil(shortest * 1000 - SAME_TIME) / 1000
-        names = points[0].where, points[-1].where
-        self.ramps[way] = RampsTooLong(way.axis, *names, float(asked[0, 1]), float(asked[-1, 0]), duration, shortest)
+        first, last = (self.keys[way.axis][number] for number in way[1:])
+        had = last.at - first.at - first.hold
+        both = float(asked[0, 1]), float(asked[-1, 0])
+        self.ramps[way] = RampsTooLong(way.axis, first.where, last.where, *both, had, shortest)
         if shortest is not None:
             self.needs[way] = max(shortest, self.needs.get(way, 0.0))
         return False
@@ -125,6 +127,7 @@ class _Search:
             ):
                 for way in between:
                     self.needs.pop(way, None)
+                self.ramps.pop(Way(axis, between[0].first, between[-1].last), None)
                 if not self.possible(axis, shortened(points)[0]):
                     self._time(axis, points, keys)
 

@@ -17,6 +17,7 @@ from teleop.planner.keyframes.segment import Segment
 from teleop.planner.keyframes.tension import Tension
 from teleop.planner.polynomial import Array
 
+SHORTEST = 3e-5  # of its interval: a ramp is at least so long, 0.1 s of an hour, or no solver can tell it from none
 SETTLED = 8  # rounds of a ramp and the speed it leads to, until neither changes any more
 
 
@@ -130,8 +131,9 @@ def segment_between(points: Sequence[Waypoint], asked: Array | None, limits: Lim
     for first, last in ways(segment.positions):
         for interval, key, side in ((first, first, 1), (last - 1, last, 0)):
             step, duration = abs(float(segment.steps[interval])), float(segment.durations[interval])
+            least = max(segment.resolved(limits.jerk), SHORTEST * duration)
             at_both = 2 if last == first + 1 else 1
             for _ in range(SETTLED):
                 speed = step / max(duration - at_both * ramps[key, side] / 2, duration / 2)
-                ramps[key, side] = max(asked[key, side], quickest(speed, limits))
+                ramps[key, side] = max(asked[key, side], quickest(speed, limits), least)
     return replace(segment, ramps=ramps)

@@ -91,7 +91,7 @@ class QuadraticProgram:
 
     def __init__(self, segment: Segment, limits: Limits, rule: Rule) -> None:
         self.segment, self.limits, self.rule = segment, limits, rule
-        durations, intervals, ramps = segment.cuts()
+        durations, intervals, ramps = segment.cuts(segment.resolved(limits.jerk) / 2)
         near = change_times(segment, rule.tension)[intervals] if len(intervals) == len(segment.steps) else None
         pieces = np.broadcast_to(rule.pieces, len(segment.steps))
         if rule.fine:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from teleop.planner.polynomial import Array
 
 NEAR = 1e-6  # share of a segment: a ramp that ends nearer to a key, or to the other ramp's end, ends there
+RESOLVED = 0.03  # of the time in which jerk alone would cross a segment's range: what happens in less, no solver sees
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,25 +73,30 @@ class Segment:
         times, positions = self.times[first : last + 1], self.positions[first : last + 1]
         return Segment(times, positions, None, states[[first, last]], stray)
 
-    def cuts(self) -> tuple[Array, NDArray[np.intp], Array]:
+    def resolved(self, jerk: float) -> float:
+        """The least seconds of a ramp: of a piece of it that is much shorter, the solver cannot hold the `jerk`."""
+        return RESOLVED * float(np.cbrt(np.ptp(self.positions) / jerk))
+
+    def cuts(self, near: float) -> tuple[Array, NDArray[np.intp], Array]:
         """The intervals, cut where ramps begin or end: durations (k,), the interval of each, and the ramp it lies in.
 
-        That is given as its seconds, 0 between the ramps and inf for a segment that has none.
+        That is given as its seconds, 0 between the ramps and inf for a segment that has none. A ramp that ends nearer
+        than `near` (s) to a key, or to another ramp's end, ends there.
         """
         if self.ramps is None:
             return self.durations, np.arange(len(self.steps)), np.full(len(self.steps), np.inf)
         starts = np.stack([self.times - self.ramps[:, 0], self.times], axis=1).ravel()
         seconds = self.ramps.ravel()
         starts, seconds = starts[seconds > 0], seconds[seconds > 0]
-        times = self._with(np.concatenate([starts, starts + seconds]))
+        times = self._with(np.concatenate([starts, starts + seconds]), near)
         middles = (times[:-1] + times[1:]) / 2
         ramp = np.maximum(np.searchsorted(starts, middles) - 1, 0)
         within = (starts[ramp] < middles) & (middles < starts[ramp] + seconds[ramp])
         return np.diff(times), np.searchsorted(self.times, middles) - 1, np.where(within, seconds[ramp], 0.0)
 
-    def _with(self, others: Array) -> Array:
+    def _with(self, others: Array, near: float) -> Array:
         """The times of the keys, and of those others that are between them and not too near to one of all."""
-        near = NEAR * float(self.times[-1] - self.times[0])
+        near = max(near, NEAR * float(self.times[-1] - self.times[0]))
         others = np.sort(others[(others > self.times[0]) & (others < self.times[-1])])
         at = np.searchsorted(self.times, others)
         others = others[np.minimum(others - self.times[at - 1], self.times[at] - others) > near]

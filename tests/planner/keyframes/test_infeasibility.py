@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.findings import Finding, Infeasible
 from teleop.planner.keyframes.planner import Key, plan
+from teleop.planner.keyframes.ramp import Ramp
 from teleop.planner.keyframes.repeat import Repeat, repeated
 
 PAN, TILT = Axis.PAN, Axis.TILT
@@ -121,3 +122,23 @@ def test_what_is_gone_several_times_is_one_finding_whose_time_does_for_all(
         assert finding.shortest is not None
         durations[segment] = finding.shortest
     assert refusal(bounced(durations)) == ()
+
+
+def test_what_another_axis_takes_longer_for_anyhow_is_no_finding_of_a_ramp():
+    """`hunt_refusals.py --seed 3`, file 19: tilt has time for its ramps as soon as pan has what it needs."""
+    ease = Ramp(0.5)
+    keys = {
+        PAN: [Key(0, -17, leave=ease, where="key 1"), Key(0.6, 163, arrive=ease, where="key 3")],
+        TILT: [
+            Key(0, -27, leave=ease, where="key 1"),
+            Key(0.3, -8, stop=True, arrive=ease, leave=ease, where="key 2"),
+            Key(0.6, -27, arrive=ease, where="key 3"),
+        ],
+    }
+    with pytest.raises(Infeasible) as error:
+        plan(keys, LIMITS)
+    assert [str(finding).partition(" (")[0] for finding in error.value.findings] == [
+        "tilt needs 1.000 s for its ramps",
+        "tilt needs 1.155 s from key 1 to key 2, not 0.300 s",
+        "pan needs 3.886 s from key 1 to key 3, not 0.600 s",
+    ]

@@ -140,6 +140,19 @@ def test_a_way_that_the_hunt_found_hard_is_planned_or_refused_with_a_reason() ->
     assert refusal.findings if move is None else move.at(65.5)[PAN].position == pytest.approx(45.002)
 
 
+def test_a_ramp_too_short_for_the_solver_is_no_reason_to_refuse() -> None:
+    """`hunt_plan.py --seed 101`, case 14594: a turn after 0.002 degrees got a ramp of 1 ms, beside 76 degrees."""
+    keys = [
+        Key(0, -180, where="key 1", leave=Ramp(0.5)),
+        Key(3.316, -104, where="key 2", arrive=Ramp(1.418)),
+        Key(7.316, -103.998, where="key 3", arrive=Ramp(0.0), leave=Ramp(share=0.18)),
+        Key(12.316, -115.056, where="key 4", leave=Ramp(0.5)),
+    ]
+    move = plan({PAN: keys}, {PAN: Limits(-180, 180, 120, 240, 2400)}, 1.0)
+    assert [move.at(key.at)[PAN].position for key in keys] == pytest.approx([key.position for key in keys])
+    assert not move.overshoots
+
+
 def test_an_axis_that_the_solver_finds_no_way_for_is_refused_and_never_left_out() -> None:
     """Found at random: it was a move of 0 s, in which pan stayed where it was."""
     none = Ramp(0.0)

@@ -31,7 +31,7 @@ def test_a_window_moves_at_its_ends_and_has_no_ramps() -> None:
 
 
 def test_it_is_cut_where_its_ramps_end() -> None:
-    durations, intervals, ramps = SEGMENT.cuts()
+    durations, intervals, ramps = SEGMENT.cuts(0.0)
     assert durations.tolist() == [1, 1, 3, 2, 2]
     assert intervals.tolist() == [0, 0, 1, 2, 2]
     assert ramps.tolist() == [1, 0, 0, 0, 2]
@@ -40,20 +40,27 @@ def test_it_is_cut_where_its_ramps_end() -> None:
 def test_a_ramp_that_ends_on_a_key_makes_no_cut() -> None:
     ramps = np.array([[0, 2.0 + 1e-9], [0, 0], [0, 0], [4.0, 0]])
     segment = Segment(SEGMENT.times, SEGMENT.positions, ramps)
-    durations, _, found = segment.cuts()
+    durations, _, found = segment.cuts(0.0)
     assert durations.tolist() == [2, 3, 4]
     assert found.tolist() == pytest.approx([2, 0, 4])
 
 
+def test_no_two_cuts_are_nearer_than_the_solver_can_resolve() -> None:
+    ramps = np.array([[0, 1.995], [0, 0], [0, 0], [2.0, 0]])
+    segment = Segment(SEGMENT.times, SEGMENT.positions, ramps)
+    assert segment.cuts(0.0)[0].tolist() == pytest.approx([1.995, 0.005, 3, 2, 2])
+    assert segment.cuts(segment.resolved(jerk=600.0))[0].tolist() == pytest.approx([2, 3, 2, 2])
+
+
 def test_without_ramps_there_are_no_cuts() -> None:
-    durations, _, ramps = Segment(SEGMENT.times, SEGMENT.positions).cuts()
+    durations, _, ramps = Segment(SEGMENT.times, SEGMENT.positions).cuts(0.0)
     assert durations.tolist() == [2, 3, 4]
     assert np.isinf(ramps).all()
 
 
 def test_it_is_cut_at_both_ends_of_a_turn() -> None:
     ramps = np.array([[0, 0], [0, 0], [1.0, 2.0], [0, 0]])
-    durations, intervals, found = Segment(SEGMENT.times, SEGMENT.positions, ramps).cuts()
+    durations, intervals, found = Segment(SEGMENT.times, SEGMENT.positions, ramps).cuts(0.0)
     assert durations.tolist() == [2, 2, 1, 2, 2]
     assert intervals.tolist() == [0, 1, 1, 2, 2]
     assert found.tolist() == [0, 0, 1, 2, 0]
