@@ -24,7 +24,7 @@ from teleop.planner.keyframes.blame import timed, untimed
 from teleop.planner.keyframes.budget import Budget
 from teleop.planner.keyframes.findings import Finding, Overshooting, RampsTooLong, Unsolved
 from teleop.planner.keyframes.keys import Key, ramps_asked, ramps_fit
-from teleop.planner.keyframes.leg_times import LegTimes, Possible
+from teleop.planner.keyframes.leg_times import Known, LegTimes, Possible, same
 from teleop.planner.keyframes.legs import Points, durations, last_alike, legs, shortened
 from teleop.planner.keyframes.ramp import together
 from teleop.planner.keyframes.retiming import Way, retimed, ways
@@ -60,13 +60,14 @@ class _Search:
         possible: Possible,
     ) -> None:
         self.keys, self.limits, self.refused = keys, limits, refused
-        self.possible = _remembered(possible)
+        self.possible = _remembered(possible, limits)
         self.needs: dict[Way, float] = {}
         self.ramps: dict[Way, RampsTooLong] = {}
         self.untimed: list[tuple[Axis, Points]] = []
         planned = [points for axis, of_axis in keys.items() for points in legs(axis, of_axis)]
         budget = Budget.of(planned, [(points, limits[axis]) for axis, of_axis in refused.items() for points in of_axis])
-        self.times = {axis: LegTimes(axis, limits[axis], self.possible, budget) for axis in keys}
+        known: Known = {}
+        self.times = {axis: LegTimes(axis, limits[axis], self.possible, budget, known) for axis in keys}
 
     def run(self) -> None:
         """Time each axis alone, then with the others."""
@@ -203,12 +204,12 @@ def with_overshoots(
     return result
 
 
-def _remembered(possible: Possible) -> Possible:
-    """The same, asked once for each leg whatever its time."""
+def _remembered(possible: Possible, limits: Mapping[Axis, Limits]) -> Possible:
+    """The same, asked once for each leg whatever its time and its axis."""
     known: dict[object, bool] = {}
 
     def ask(axis: Axis, points: Points) -> bool:
-        leg = axis, tuple(point._replace(time=round(point.time - points[0].time, 9)) for point in points)
+        leg = same(axis, limits[axis], points)
         if leg not in known:
             known[leg] = possible(axis, points)
         return known[leg]

@@ -16,7 +16,7 @@ import numpy as np
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.evenness import stills, urged
 from teleop.planner.keyframes.mesh import Indices
-from teleop.planner.keyframes.overshoot import NONE, least_overshoot, with_overshoot
+from teleop.planner.keyframes.overshoot import NONE, is_tolerable, least_overshoot, with_overshoot
 from teleop.planner.keyframes.program import HEADROOM, TOLERANCE, Rule
 from teleop.planner.keyframes.qp import solve
 from teleop.planner.keyframes.segment import Segment
@@ -52,26 +52,42 @@ class Overshot(NamedTuple):
     least: Array
 
 
-def directed(segment: Segment, limits: Limits, tension: Tension) -> Pieces | None:
-    """Without overshoot: cut where equal keys follow each other, each part by the coarsest rule that does."""
+def is_possible(segment: Segment, limits: Limits, tension: Tension) -> bool:
+    """Whether there is a plan, for a search that asks often: by the finest rules alone, which can all that others can.
+
+    Long ones, whose rules differ by place, are planned.
+    """
+    if segment.is_loose or len(segment.steps) > WHOLE:
+        found = directed(segment, limits, tension)
+        return found is not None or isinstance(overshooting(segment, limits, tension), Pieces)
+    return directed(segment, limits, tension, finest=True) is not None or is_tolerable(segment, limits)
+
+
+def directed(segment: Segment, limits: Limits, tension: Tension, finest: bool = False) -> Pieces | None:
+    """Without overshoot: cut where equal keys follow each other, each part by the coarsest rule that does.
+
+    Or by the `finest` at once, and then as that finds it.
+    """
     if np.any(np.abs(segment.steps) > HEADROOM * limits.velocity * segment.durations):
         return None
     flat = segment.steps == 0
     cuts = (np.flatnonzero(flat[:-1] | flat[1:]) + 1).tolist()
     parts = []
     for first, last in pairwise([0, *cuts, len(flat)]):
-        part = _standing(segment, first) if flat[first] else _part(segment.part(first, last), limits, tension)
+        part = _standing(segment, first) if flat[first] else _part(segment.part(first, last), limits, tension, finest)
         if part is None:
             return None
         parts.append(part)
     return Pieces(np.concatenate([p.widths for p in parts]), np.concatenate([p.coefficients for p in parts]))
 
 
-def _part(part: Segment, limits: Limits, tension: Tension) -> Pieces | None:
+def _part(part: Segment, limits: Limits, tension: Tension, finest: bool) -> Pieces | None:
     for rule in _rules(part, limits, tension):
+        if finest and rule.pieces != PIECES[-1]:
+            continue
         solved = solve(part, limits, rule)
         if solved is not None:
-            return _moving(part, limits, rule, Pieces(*solved))
+            return Pieces(*solved) if finest else _moving(part, limits, rule, Pieces(*solved))
     return None
 
 

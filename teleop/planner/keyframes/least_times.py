@@ -23,7 +23,7 @@ from teleop.planner.polynomial import BERNSTEIN, Array
 PIECES = 8  # as the planner's finest rule, and as finely cut at the keys
 ROUNDS = 8
 STEP = 0.5  # the most by which a duration changes in one round, as a share of it
-SETTLED = 0.005  # relative change of the sum at which no further round is needed
+SETTLED = 0.02  # relative change of the sum at which no further round is needed: that would change it by 0.1 %
 PRICE = 50.0  # of a limit that is exceeded by 100 %, in sums of all durations
 MET = 1e-3  # a limit that is exceeded by less is kept
 REGULAR = 1e-7  # a cost of every unknown: a linear program alone may have many solutions

@@ -19,6 +19,7 @@ from teleop.planner.keyframes.windows import windows
 from teleop.planner.polynomial import Array
 
 Possible = Callable[[Axis, Points], bool]
+Known = dict[object, list[float] | None]
 
 LONGER = 1e-6  # relative: an interval that is longer by less is as it was
 ROOM = 1.005  # times the least one: what the planner finds a plan for nearly always
@@ -29,18 +30,32 @@ LESS = 0.955
 START = 1.2  # times what the bounds know of each interval
 
 
-class LegTimes:
-    """Of one axis. `possible` tells whether a leg has a plan; ways from rest to rest that are alike are timed once."""
+def same(axis: Axis, limits: Limits, points: Points) -> object:
+    """What two legs share that have the same plan, whatever their time and their axis."""
+    return limits, axis.unit, tuple(point._replace(time=round(point.time - points[0].time, 9)) for point in points)
 
-    def __init__(self, axis: Axis, limits: Limits, possible: Possible, budget: Budget) -> None:
+
+class LegTimes:
+    """Of one axis. `possible` tells whether a leg has a plan; ways from rest to rest that are alike are timed once.
+
+    So are legs that are the same at other times, or of another axis with the same limits, by what is `known` of all.
+    """
+
+    def __init__(self, axis: Axis, limits: Limits, possible: Possible, budget: Budget, known: Known) -> None:
         self.axis, self.limits, self.budget = axis, limits, budget
         self._possible = possible
-        self._known: dict[object, list[float]] = {}
+        self._known = known
 
     def least(self, points: Points) -> list[float] | None:
         """The durations of a leg's intervals, none shorter than they are; None when none were found."""
         if len(points) == 2:
             return self._single(points)
+        leg = same(self.axis, self.limits, points)
+        if leg not in self._known:
+            self._known[leg] = self._through(points)
+        return self._known[leg]
+
+    def _through(self, points: Points) -> list[float] | None:
         whole, kept = shortened(points)
         found = self._searched(whole)
         if found is None:
@@ -70,7 +85,7 @@ class LegTimes:
     def _single(self, points: Points) -> list[float] | None:
         first, last = points
         step, had = abs(last.position - first.position), last.time - first.time
-        value = (round(step, 9), round(had, 9), first.leave, last.arrive, first.tension)
+        value = (self.limits, round(step, 9), round(had, 9), first.leave, last.arrive, first.tension)
         if value not in self._known:
             if not self.budget.take(SINGLE):
                 return None

@@ -60,6 +60,11 @@ def least_overshoot(segment: Segment, limits: Limits) -> Array | None:
     return least
 
 
+def is_tolerable(segment: Segment, limits: Limits) -> bool:
+    """Whether a way keeps within what is tolerated: asked without what its least would be."""
+    return solve(segment, limits, FINEST) is not None
+
+
 def _least(segment: Segment, limits: Limits) -> Array | None:
     """The same, by one linear program. Velocity and acceleration are free at an end where they are not known."""
     program = QuadraticProgram(replace(segment, stray=None), limits, FINEST)

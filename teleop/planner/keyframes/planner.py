@@ -24,7 +24,7 @@ from teleop.planner.keyframes.findings import (
     Standstill,
 )
 from teleop.planner.keyframes.keys import Key, ramps_asked, ramps_fit, segment_between, waypoints
-from teleop.planner.keyframes.ladder import Overshot, Pieces, directed, overshooting
+from teleop.planner.keyframes.ladder import Overshot, Pieces, directed, is_possible, overshooting
 from teleop.planner.keyframes.legs import Points, legs, shortened
 from teleop.planner.keyframes.overshoot import tolerated
 from teleop.planner.keyframes.segment import Segment
@@ -62,7 +62,8 @@ def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tens
         from teleop.planner.keyframes.infeasibility import infeasibilities, with_overshoots  # with all that it searches
 
         def possible(axis: Axis, points: Points) -> bool:
-            return _plan_leg(axis, points, limits[axis], tension, False, _Outcome()) is not None
+            segment = _segment_of(axis, points, limits[axis])
+            return segment is not None and is_possible(segment, limits[axis], _evenness(points, tension))
 
         within = {axis: keys[axis] for axis in outcomes}
         found = infeasibilities(within, limits, refused, possible) if refused else []
@@ -177,14 +178,10 @@ def _plan_leg(
     axis: Axis, points: Points, limits: Limits, tension: Tension, clean: bool, outcome: _Outcome
 ) -> Pieces | None:
     """The pieces from one rest to the next, None where there is no plan. Adds to `outcome` its remarks."""
-    names, asked = [point.where for point in points], ramps_asked(points)
-    if not ramps_fit(points):
+    segment = _segment_of(axis, points, limits)
+    if segment is None:
         return None
-    segment = segment_between(points, asked, limits)
-    if is_beyond(segment, limits):
-        return None
-    segment = replace(segment, stray=tolerated(axis, segment, [point.overshoot for point in points[:-1]]))
-    evenness = tension if points[0].tension is None else points[0].tension
+    names, asked, evenness = [point.where for point in points], ramps_asked(points), _evenness(points, tension)
     pieces = directed(segment, limits, evenness)
     if pieces is None and not clean:
         found = overshooting(segment, limits, evenness)
@@ -199,6 +196,20 @@ def _plan_leg(
     outcome.remarks += standstills(axis, segment, names, *pieces)
     outcome.remarks += [] if asked is None else long_ramps(axis, segment, names, asked)
     return pieces
+
+
+def _segment_of(axis: Axis, points: Points, limits: Limits) -> Segment | None:
+    """From one rest to the next, with its ramps and tolerances; None where the bounds know that it has no plan."""
+    if not ramps_fit(points):
+        return None
+    segment = segment_between(points, ramps_asked(points), limits)
+    if is_beyond(segment, limits):
+        return None
+    return replace(segment, stray=tolerated(axis, segment, [point.overshoot for point in points[:-1]]))
+
+
+def _evenness(points: Points, tension: Tension) -> Tension:
+    return tension if points[0].tension is None else points[0].tension
 
 
 def _overshooting(axis: Axis, segment: Segment, names: Sequence[str], overshot: Overshot) -> Overshooting:
