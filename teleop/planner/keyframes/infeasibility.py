@@ -24,8 +24,9 @@ from teleop.planner.keyframes.blame import timed, untimed
 from teleop.planner.keyframes.budget import Budget
 from teleop.planner.keyframes.findings import Finding, Overshooting, RampsTooLong, Unsolved
 from teleop.planner.keyframes.keys import Key, ramps_asked, ramps_fit
-from teleop.planner.keyframes.leg_times import Known, LegTimes, Possible, same
+from teleop.planner.keyframes.leg_times import Known, LegTimes
 from teleop.planner.keyframes.legs import Points, durations, last_alike, legs, shortened
+from teleop.planner.keyframes.possible import Possible
 from teleop.planner.keyframes.ramp import together
 from teleop.planner.keyframes.retiming import Way, retimed, ways
 
@@ -60,7 +61,7 @@ class _Search:
         possible: Possible,
     ) -> None:
         self.keys, self.limits, self.refused = keys, limits, refused
-        self.possible = _remembered(possible, limits)
+        self.possible = possible
         self.needs: dict[Way, float] = {}
         self.ramps: dict[Way, RampsTooLong] = {}
         self.untimed: list[tuple[Axis, Points]] = []
@@ -137,7 +138,7 @@ class _Search:
         keys, refused = retimed(self.keys, self.needs), False
         for axis in self.keys:
             for before, points in zip(legs(axis, self.keys[axis]), legs(axis, keys[axis]), strict=True):
-                if self._is_proved(axis, before, points) or self.possible(axis, shortened(points)[0]):
+                if self._is_proved(axis, before, points) or self.possible.surely(axis, shortened(points)[0]):
                     continue
                 self._time(axis, points, keys[axis])
                 refused = True
@@ -146,7 +147,9 @@ class _Search:
     def _is_proved(self, axis: Axis, before: Points, points: Points) -> bool:
         """Whether a leg needs no further try: it is as it was, or a single way that has only become longer."""
         between = ways(axis, self.keys[axis], before)
-        return last_alike(before, points) or (len(points) == 2 and not {*between} & {*self.ramps})
+        if last_alike(before, points):
+            return not any(leg[0].time == before[0].time for leg in self.refused.get(axis, ()))
+        return len(points) == 2 and not {*between} & {*self.ramps}
 
     def _events(self, way: Way) -> tuple[float, float]:
         of_axis = self.keys[way.axis]
@@ -160,6 +163,12 @@ class _Search:
         for axis in self.keys:
             for points in legs(axis, self.keys[axis]):
                 found += [(points[i + 1].time, each) for i, each in self._needed(axis, points)]
+        if not found:  # a refusal always has a reason
+            found = [
+                (points[-1].time, Unsolved(axis, points[0].where, points[-1].where))
+                for axis, of_axis in self.refused.items()
+                for points in of_axis
+            ]
         worst: dict[object, tuple[float, Found]] = {}
         for time, each in found:
             cause = (type(each), each.axis, frozenset((each.first, each.last)) if each.first and each.last else time)
@@ -202,19 +211,6 @@ def with_overshoots(
             break
         result.append(each)
     return result
-
-
-def _remembered(possible: Possible, limits: Mapping[Axis, Limits]) -> Possible:
-    """The same, asked once for each leg whatever its time and its axis."""
-    known: dict[object, bool] = {}
-
-    def ask(axis: Axis, points: Points) -> bool:
-        leg = same(axis, limits[axis], points)
-        if leg not in known:
-            known[leg] = possible(axis, points)
-        return known[leg]
-
-    return ask
 
 
 def _shortest(found: Found) -> float:

@@ -16,7 +16,7 @@ import numpy as np
 from teleop.core.axes import Limits
 from teleop.planner.keyframes.evenness import stills, urged
 from teleop.planner.keyframes.mesh import Indices
-from teleop.planner.keyframes.overshoot import NONE, is_tolerable, least_overshoot, with_overshoot
+from teleop.planner.keyframes.overshoot import FINEST, NONE, least_overshoot, with_overshoot
 from teleop.planner.keyframes.program import HEADROOM, TOLERANCE, Rule
 from teleop.planner.keyframes.qp import solve
 from teleop.planner.keyframes.segment import Segment
@@ -52,15 +52,19 @@ class Overshot(NamedTuple):
     least: Array
 
 
-def is_possible(segment: Segment, limits: Limits, tension: Tension) -> bool:
-    """Whether there is a plan, for a search that asks often: by the finest rules alone, which can all that others can.
+def is_easy(segment: Segment, limits: Limits, tension: Tension) -> bool:
+    """Whether there is a plan without overshoot, for a search that asks often: by the finest rule alone.
 
-    Long ones, whose rules differ by place, are planned.
+    It can all that others can. Long ones, whose rules differ by place, are planned.
     """
+    return directed(segment, limits, tension, finest=len(segment.steps) <= WHOLE) is not None
+
+
+def is_tolerable(segment: Segment, limits: Limits, tension: Tension) -> bool:
+    """Whether there seems to be one with as much overshoot as is tolerated; its least is not asked for."""
     if segment.is_loose or len(segment.steps) > WHOLE:
-        found = directed(segment, limits, tension)
-        return found is not None or isinstance(overshooting(segment, limits, tension), Pieces)
-    return directed(segment, limits, tension, finest=True) is not None or is_tolerable(segment, limits)
+        return isinstance(overshooting(segment, limits, tension), Pieces)
+    return solve(segment, limits, FINEST) is not None
 
 
 def directed(segment: Segment, limits: Limits, tension: Tension, finest: bool = False) -> Pieces | None:

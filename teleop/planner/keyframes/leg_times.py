@@ -5,8 +5,6 @@ What `least_times` finds is tried, whole milliseconds up, and made a little long
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
@@ -15,10 +13,10 @@ from teleop.planner.keyframes.budget import SINGLE, Budget, searching, trying
 from teleop.planner.keyframes.least_times import Window, least_durations
 from teleop.planner.keyframes.legs import Points, at_durations, durations, pairs, segment_of, shortened
 from teleop.planner.keyframes.overshoot import tolerated
+from teleop.planner.keyframes.possible import Possible, same
 from teleop.planner.keyframes.windows import windows
 from teleop.planner.polynomial import Array
 
-Possible = Callable[[Axis, Points], bool]
 Known = dict[object, list[float] | None]
 
 LONGER = 1e-6  # relative: an interval that is longer by less is as it was
@@ -28,11 +26,6 @@ NEAR = 1.025  # two of these that are so near are not tried between
 SHORT = 0.2  # of the longest interval
 LESS = 0.955
 START = 1.2  # times what the bounds know of each interval
-
-
-def same(axis: Axis, limits: Limits, points: Points) -> object:
-    """What two legs share that have the same plan, whatever their time and their axis."""
-    return limits, axis.unit, tuple(point._replace(time=round(point.time - points[0].time, 9)) for point in points)
 
 
 class LegTimes:

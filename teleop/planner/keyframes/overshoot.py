@@ -46,27 +46,29 @@ def least_overshoot(segment: Segment, limits: Limits) -> Array | None:
 
     Least in shares of the segment's `stray`, the tolerated ones. A long segment is looked at only where it is tight.
     """
-    if len(segment.steps) <= WHOLE:
-        return _least(segment, limits)
-    least = np.zeros(len(segment.steps))
-    tight = tightness(segment, limits)
-    for first, last in around(tight > min(TIGHT, NEARLY * float(tight.max()))):
-        states = np.full((len(segment.times), 2), np.nan)
-        states[[0, -1]] = segment.ends
-        found = _least(segment.window(first, last, states), limits)
-        if found is None:
+    count, parts = len(segment.steps), [(0, len(segment.steps))]
+    if count > WHOLE:
+        tight = tightness(segment, limits)
+        parts = around(tight > min(TIGHT, NEARLY * float(tight.max())))
+    states = np.full((count + 1, 2), np.nan)
+    states[[0, -1]] = segment.ends
+    windows = {part: segment if part == (0, count) else segment.window(*part, states) for part in parts}
+    shares = {part: _least(window, limits, quickly=True) for part, window in windows.items()}
+    worst = max(np.inf if share is None else float(share.max()) for share in shares.values())
+    if DOUBTFUL[0] < worst < DOUBTFUL[1]:
+        for part, share in shares.items():
+            if share is not None and share.max() > DOUBTFUL[0]:
+                shares[part] = _least(windows[part], limits, quickly=False)
+    least = np.zeros(count)
+    for (first, last), share in shares.items():
+        if share is None:
             return None
-        least[first:last] = found
+        least[first:last] = share * _weight(windows[first, last])
     return least
 
 
-def is_tolerable(segment: Segment, limits: Limits) -> bool:
-    """Whether a way keeps within what is tolerated: asked without what its least would be."""
-    return solve(segment, limits, FINEST) is not None
-
-
-def _least(segment: Segment, limits: Limits) -> Array | None:
-    """The same, by one linear program. Velocity and acceleration are free at an end where they are not known."""
+def _least(segment: Segment, limits: Limits, *, quickly: bool) -> Array | None:
+    """The same in shares of the weights, by one linear program. Velocity and acceleration are free where not known."""
     program = QuadraticProgram(replace(segment, stray=None), limits, FINEST)
     count, unknowns = len(segment.steps), program.unknowns
     weight = _weight(segment)
@@ -85,12 +87,8 @@ def _least(segment: Segment, limits: Limits) -> Array | None:
     blocks.append(Rows(np.stack([ones, -ones], axis=1), np.stack([slacks, largest], axis=1), np.zeros(count)))
     linear = np.concatenate([np.zeros(unknowns), SUM / count * ones, [1.0]])
     none = zero(len(linear))
-    system = stacked(blocks, len(linear))
-    for quickly in (True, False):
-        solution = minimize(none, linear, *system, quickly=quickly)
-        if solution is not None and not (quickly and DOUBTFUL[0] < solution[-1] < DOUBTFUL[1]):
-            return np.maximum(solution[unknowns:-1], 0.0) * weight
-    return None
+    solution = minimize(none, linear, *stacked(blocks, len(linear)), quickly=quickly)
+    return None if solution is None else np.maximum(solution[unknowns:-1], 0.0)
 
 
 def _weight(segment: Segment) -> Array:

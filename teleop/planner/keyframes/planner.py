@@ -24,7 +24,7 @@ from teleop.planner.keyframes.findings import (
     Standstill,
 )
 from teleop.planner.keyframes.keys import Key, ramps_asked, ramps_fit, segment_between, waypoints
-from teleop.planner.keyframes.ladder import Overshot, Pieces, directed, is_possible, overshooting
+from teleop.planner.keyframes.ladder import Overshot, Pieces, directed, is_easy, is_tolerable, overshooting
 from teleop.planner.keyframes.legs import Points, legs, shortened
 from teleop.planner.keyframes.overshoot import tolerated
 from teleop.planner.keyframes.segment import Segment
@@ -60,12 +60,21 @@ def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tens
     refused = {axis: outcome.refused for axis, outcome in outcomes.items() if outcome.refused}
     if refused or any(beyond.values()):
         from teleop.planner.keyframes.infeasibility import infeasibilities, with_overshoots  # with all that it searches
+        from teleop.planner.keyframes.possible import Possible
 
-        def possible(axis: Axis, points: Points) -> bool:
+        def easy(axis: Axis, points: Points) -> bool:
             segment = _segment_of(axis, points, limits[axis])
-            return segment is not None and is_possible(segment, limits[axis], _evenness(points, tension))
+            return segment is not None and is_easy(segment, limits[axis], _evenness(points, tension))
+
+        def tolerable(axis: Axis, points: Points) -> bool:
+            segment = _segment_of(axis, points, limits[axis])
+            return segment is not None and is_tolerable(segment, limits[axis], _evenness(points, tension))
+
+        def planned(axis: Axis, points: Points) -> bool:
+            return _plan_leg(axis, points, limits[axis], tension, False, _Outcome()) is not None
 
         within = {axis: keys[axis] for axis in outcomes}
+        possible = Possible(limits, easy, tolerable, planned, refused)
         found = infeasibilities(within, limits, refused, possible) if refused else []
         overshot = [leg for outcome in outcomes.values() for leg in outcome.overshot]
         outside = [finding for of_axis in beyond.values() for finding in of_axis]

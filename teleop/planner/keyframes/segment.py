@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from teleop.planner.polynomial import Array
 
 NEAR = 1e-6  # share of a segment: a ramp that ends nearer to a key, or to the other ramp's end, ends there
+GAP = 0.03  # of a ramp: what is left beside it, to a key or to the other ramp's end, is too short for a piece
 RESOLVED = 0.03  # of the time in which jerk alone would cross a segment's range: what happens in less, no solver sees
 
 
@@ -81,24 +82,28 @@ class Segment:
         """The intervals, cut where ramps begin or end: durations (k,), the interval of each, and the ramp it lies in.
 
         That is given as its seconds, 0 between the ramps and inf for a segment that has none. A ramp that ends nearer
-        than `near` (s) to a key, or to another ramp's end, ends there.
+        than `near` (s), or GAP, to a key or to another ramp's end, ends there.
         """
         if self.ramps is None:
             return self.durations, np.arange(len(self.steps)), np.full(len(self.steps), np.inf)
         starts = np.stack([self.times - self.ramps[:, 0], self.times], axis=1).ravel()
         seconds = self.ramps.ravel()
         starts, seconds = starts[seconds > 0], seconds[seconds > 0]
-        times = self._with(np.concatenate([starts, starts + seconds]), near)
+        times = self._with(np.concatenate([starts, starts + seconds]), np.maximum(near, GAP * np.tile(seconds, 2)))
         middles = (times[:-1] + times[1:]) / 2
         ramp = np.maximum(np.searchsorted(starts, middles) - 1, 0)
         within = (starts[ramp] < middles) & (middles < starts[ramp] + seconds[ramp])
         return np.diff(times), np.searchsorted(self.times, middles) - 1, np.where(within, seconds[ramp], 0.0)
 
-    def _with(self, others: Array, near: float) -> Array:
-        """The times of the keys, and of those others that are between them and not too near to one of all."""
-        near = max(near, NEAR * float(self.times[-1] - self.times[0]))
-        others = np.sort(others[(others > self.times[0]) & (others < self.times[-1])])
+    def _with(self, others: Array, near: Array) -> Array:
+        """The times of the keys, and of those others that are between them and not too `near` to one of all."""
+        near = np.maximum(near, NEAR * float(self.times[-1] - self.times[0]))
+        order = np.argsort(others)
+        others, near = others[order], near[order]
+        inside = (others > self.times[0]) & (others < self.times[-1])
+        others, near = others[inside], near[inside]
         at = np.searchsorted(self.times, others)
-        others = others[np.minimum(others - self.times[at - 1], self.times[at] - others) > near]
+        kept = np.minimum(others - self.times[at - 1], self.times[at] - others) > near
+        others, near = others[kept], near[kept]
         others = others[np.diff(others, prepend=-np.inf) > near]
         return np.sort(np.concatenate([self.times, others]))

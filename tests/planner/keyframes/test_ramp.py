@@ -153,6 +153,14 @@ def test_a_ramp_too_short_for_the_solver_is_no_reason_to_refuse() -> None:
     assert not move.overshoots
 
 
+def test_ramps_that_nearly_meet_are_no_reason_to_refuse() -> None:
+    """`hunt_refusals.py --seed 4`, file 1: 20 ms between two ramps of 0.8 s."""
+    ease = Ramp(1.0)
+    positions = {0: -1.4, 1.58: 29, 6.7: 6.5, 10.32: -22}
+    keys = [Key(at, position, arrive=ease, leave=ease) for at, position in positions.items()]
+    assert not plan({Axis.ROLL: keys}, {Axis.ROLL: Limits(-30, 30, 40, 90, 480)}).overshoots
+
+
 def test_an_axis_that_the_solver_finds_no_way_for_is_refused_and_never_left_out() -> None:
     """Found at random: it was a move of 0 s, in which pan stayed where it was."""
     none = Ramp(0.0)

@@ -46,10 +46,13 @@ def test_a_ramp_that_ends_on_a_key_makes_no_cut() -> None:
 
 
 def test_no_two_cuts_are_nearer_than_the_solver_can_resolve() -> None:
-    ramps = np.array([[0, 1.995], [0, 0], [0, 0], [2.0, 0]])
-    segment = Segment(SEGMENT.times, SEGMENT.positions, ramps)
-    assert segment.cuts(0.0)[0].tolist() == pytest.approx([1.995, 0.005, 3, 2, 2])
-    assert segment.cuts(segment.resolved(jerk=600.0))[0].tolist() == pytest.approx([2, 3, 2, 2])
+    """2 s have no piece for what a ramp of 1.995 s leaves of them; nor has the solver one for a ramp of 5 ms."""
+    long, short = np.zeros((4, 2)), np.zeros((4, 2))
+    long[0, 1], short[0, 1] = 1.995, 0.005
+    assert Segment(SEGMENT.times, SEGMENT.positions, long).cuts(0.0)[0].tolist() == [2, 3, 4]
+    segment = Segment(SEGMENT.times, SEGMENT.positions, short)
+    assert segment.cuts(0.0)[0].tolist() == pytest.approx([0.005, 1.995, 3, 4])
+    assert segment.cuts(segment.resolved(jerk=600.0))[0].tolist() == [2, 3, 4]
 
 
 def test_without_ramps_there_are_no_cuts() -> None:
