@@ -5,6 +5,8 @@ What `least_times` finds is tried, whole milliseconds up, and made a little long
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from teleop.core.axes import Axis, Limits
@@ -24,6 +26,7 @@ ROOM = 1.005  # times the least one: what the planner finds a plan for nearly al
 TRIED = (1.0, 1.003, 1.006, 1.01, 1.015, 1.02, 1.03, 1.05, 1.1, 1.2, 1.35, 1.5, 1.7, 2.0, 3.0)  # times what was found
 NEAR = 1.025  # two of these that are so near are not tried between
 SHORT = 0.2  # of the longest interval
+CLOSE = 1.01  # times what was found: where it took more, some interval may have too much
 LESS = 0.955
 START = 1.2  # times what the bounds know of each interval
 
@@ -125,12 +128,18 @@ class LegTimes:
         while high > NEAR * low:
             middle = (low * high) ** 0.5
             low, high = (low, middle) if fits(middle) else (middle, high)
-        return self._without_slack(points, lasting(high), had).tolist()
+        settled = lasting(high)
+        suspect = (settled > had) & ((high > CLOSE) | (settled < SHORT * settled.max()))
+        return self._without_slack(points, settled, had, np.flatnonzero(suspect).tolist()).tolist()
 
-    def _without_slack(self, points: Points, found: Array, had: Array) -> Array:
-        """With less time for what is short: the room of a long interval beside it may be a large share of its own."""
+    def _without_slack(self, points: Points, found: Array, had: Array, suspect: Sequence[int]) -> Array:
+        """With less time for those that are suspect, if it does.
+
+        The room of a long interval may be a large share of a short one beside it; and if all had to be longer, one of
+        them may have been the reason.
+        """
         between = pairs(points)
-        for interval in np.flatnonzero((found > had) & (found < SHORT * found.max())).tolist():
+        for interval in suspect:
             while found[interval] > had[interval] and between.count(between[interval]) == 1:
                 less = found.copy()
                 less[interval] = max(had[interval], np.ceil(LESS * found[interval] * 1000) / 1000)

@@ -32,7 +32,8 @@ class Possible:
         self._limits, self._easy, self._tolerable, self._plan = limits, easy, tolerable, plan
         known = {same(axis, limits[axis], shortened(leg)[0]): False for axis, legs in refused.items() for leg in legs}
         self._known: dict[object, bool] = known
-        self._doubtful: set[object] = set()
+        self._overshooting: set[object] = set()
+        self._planned: set[object] = set()
 
     def __call__(self, axis: Axis, points: Points) -> bool:
         """Whether there is a plan, as far as a search has to know."""
@@ -41,13 +42,13 @@ class Possible:
             self._known[leg] = self._easy(axis, points)
             if not self._known[leg] and self._tolerable(axis, points):
                 self._known[leg] = True
-                self._doubtful.add(leg)
+                self._overshooting.add(leg)
         return self._known[leg]
 
     def surely(self, axis: Axis, points: Points) -> bool:
-        """The same, planned where it is in doubt. What that refuses, no search takes for possible any more."""
+        """Whether there is a plan: one that overshoots is planned. What that refuses, no search takes for possible."""
         leg = same(axis, self._limits[axis], points)
-        if self(axis, points) and leg in self._doubtful:
+        if self(axis, points) and leg in self._overshooting - self._planned:
             self._known[leg] = self._plan(axis, points)
-            self._doubtful.discard(leg)
+            self._planned.add(leg)
         return self._known[leg]
