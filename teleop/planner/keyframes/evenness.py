@@ -22,6 +22,7 @@ SLOWER = 100.0  # most that a slow interval counts beside a fast one; ten times 
 STILL = 0.02  # of an interval's mean speed: slower is almost at rest
 URGE = 3.0  # T / tau of an interval that would be almost at rest, T its shorter neighbor's
 LONG = 0.15  # of an interval: a smooth start takes 3 % of it at such a speed
+STEADY = 5.0  # acceleration between ramps weighs T / STEADY, jerk its ramp cubed: the speed is even within 2 %
 SAMPLES = 16  # per piece
 
 
@@ -45,11 +46,16 @@ def velocity_weights(segment: Segment, tension: Tension) -> Array:
 
 
 def _relative(segment: Segment, rates: Array, most: float) -> Array:
-    """Weights by which changes of speed take about 1 / rate (n,) s, and a slow interval counts as a fast one."""
+    """Weights by which changes of speed take about 1 / rate (n,) s, and a slow interval counts as a fast one.
+
+    Beside jerk, or beside acceleration where there are ramps.
+    """
     speed = np.abs(segment.steps) / segment.durations
     typical = np.sqrt(np.average(speed**2, weights=segment.durations))
     slower = np.clip(typical / np.maximum(speed, typical / most), 0.0, most) if typical else 1.0
-    return rates**4 * slower**2
+    if segment.ramps is None:
+        return rates**4 * slower**2
+    return float(segment.times[-1] - segment.times[0]) / STEADY * rates**2 * slower**2
 
 
 def urged(segment: Segment, still: Array) -> Segment:

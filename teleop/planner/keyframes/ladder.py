@@ -114,12 +114,14 @@ def _rules(part: Segment, limits: Limits, tension: Tension) -> Iterator[Rule]:
 def _moving(part: Segment, limits: Limits, rule: Rule, solved: Pieces) -> Pieces:
     """What was solved, or better: where it is almost at rest between two keys, it is urged on.
 
-    Only the intervals around are planned again, more finely, from and to how the axis moves there anyway. Tension 0 is
-    as smooth as can be, stops and all.
+    Only the intervals around are planned again, more finely, from and to how the axis moves there anyway; all of it
+    where there are ramps. Tension 0 is as smooth as can be, stops and all.
     """
     still = stills(part, *solved)
-    if part.ramps is not None or rule.tension == 0 or not np.any(still):
+    if rule.tension == 0 or not np.any(still):
         return solved
+    if part.ramps is not None:
+        return _eased(part, limits, rule, solved, still)
     finer = replace(rule, pieces=PIECES[1] if np.ndim(rule.pieces) else max(int(rule.pieces), PIECES[1]), fine=True)
     for first, last in _windows(np.flatnonzero(still).tolist(), len(still)):
         states = _states(part, solved)
@@ -128,6 +130,12 @@ def _moving(part: Segment, limits: Limits, rule: Rule, solved: Pieces) -> Pieces
         if moving is not None and stills(window, *moving).sum() < still[first:last].sum():
             solved = _spliced(part, solved, Pieces(*moving), first, last)
     return solved
+
+
+def _eased(part: Segment, limits: Limits, rule: Rule, solved: Pieces, still: Array) -> Pieces:
+    """Urged on with its ramps as they are."""
+    moving = solve(urged(part, still), limits, replace(rule, pieces=PIECES[-1]))
+    return Pieces(*moving) if moving is not None and stills(part, *moving).sum() < still.sum() else solved
 
 
 def _windows(intervals: Sequence[int], count: int) -> Iterator[tuple[int, int]]:

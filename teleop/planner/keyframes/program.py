@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teleop.core.axes import Limits
-from teleop.planner.keyframes.evenness import change_times, velocity_weights
+from teleop.planner.keyframes.evenness import STEADY, change_times, velocity_weights
 from teleop.planner.keyframes.mesh import Indices, mesh
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.keyframes.sparse import Columns, Entries
@@ -32,7 +32,6 @@ from teleop.planner.polynomial import BERNSTEIN, GRAM_ACCELERATION, GRAM_JERK, G
 HEADROOM = 0.95  # share of V, A and J, so that each sample is one legal step from the last (planning page, "B")
 CLIP = 1e6  # largest ratio of a piece's weight to the median
 SMOOTHING = 1e-6  # least weight of jerk beside tension, or a day's drift would have none
-STEADY = 5.0  # acceleration between ramps weighs T / STEADY, jerk its ramp cubed: the speed is even within 2 %
 TOLERANCE = 1.01  # on the headroom: the solver's, small beside the 5 % that are left
 SMALLEST = 1e-9  # units; a segment that moves less is not scaled up further
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -49,6 +50,15 @@ def test_slow_ways_beside_a_fast_one_do_not_stand_still() -> None:
     assert move.standstills == ()
     smoothest = plan({PAN: keys([(0, 0), (5, 4), (10, 84), (15, 88)])}, SIM, 0.0)
     assert [(found.first, found.last) for found in smoothest.standstills] == [("key 1", "key 2"), ("key 3", "key 4")]
+
+
+@pytest.mark.parametrize("seconds", [0.0, 0.5, 2.0])
+@pytest.mark.parametrize("pairs", [[(0, 0), (5, 1), (10, 21)], [(0, 0), (5, 20), (10, 20.5), (15, 0)]])
+def test_nor_do_they_with_an_ease(seconds: float, pairs: list[tuple[float, float]]) -> None:
+    """Without this, one of four such moves stood still: for 3 of the 5 s in which they go 1 degree."""
+    ease = Ramp(seconds)
+    eased = [replace(key, arrive=ease, leave=ease) for key in keys(pairs)]
+    assert not plan({PAN: eased}, SIM).standstills
 
 
 def test_a_stop_that_is_left_is_reported() -> None:
