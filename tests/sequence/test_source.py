@@ -51,7 +51,7 @@ def test_it_rests_longer_before_the_first_pass_where_that_is_needed() -> None:
     assert begun(preroll=0.5).begin == 6.5
     assert begun(preroll=4.0).begin == 9.0
     source = begun(preroll=0.5, passes=2)
-    tick = 500
+    tick, arrival = 500, 0.0
     while source.number == 1 or source.phase is SequencePhase.EASING:
         arrival, tick = source.until, tick + 1
         source.read(tick / 100, NO_FEEDBACK)
