@@ -98,6 +98,7 @@ class SequenceRun:
             kept = KeptResponses(self.profile, self.warn)
             rig = stack.enter_context(open_rig(self.profile, self.clock, priors=kept.priors))
             rig.foresee(source.foreseen)
+            source.rest_needed = partial(rig.rest_needed, axes)
             planned = partial(as_planned, source, self.sequence.move)
             played = None if self.take is None or is_flown(axes) else PlayedStatus(source, self.sequence.move, rig)
             if recorder and played:

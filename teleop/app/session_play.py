@@ -103,6 +103,7 @@ def play(session: Session, move: Move, take: Path | None, speed: float, passes: 
             recorder.status = played = PlayedStatus(source, move.compiled.move, session.rig)
             observers += [played, recorder]
         session.rig.foresee(source.foreseen)
+        source.rest_needed = partial(session.rig.rest_needed, move.axes)
         try:
             session.run(SourceJob(source, session.camera_waiting), observers)
             result = Result.DONE

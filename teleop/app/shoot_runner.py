@@ -154,6 +154,7 @@ class Shooting:
             kept = KeptResponses(self._profile, self._notify)
             with open_rig(self._profile, self._clock, priors=kept.priors) as rig:
                 kept.begin(rig, self._notify)
+                rig.foresee(mover.foreseen)
                 shutter = ShutterSink(rig.connections[self._camera], source.on_shutter_result)
                 notes = LinkNotes(rig.connections.values(), self._notify), rig.notes(self._notify)
                 self._loop = rig.loop(list(timelapse.limits), [guard], [*notes, kept, *self._observers], [shutter])

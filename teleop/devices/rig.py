@@ -123,6 +123,11 @@ class Rig:
             if device.control is not None:
                 device.control.foresee(foreseen)
 
+    def rest_needed(self, axes: Collection[Axis]) -> float:
+        """How long (s) the axes should rest before a move at least, by what is known of how they answer."""
+        controls = [device.control for device in self._devices if device.control is not None]
+        return max((control.rest_needed(axes) for control in controls), default=0.0)
+
     def notes(self, notify: Callable[[str], object]) -> GuardNotes:
         """An observer that says when a soft limit holds an axis back, and when one answers otherwise than before."""
         return GuardNotes([device.lines for device in self._devices if device.lines is not None], notify)

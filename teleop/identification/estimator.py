@@ -100,6 +100,11 @@ class ResponseEstimator:
         return self._reading
 
     @property
+    def known(self) -> bool:
+        """Whether there is something to go by: a prior that still holds, or what was found since."""
+        return self._prior is not None or self.sure
+
+    @property
     def sure(self) -> bool:
         return self.response.delay_doubt < SURE
 

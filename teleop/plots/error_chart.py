@@ -11,7 +11,7 @@ from teleop.planner.polynomial import Array
 from teleop.plots.downsample import outline
 
 WIDTH, HEIGHT = 960, 210
-LEFT, RIGHT, TOP, BOTTOM = 56, 8, 8, 26
+LEFT, RIGHT, TOP, BOTTOM = 56, 24, 8, 26
 COLORS = ("#0b7285", "#d9480f", "#2b8a3e", "#862e9c", "#c2255c", "#5f3dc4", "#e67700", "#343a40")
 MOST_POINTS = 1500
 STEPS = (1, 2, 5, 10)

@@ -36,7 +36,7 @@ class SequenceSource:
     `speed` is the share of the speed that the sequence was written for; PlanError says when the move does not allow it.
     `executor` searches for changes of it, a thread unless given. Without a `cycle` it is the sequence's own.
     `begin` is when the first pass starts, on the loop's clock, and inf until that is known; `number` is that of the
-    pass, from 1.
+    pass, from 1. `rest_needed` is asked how long (s) the axes have to rest at the start of the first pass at least.
     """
 
     def __init__(
@@ -48,6 +48,8 @@ class SequenceSource:
         cycle: Cycle | None = None,
     ) -> None:
         self.cycle = cycle or Cycle(compiled.preroll, back_to_one=compiled.back_to_one)
+        self.rest_needed: Callable[[], float] = lambda: 0.0
+        self._rest = 0.0  # s, what it said
         self.duration = compiled.duration
         self.moves_drone = any(axis.is_stick for axis in compiled.move.tracks)
         corrector = self.cycle.corrector
@@ -83,7 +85,7 @@ class SequenceSource:
         }
 
     def start(self, now: float, motion: Motion) -> None:
-        self._origin = now
+        self._origin, self._rest = now, self.rest_needed()
         self.phase = SequencePhase.EASING
         self._ease_to_time(self.playback.opening, now, motion)
         self._foresee_begin()
@@ -172,7 +174,10 @@ class SequenceSource:
 
     def _arrive(self, _now: float) -> None:
         self._handle(PhaseEvent.ARRIVED)
+        self._rest = max(self._rest, self.rest_needed())  # what was thought of the axes may have been wrong
         self.until = self._after_preroll(self.until)
+        if self.number == 1 and self.cycle.trigger is None:
+            self.begin = self.until + self._lead
         if self._prepared < self.number:
             self._events += self._settings
             self._prepared = self.number
@@ -279,7 +284,9 @@ class SequenceSource:
         """When a pass may begin whose axes arrive then where it begins."""
         if self.number > 1 and self.cycle.endless:
             return arrival
-        start = arrival + max(whole_ticks(self.cycle.preroll), KEEP_ALIVE if self.cycle.compared else 0.0)
+        needed = self._rest if self.number == 1 and self.cycle.trigger is None else 0.0  # a trigger is to be awaited
+        least = KEEP_ALIVE if self.cycle.compared else 0.0
+        start = arrival + max(whole_ticks(max(self.cycle.preroll, needed)), least)
         if self.cycle.corrector is None:
             return start
         return self._origin + RHYTHM * math.ceil((start - self._origin) / RHYTHM - SAME_TIME)

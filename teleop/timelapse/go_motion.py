@@ -54,6 +54,9 @@ class GoMotionMover:
     def at(self, now: float) -> Motion:
         return self._run.at(now - self._pressed) if self._is_running(now) else self._way.at(now)
 
+    def foreseen(self, time: float) -> Motion:
+        return self.at(time)
+
     def step(self, now: float, frame: int, spare: float) -> bool:
         way = self._run_out(now)
         self._prepare(frame)

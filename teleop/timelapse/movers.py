@@ -57,6 +57,10 @@ class Mover(Protocol):
 
     def at(self, now: float) -> Motion: ...
 
+    def foreseen(self, time: float) -> Motion:
+        """Where the axes will be at a `time` soon, on the loop's clock, as things are."""
+        ...
+
     def step(self, now: float, frame: int, spare: float) -> bool:
         """Set out for `frame`, in `spare` s if that can be; False for what needs no step."""
         ...
@@ -103,6 +107,9 @@ class StepMover:
 
     def at(self, now: float) -> Motion:
         return self._way.at(now)
+
+    def foreseen(self, time: float) -> Motion:
+        return self._way.at(time)
 
     def step(self, now: float, frame: int, spare: float) -> bool:
         place = self._place(frame)
@@ -171,6 +178,9 @@ class GlideMover:
 
     def at(self, now: float) -> Motion:
         return self._way.at(now) if now < self._begin - SAME_TIME else self._playback.at(now)[1]
+
+    def foreseen(self, time: float) -> Motion:
+        return self._way.at(time) if time < self._begin - SAME_TIME else self._playback.foreseen(time)
 
     def step(self, now: float, frame: int, spare: float) -> bool:  # noqa: ARG002 - it is on its way
         return False

@@ -227,6 +227,9 @@ def test_position_mode_finds_how_late_it_is_and_goes_by_nothing_of_it(play: Call
     assert second["axes"] == first["axes"]
     line = "pan is 0.13 s late: the profile can make up for it, with delay: 0.13"
     assert line in play(*late, text=True).out
+    (kept,) = [finding for finding in responses() if finding.state is State.OK]
+    assert "pan 0.13 s late (doubt 0." in kept.found
+    assert "drift" not in kept.found, "nothing is known of it"
 
 
 def test_position_mode_on_time_has_no_line(play: Callable[..., Any]) -> None:

@@ -1,6 +1,7 @@
 """Playing a performance: ease, preroll, the move on its own clock, cues once, and when to be asked again."""
 
 import math
+from typing import Any
 
 import pytest
 from fakes import NO_FEEDBACK
@@ -10,6 +11,8 @@ from teleop.core.events import Action
 from teleop.core.setpoints import StateTarget
 from teleop.planner.keyframes.planner import Key, plan
 from teleop.sequence.compile import PREROLL, CompiledSequence, Cue
+from teleop.sequence.cycle import Cycle
+from teleop.sequence.phases import SequencePhase
 from teleop.sequence.source import SequenceSource
 
 LIMITS = {Axis.PAN: Limits(-180, 180, 60, 120, 600), Axis.TILT: Limits(-56, 146, 60, 120, 600)}
@@ -33,6 +36,32 @@ def test_it_eases_from_where_the_axes_are_and_waits_the_preroll() -> None:
     waiting = source.begin - PREROLL / 2
     assert source.read(waiting, NO_FEEDBACK)[0][Axis.PAN] == StateTarget(10, 0, 0)
     assert source.next_change(waiting) == source.begin
+
+
+def test_it_rests_longer_before_the_first_pass_where_that_is_needed() -> None:
+    keys, needed = {Axis.PAN: [Key(0, 10), Key(4, 30)]}, [1.5]
+    compiled = CompiledSequence("Test", plan(keys, LIMITS), [], [], keys)
+
+    def begun(**cycle: Any) -> SequenceSource:
+        source = SequenceSource(compiled, LIMITS, cycle=Cycle(**cycle))
+        source.rest_needed = lambda: needed[0]
+        source.start(5.0, {Axis.PAN: State(10.0)})
+        return source
+
+    assert begun(preroll=0.5).begin == 6.5
+    assert begun(preroll=4.0).begin == 9.0
+    source = begun(preroll=0.5, passes=2)
+    tick, arrival = 500, 0.0
+    while source.number == 1 or source.phase is SequencePhase.EASING:
+        arrival, tick = source.until, tick + 1
+        source.read(tick / 100, NO_FEEDBACK)
+    assert source.until - arrival == pytest.approx(0.5), "only before the first"
+    needed[0] = 0.0
+    known = begun(preroll=0.5)
+    assert known.begin == 5.5
+    needed[0] = 1.5  # what was thought of the axes turned out wrong on the way there
+    known.read(5.0, NO_FEEDBACK)
+    assert known.begin == 6.5
 
 
 def test_the_move_runs_on_its_own_clock_and_rests_are_slept_over() -> None:

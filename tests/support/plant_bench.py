@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 from unittest import mock
@@ -114,6 +115,7 @@ def run(
     with far_end(gimbal), open_rig(profile, clock, priors=priors) as rig:
         if isinstance(sources[0], SequenceSource):
             rig.foresee(sources[0].foreseen)
+            sources[0].rest_needed = partial(rig.rest_needed, [Axis.PAN])
         loop = rig.loop([Axis.PAN], sources, [keeper, rig.notes(notes.append)])
         ended = loop.run()
         return Ran(gimbal, ended.reasons, rig.responses, notes, ticks=keeper.ticks)

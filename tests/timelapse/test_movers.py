@@ -10,6 +10,7 @@ from at_once import AtOnce
 from timelapse_bench import LIMITS, timelapse
 
 from teleop.core.axes import Axis, State
+from teleop.timelapse.go_motion import mover_of
 from teleop.timelapse.movers import GlideMover, StepMover
 from teleop.timelapse.way import approach
 
@@ -54,6 +55,20 @@ def test_a_glide_is_at_each_frame_in_its_slot(tmp_path: Path, frame: int) -> Non
         assert mover.time(at) == pytest.approx(found.slots.at(later))
         assert mover.at(at)[Axis.PAN].position == pytest.approx(float(positions[later]), abs=1e-6)
     assert not mover.skip(20.0, 4.0), "the place of a frame is passed"
+
+
+@pytest.mark.parametrize("options", ["mode: continuous", "mode: shoot-move-shoot", "blur: 0.2"])
+def test_what_a_mover_foresees_is_what_it_does(tmp_path: Path, options: str) -> None:
+    found = timelapse(tmp_path, options)
+    mover = mover_of(found, AtOnce())
+    mover.approach(0.0, REST, 0)
+    slot = math.ceil(mover.arrival + mover.run_up + 2)
+    mover.begin(slot, found.slots.at(0))
+    foreseen: dict[int, State] = {}
+    for number in range(100 * (slot + 2)):
+        here = mover.at(number / 100)[Axis.PAN]
+        assert here == pytest.approx(foreseen.get(number, here), abs=1e-9)
+        foreseen[number + 20] = mover.foreseen((number + 20) / 100)[Axis.PAN]
 
 
 def test_before_a_glide_moves_its_time_runs_as_the_clock_does(tmp_path: Path) -> None:

@@ -14,10 +14,12 @@ LATE = 0.02  # s: less is not worth a line
 
 
 def response_words(response: Response) -> str:
-    """`0.12 s late (doubt 0.01), gain 0.97, drift 0.2 deg/s`."""
+    """`0.12 s late (doubt 0.01), gain 0.97, drift 0.2 deg/s`, as far as these were found."""
     doubt = f" (doubt {response.delay_doubt:.1g})" if math.isfinite(response.delay_doubt) else ""
     drift = round(response.drift, 1) + 0.0  # no -0.0
-    return f"{response.delay:.2f} s late{doubt}, gain {response.gain:.2f}, drift {drift:.1f} deg/s"
+    gain = f", gain {response.gain:.2f}" if math.isfinite(response.gain_doubt) else ""
+    drifts = f", drift {drift:.1f} deg/s" if math.isfinite(response.drift_doubt) else ""
+    return f"{response.delay:.2f} s late{doubt}{gain}{drifts}"
 
 
 def response_facts(response: Response) -> Mapping[str, float | None]:

@@ -6,7 +6,7 @@ correction then takes the profile's word, and only the guard at the soft limits 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Tick
@@ -17,6 +17,9 @@ from teleop.devices.gimbal.outlook import Foreseen
 from teleop.devices.gimbal.pi_correction import Gains, PiCorrection
 from teleop.identification.candidates import Start
 from teleop.identification.estimator import ResponseEstimator
+
+UNKNOWN_REST = 1.5  # s (tests/benchmarks/unknown_gimbals.py)
+RINGS = 4.0  # times its delay, for which an axis swings after a short and brisk move
 
 
 class SpeedControl:
@@ -71,6 +74,13 @@ class SpeedControl:
         for axis, estimator in self.estimators.items():
             self.latest[axis] = now, speeds.get(axis, 0.0)
             estimator.sent(*self.latest[axis])
+
+    def rest_needed(self, axes: Collection[Axis]) -> float:
+        """How long (s) the axes should rest before a move: meanwhile a drift shows itself, and what rings dies away."""
+        if not isinstance(self._correction, AdaptiveCorrection):
+            return 0.0
+        used = [each for axis, each in self.estimators.items() if axis in axes]
+        return max((RINGS * each.response.delay if each.known else UNKNOWN_REST for each in used), default=0.0)
 
     @property
     def relied_on(self) -> Mapping[Axis, Response]:

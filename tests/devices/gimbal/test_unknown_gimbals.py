@@ -57,6 +57,28 @@ def test_keys_are_met_in_the_first_run_and_better_in_the_second(dynamics: Dynami
     assert not ran.notes + again.notes
 
 
+BRISK = {**PAN, "velocity": 100, "acceleration": 400, "jerk": 4000}
+
+
+@pytest.mark.parametrize(("gain", "start"), [(0.85, -20.0), (1.1, -8.0)])
+def test_after_a_short_brisk_ease_the_first_key_is_met_all_the_same(gain: float, start: float) -> None:
+    """The slowest gimbals with the most drift: until an axis rests, a drift looks like a gain. It rests longer here."""
+    dynamics = Dynamics(lag=0.2, dead_time=0.1, gain=gain, drift=1.0)
+    first, ran = keyed(dynamics, profile_of(pan=BRISK), start)
+    assert first <= FIRST
+    second, again = keyed(dynamics, profile_of(pan=BRISK), start, priors=ran.responses)
+    assert second <= SECOND
+    assert again.begin == pytest.approx(ran.begin - 0.3, abs=0.05), "one that is known rests for four times its delay"
+
+
+@pytest.mark.parametrize("known", [{"mode": "position"}, {"mode": "speed", "delay": 0.05}], ids=str)
+def test_no_other_rig_rests_longer(known: dict[str, Any]) -> None:
+    _, unknown = keyed(Dynamics(lag=0.05), profile_of())
+    _, again = keyed(Dynamics(lag=0.05), profile_of(), priors=unknown.responses)
+    _, other = keyed(Dynamics(lag=0.05), profile_of(**known))
+    assert other.begin == again.begin == pytest.approx(unknown.begin - 1.0)
+
+
 @settings(max_examples=3, deadline=None)
 @given(UNKNOWN, st.sampled_from([25, 50, 100]), st.sampled_from(["speed", "stick"]))
 def test_whatever_the_gimbal(dynamics: Dynamics, rate: int, mode: str) -> None:
