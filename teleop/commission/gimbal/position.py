@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +19,7 @@ REACH, SECONDS, SHORT = 2.0, 1.0, 0.5  # deg and s
 SLOWEST = 25.5  # s: a place that is not where it is thought to be is approached slowly
 LEAPS = 0.6  # deg
 LATEST, LONGEST = 0.9, 2.0  # s: the beginnings and lengths of a move that are tried
+FIT = "the constant speed that the readings fit best"
 NAMEABLE = ((-180.0, 180.0), (-30.0, 30.0), (-56.0, 146.0))  # yaw, roll, pitch: V2.5, figure 7
 
 
@@ -44,8 +46,9 @@ class PositionStep(GimbalStep):
         self.absolute = Subject(f"position.absolute.{name}", f"Absolute positions of {name} are its readings", True)
         self.newer = Subject(f"position.newer.{name}", f"A newer command of {name} replaces the older one", True)
         self.step = Subject(f"angles.resolution.{name}", f"Steps of the angle of {name}", 0.1, "deg")
+        self.age = Subject(f"angles.age.{name}", f"Age of a reading of {name}, at most", None, "s")
         self.signs = sign_subjects(name)
-        own = (self.obeyed, self.error, self.travel, self.brief, self.absolute, self.newer, self.step)
+        own = (self.obeyed, self.error, self.travel, self.brief, self.absolute, self.newer, self.step, self.age)
         self.subjects = (*own, self.signs.order, self.signs.position, self.signs.report)
 
     def script(self, findings: Findings) -> Script:  # noqa: ARG002
@@ -77,9 +80,13 @@ class PositionStep(GimbalStep):
     def _track_facts(self, first: Shift) -> list[Fact]:
         bench, index = self.bench, self.index
         track = moving_part(bench.since(first.sent - 0.3), index)
-        seconds, steps = travel_time(track), smallest_step(track)
-        how = "the constant speed that the readings fit best"
-        facts = [self.travel.not_seen("too few readings") if seconds is None else self._time(self.travel, seconds, how)]
+        fitted, steps = fitted_move(track), smallest_step(track)
+        if fitted is None:
+            facts = [each.not_seen("too few readings") for each in (self.travel, self.age)]
+        else:
+            late = max(0.0, fitted.begin - first.sent)
+            how = "from the command to where the readings begin to move: with the dead time of the motion"
+            facts = [self._time(self.travel, fitted.seconds, FIT), self.age.found(round(late, 2), how)]
         if bench.noise or steps is None:
             return [*facts, self.step.not_seen("the readings are noisy" if bench.noise else "too few readings")]
         return [*facts, self.step.found(round(steps, 2), "the smallest step between two readings", within=0.03)]
@@ -113,10 +120,10 @@ class PositionStep(GimbalStep):
         yield from home(bench)
         facts = [self.newer.found(replaces, how)]
         brief = yield from shift(bench, index, 1.0, SHORT, f"1 deg in {SHORT:g} s")
-        seconds = travel_time(moving_part(bench.since(brief.sent - 0.3), index))
-        if seconds is None:
+        fitted = fitted_move(moving_part(bench.since(brief.sent - 0.3), index))
+        if fitted is None:
             return [*facts, self.brief.not_seen("too few readings")]
-        return [*facts, self._time(self.brief, seconds, "the constant speed that the readings fit best")]
+        return [*facts, self._time(self.brief, fitted.seconds, FIT)]
 
     def _out_and_back(self) -> Generator[Wait | Question, str, bool]:
         """Whether both commands were answered: one that is lost says nothing."""
@@ -145,8 +152,15 @@ class PositionStep(GimbalStep):
         return [self.absolute.found(stays, f"{_answered(code)}, moved {moved:+.1f} deg when sent to where it was")]
 
 
-def travel_time(track: list[tuple[float, float]]) -> float | None:
-    """How long a move at constant speed took, in s: of all such moves the one that the readings fit best."""
+class FittedMove(NamedTuple):
+    """A move at constant speed: when it began, and how long it took (s)."""
+
+    begin: float
+    seconds: float
+
+
+def fitted_move(track: list[tuple[float, float]]) -> FittedMove | None:
+    """Of all moves at constant speed the one that the readings fit best; None with too few of them."""
     if len(track) < 8:
         return None
     times, places = np.asarray(track).T
@@ -158,7 +172,8 @@ def travel_time(track: list[tuple[float, float]]) -> float | None:
     begins = np.arange(times[0], times[0] + LATEST, 0.01)[:, None, None]
     lengths = np.arange(0.1, LONGEST, 0.02)[None, :, None]
     left = ((np.clip((times - begins) / lengths, 0.0, 1.0) - shares) ** 2).sum(axis=2)
-    return float(lengths[0, np.unravel_index(left.argmin(), left.shape)[1], 0])
+    begin, length = np.unravel_index(left.argmin(), left.shape)
+    return FittedMove(float(begins[begin, 0, 0]), float(lengths[0, length, 0]))
 
 
 def smallest_step(track: list[tuple[float, float]]) -> float | None:

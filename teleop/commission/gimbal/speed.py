@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from teleop.commission.findings import Fact, Findings, Subject
 from teleop.commission.gimbal.base import GimbalStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
@@ -164,6 +162,3 @@ class SpeedStep(GimbalStep):
         return [
             self.left.found(round(left, 1) + 0.0, "before and after control was released", within=LEFT + bench.noise)
         ]
-
-
-__all__ = ["SpeedStep", "math"]
