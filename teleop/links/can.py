@@ -19,6 +19,7 @@ from teleop.links.url import LinkAddress
 HOST_ID = 0x223  # what the host sends: DJI R SDK Protocol V2.5, section 3.1, figure 38
 GIMBAL_ID = 0x222
 
+ECHOING = ("udp_multicast",)  # the interfaces on which one's own frames come back
 _PIECE = 8  # bytes in a CAN frame
 
 
@@ -115,7 +116,7 @@ class CanLink(BufferedLink):
     def _put(self, piece: bytes) -> int:
         if not self._adapter.put(self._transmit_id, piece):
             return 0
-        if self._adapter.tap:
+        if self._adapter.tap and self.address.interface not in ECHOING:  # an echo is heard when it comes back
             self._adapter.tap(BusFrame(self._transmit_id, piece))
         return len(piece)
 
