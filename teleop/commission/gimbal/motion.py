@@ -166,9 +166,9 @@ def sender(bench: GimbalBench, index: int, by_speed: bool) -> Callable[[float], 
     return lambda value: bench.push(index, round(15000 * value / bench.full_stick[index]))
 
 
-def moving_part(track: list[Places], index: int) -> list[tuple[float, float]]:
-    """The readings of one angle, unrolled: times and deg."""
+def moving_part(track: list[Places], index: int, near: float | None = None) -> list[tuple[float, float]]:
+    """The readings of one angle, times and deg, unrolled: within half a turn of `near`, or of the first of them."""
     if not track:
         return []
-    first = track[0].angles[index]
-    return [(each.time, first + around(each.angles[index] - first)) for each in track]
+    near = track[0].angles[index] if near is None else near
+    return [(each.time, near + around(each.angles[index] - near)) for each in track]

@@ -12,6 +12,7 @@ from teleop.commission.findings import Fact, Findings, Subject
 from teleop.commission.gimbal.base import WAYS, GimbalStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import FURTHEST, MOVED, SETTLE, TRIES, Shift, home, moving_part, rest, shift, wait
+from teleop.commission.gimbal.places import around
 from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.step import Question, Script, Wait
 
@@ -59,7 +60,7 @@ class PositionStep(GimbalStep):
         if moved is None:
             return [self.obeyed.found(False, f"{_answered(first.code)}, and it did not move")]
         order = settle_order(bench, self.signs.order, index, moved)
-        way = bench.mean()[index] - self._began(first)
+        way = around(bench.mean()[index] - self._began(first))
         bench.position_signs[index], bench.obeys_position[index] = (1 if way > 0 else -1), True
         facts = [self.obeyed.found(True, f"{_answered(first.code)}, moved {abs(way):.1f} of {REACH:g} deg"), *order]
         facts.append(self.error.found(round(abs(way) - REACH, 2), f"after {REACH:g} deg", within=0.2 + bench.noise))
@@ -112,7 +113,7 @@ class PositionStep(GimbalStep):
             if (yield from self._out_and_back()):
                 break
             yield from home(bench)
-        track = [(time, sign * (place - begin)) for time, place in moving_part(bench.since(sent), index)]
+        track = [(time, sign * (place - begin)) for time, place in moving_part(bench.since(sent), index, begin)]
         furthest, end = max(place for _, place in track), track[-1][1]
         slack = 0.3 + 2 * bench.noise
         how = f"called back after {SHORT:g} s of {SECONDS:g}: it got {furthest:.1f} deg far and ended at {end:.1f}"
@@ -139,13 +140,13 @@ class PositionStep(GimbalStep):
         """To where it is, as an absolute position: it must stay. Where it does not, it is on a long way, slowly."""
         bench, index = self.bench, self.index
         here = bench.mean()[index]
-        angle = bench.position_signs[index] * here
+        angle = around(bench.position_signs[index] * here)
         low, high = NAMEABLE[index]
         if not low <= angle <= high:
             return [self.absolute.not_seen(f"{angle:.0f} deg is beyond what a position command can say")]
         sequence = bench.target(index, angle, SLOWEST)
         yield from wait(bench, 1.5, "sent to where it is: it must not move")
-        moved, code = bench.mean()[index] - here, bench.code(sequence)
+        moved, code = around(bench.mean()[index] - here), bench.code(sequence)
         while (after := bench.rest.release(bench.now)) is not None:
             yield from wait(bench, after - bench.now)
         stays = abs(moved) < LEAPS / 2 + bench.noise and not code

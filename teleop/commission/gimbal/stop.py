@@ -114,9 +114,9 @@ class LatencyStep(GimbalStep):
         if absolute is not True:
             raise DeviceError("absolute positions are not what the readings say: there is no move to measure")
         bench.allow(FURTHEST)
-        commanded, begin = yield from self._swings()
+        start, (commanded, begin) = bench.mean()[index], (yield from self._swings())
         yield from rest(bench)
-        late = estimate(commanded, moving_part(bench.since(begin), index), begin, begin + PERIOD * SWINGS)
+        late = estimate(commanded, moving_part(bench.since(begin), index, start), begin, begin + PERIOD * SWINGS)
         yield from home(bench)
         if late is None or not math.isfinite(late.doubt):
             return [each.not_seen("the readings do not say") for each in self.subjects]
