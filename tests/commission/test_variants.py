@@ -22,7 +22,7 @@ TOGETHER = {
         silent_pushes=True,
         focus_motor="absent",
         mount=180.0,
-        boot=(10.0, 0.0, -5.0),
+        boot=(1.0, 0.0, -5.0),  # its readings go across 180
     ),
     "positions refused": Variant(refuses=("position",), report_signs=(-1, 1, 1), lag=0.12),
     "only the joystick, the adapter resets": Variant(

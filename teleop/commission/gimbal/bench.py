@@ -69,7 +69,7 @@ class GimbalBench:
         self.answered: dict[int, Answer] = {}
         self.frames: list[tuple[float, Received]] = []  # all that came, while `keeps_frames`
         self.keeps_frames = False
-        self.asked = self.replied = 0  # questions for the angles
+        self.replied = self.lost = 0  # questions for the angles; those that are still on their way are in neither
         self.reply_times: deque[float] = deque(maxlen=200)  # s
         self.begin: tuple[float, float, float] | None = None
         self.back_speed = 4.0  # deg/s of the way back
@@ -265,7 +265,6 @@ class GimbalBench:
             self.connection.stream(gimbal.VersionPush(version=own_version()))
         if now >= self._ask_at - 1e-6:
             self._ask_at = now + ASK
-            self.asked += 1
             self.connection.request(gimbal.Angles(AngleKind.ATTITUDE), now)
         if self._unanswered > 3 and now >= self._alive_at - 1e-6:
             self._alive_at = now + ALIVE
@@ -283,6 +282,7 @@ class GimbalBench:
         reply = answer.reply
         if reply is None:
             self._unanswered += 1
+            self.lost += 1
             return
         self._unanswered = 0
         self.replied += 1

@@ -110,12 +110,13 @@ class Replies(GimbalStep):
     def script(self, findings: Findings) -> Script:  # noqa: ARG002
         bench = self.bench
         before = errors_of(bench.connection)
-        asked, replied = bench.asked, bench.replied
+        replied, lost = bench.replied, bench.lost
         yield from wait(bench, ASKS, "asking")
-        asked, replied = bench.asked - asked, bench.replied - replied
-        lost = max(0.0, 1 - replied / asked) if asked else 1.0
+        replied, lost = bench.replied - replied, bench.lost - lost
+        asked = replied + lost
+        lost = lost / asked if asked else 1.0
         how = f"{replied} replies to {asked} questions"
-        facts = [ANSWERED.found(replied > 0, how), LOST.found(round(lost, 3), how, within=0.02)]
+        facts = [ANSWERED.found(replied > 0, how), LOST.found(round(lost, 3), how, within=SHARE)]
         if replied:
             variant = "by the length of the reply (0E 02)"
             facts += [COMMAND.found(not bench.bare, variant), TYPED.found(not bench.legacy, variant)]
