@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from commission_bench import CommissionBench
 
-from teleop.commission.findings import Fact, Verdict
+from teleop.commission.findings import Verdict
 from teleop.commission.gimbal.listening import Listen, Replies
 from teleop.commission.page import GO, Stage
 from teleop.commission.step import Wait
@@ -20,12 +21,12 @@ class Others(CommissionBench):
     """A bench on a bus with others on it: `heard` in each turn."""
 
     def heard(self, **counts: int) -> None:
-        wire = self.made.bench.connection._link
+        wire: Any = self.made.bench.connection._link
         wire.with_own_id = getattr(wire, "with_own_id", 0) + counts.get("host", 0)
         wire.foreign[0x530] += counts.get("foreign", 0)
         wire.counts["error frames"] += counts.get("errors", 0)
 
-    def facts(self, step: Listen | Replies, **counts: int) -> dict[str, Fact]:
+    def facts(self, step: Listen | Replies, **counts: int) -> dict[str, Any]:
         script, now = step.script(self.made.findings), self.clock.now
         try:
             while True:

@@ -230,15 +230,18 @@ class GimbalBench:
 
     def increment(self, index: int, way: float, seconds: float) -> int:
         """Turn one angle by `way` (deg, in the signs of positions)."""
-        angles = [way if each == index else 0.0 for each in range(3)]
-        ignored = [each != index for each in range(3)]
-        return self.request(gimbal.Position(*angles, False, *ignored, time_for_action=round(seconds, 1)))
+        return self._position(index, way, seconds, absolute=False)
 
     def target(self, index: int, angle: float, seconds: float) -> int:
         """Turn one angle to `angle` (deg, as positions count it)."""
-        angles = [around(angle) if each == index else 0.0 for each in range(3)]
-        ignored = [each != index for each in range(3)]
-        return self.request(gimbal.Position(*angles, True, *ignored, time_for_action=round(seconds, 1)))
+        return self._position(index, around(angle), seconds, absolute=True)
+
+    def _position(self, index: int, angle: float, seconds: float, *, absolute: bool) -> int:
+        yaw, roll, pitch = (angle if each == index else 0.0 for each in range(3))
+        no_yaw, no_roll, no_pitch = (each != index for each in range(3))
+        ignored = no_yaw, no_roll, no_pitch
+        message = gimbal.Position(yaw, roll, pitch, absolute, *ignored, time_for_action=round(seconds, 1))
+        return self.request(message)
 
     def speed(self, index: int, value: float) -> int:
         """Turn one angle at `value` deg/s, in the signs of speeds; 0 for the others."""

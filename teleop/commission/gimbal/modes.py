@@ -63,7 +63,7 @@ class RecenterStep(GimbalStep):
     moves = True
 
     @property
-    def about(self) -> tuple[str, ...]:
+    def about(self) -> tuple[str, ...]:  # pyright: ignore[reportIncompatibleVariableOverride] - it changes with the bench
         way = ""
         if self.bench.reads:
             here = self.bench.mean()

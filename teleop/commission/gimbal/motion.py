@@ -23,6 +23,7 @@ LATE = 0.6  # s by which the effect of a command may be late
 ANSWERED, TRIES = 0.3, 3  # s for an answer, and how often it is asked for
 MOVED = 0.35  # deg: less is noise
 PARTS = 5  # of a way back, beside those that its length asks for
+LAPSES, ROOM = 2.0, 4.6  # s and deg in which a command that is not repeated is to end
 STEER, ARRIVED = 2.0, 0.12  # 1/s and deg of a way that is steered by speeds
 
 Pause = Generator[Wait | Question, str, None]
@@ -35,6 +36,14 @@ class Shift(NamedTuple):
     code: int | None
     track: list[Places]
     sent: float
+
+
+class Lapse(NamedTuple):
+    """How far (deg) an angle went by a command that was sent for `sent` s, and whether it stopped by itself."""
+
+    went: float
+    sent: float
+    stopped: bool
 
 
 def wait(bench: GimbalBench, seconds: float, progress: str = "") -> Pause:
@@ -73,15 +82,16 @@ def shift(
 
     One that was lost on the way, without an answer and without a motion, is sent again.
     """
-    for _ in range(TRIES):
+    tries = 0
+    while True:
         before, sent = bench.mean(), bench.now
         sequence = bench.increment(index, way, seconds)
         yield from wait(bench, seconds, progress)
         yield from rest(bench)
         done = Shift(gone(before, bench.mean()), bench.code(sequence), bench.since(sent), sent)
-        if done.code is not None or max(map(abs, done.moved)) >= MOVED:
-            break
-    return done
+        tries += 1
+        if done.code is not None or max(map(abs, done.moved)) >= MOVED or tries == TRIES:
+            return done
 
 
 def cruise(
@@ -105,6 +115,24 @@ def pulse(
     yield from let_go(bench)
     yield from rest(bench, 0.1)
     return moved
+
+
+def lapse(
+    bench: GimbalBench, index: int, value: float, seconds: float, send: Callable[[float], object]
+) -> Generator[Wait | Question, str, Lapse]:
+    """Send `value` for so long, and then no more: how far the angle goes says how long the last one held."""
+    start, begin = bench.mean()[index], bench.now
+    yield from cruise(bench, value, seconds, send, "the last command is on its way")
+    last = bench.now - 0.02  # between the last one and the next that did not come
+    end = bench.now + LAPSES
+    while bench.now < end and abs(around(bench.mean(0.06)[index] - start)) < ROOM:
+        yield Wait(0.02, "nothing is sent: it should stop by itself")
+        if bench.now > last + 0.8 and bench.still:
+            break
+    stopped = bench.still
+    if stopped:
+        yield from wait(bench, 0.1 + SETTLE)
+    return Lapse(abs(around(bench.mean()[index] - start)), last - begin, stopped)
 
 
 def less(moved: tuple[float, float, float], baseline: tuple[float, float, float]) -> tuple[float, float, float]:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teleop.commission.findings import Fact, Findings, Subject
-from teleop.commission.gimbal.base import WAYS, GimbalStep, direction_question
+from teleop.commission.gimbal.base import WAYS, AxisStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import FURTHEST, MOVED, SETTLE, TRIES, Shift, home, moving_part, rest, shift, wait
 from teleop.commission.gimbal.places import around
@@ -24,14 +24,11 @@ FIT = "the constant speed that the readings fit best"
 NAMEABLE = ((-180.0, 180.0), (-30.0, 30.0), (-56.0, 146.0))  # yaw, roll, pitch: V2.5, figure 7
 
 
-class PositionStep(GimbalStep):
+class PositionStep(AxisStep):
     """2 degrees to one side and back, at 2 deg/s; then what a second command does to the first."""
 
-    moves = True
-
     def __init__(self, bench: GimbalBench, index: int) -> None:
-        super().__init__(bench)
-        self.index, self.name = index, bench.name(index)
+        super().__init__(bench, index)
         name, way = self.name, WAYS[self.name][0]
         self.key, self.title = f"position-{name}", f"Position command: {name}"
         self.about = (
@@ -108,9 +105,11 @@ class PositionStep(GimbalStep):
         """Out by 2 deg in 1 s, and half way the first half of that back."""
         bench, index = self.bench, self.index
         sign = bench.position_signs[index]
-        for _ in range(TRIES):
+        tries = 0
+        while True:
             begin, sent = bench.mean()[index], bench.now
-            if (yield from self._out_and_back()):
+            answered, tries = (yield from self._out_and_back()), tries + 1
+            if answered or tries == TRIES:
                 break
             yield from home(bench)
         track = [(time, sign * (place - begin)) for time, place in moving_part(bench.since(sent), index, begin)]
