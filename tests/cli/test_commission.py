@@ -24,10 +24,11 @@ URL = "udp_multicast:239.74.163.61"
 
 def to_the_first_move(terminal: TerminalScreen) -> None:
     """Through what only asks, and past what can be skipped, to the page of pan's position command."""
-    terminal.wait_until(lambda rows: any("Leave 10 cm" in row or "Enter next" in row for row in rows), "a page")
-    while not any("Leave 10 cm" in row for row in terminal.rows):  # a busy computer loses replies, which is shown
-        terminal.type("\n")
-        terminal.wait_until(lambda rows: any("Leave 10 cm" in row or "Enter next" in row for row in rows), "a page")
+    pages = "Leave 10 cm", "Enter next", "r repeats"
+    while "Leave 10 cm" not in terminal.text:  # a busy computer loses replies, or stalls: both are shown
+        terminal.wait_until(lambda rows: any(page in row for page in pages for row in rows), "a page")
+        if "Leave 10 cm" not in terminal.text:
+            terminal.type("\n")
     terminal.type("\n")
     terminal.wait_for("balanced, unlocked and on?")
     terminal.type("y")

@@ -93,6 +93,18 @@ def test_no_step_is_faster_or_further_than_it_says_and_killed_at_any_moment_noth
     assert bench.gimbal.angles == pytest.approx((0, 0, 0), abs=0.3)
 
 
+def test_what_drifts_and_cannot_be_brought_back_does_not_wander_off(tmp_path: Path) -> None:
+    """Its steps are refused, each with the reason, and no way back is tried again and again."""
+    bench = Variant(refuses=("position",), ignores_speed=True, drift=-0.6).bench(tmp_path)
+    bench.operator.skips = lambda page: not page.key.startswith(("ready", "position", "speed", "stick"))
+    furthest: list[float] = []
+    bench.watch = lambda: furthest.append(max(map(abs, bench.gimbal.angles)))
+    bench.run()
+    assert max(furthest) < 12
+    assert any("turn it back by hand, then repeat this step" in trouble for trouble in bench.operator.troubles)
+    assert not bench.gimbal.controlled
+
+
 def test_a_camera_that_records_is_a_reason_not_to_begin(tmp_path: Path) -> None:
     bench = CommissionBench(tmp_path / "out.yaml")
     bench.gimbal._camera.recording = True

@@ -75,6 +75,7 @@ class GimbalBench:
         self.back_speed = 4.0  # deg/s of the way back
         self.full_stick = [0.0, 0.0, 0.0]  # deg/s of the reading at full deflection, with its sign; 0 where unknown
         self.pushes_on = False
+        self._in_vain: tuple[object, ...] = ()  # what was known when the way back led nowhere
         self._places: deque[Places] = deque()
         self._reach: float | None = None
         self._reach_from: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -191,7 +192,11 @@ class GimbalBench:
         return {index: way for index, way in ways.items() if abs(way) > near}
 
     def restore(self) -> Script:
-        yield from home(self)
+        """Where that led nowhere it is not tried again, until something more is known of what moves it."""
+        known = (*self.obeys_position, *self.speed_signs, *self.full_stick)
+        if known != self._in_vain:
+            yield from home(self)
+            self._in_vain = known if self.ways_back() else ()
         return ()
 
     def mark_begin(self) -> None:
@@ -206,7 +211,14 @@ class GimbalBench:
             self.begin = yaw, third, second
 
     def allow(self, reach: float) -> None:
-        """From now on no angle goes further than `reach` (deg) from here, and a little."""
+        """From now on no angle goes further than `reach` (deg) from here, and a little.
+
+        Raises DeviceError where an angle is that far from where it began already: it must not wander off step by step.
+        """
+        for index, way in self.ways_back().items():
+            if abs(way) > reach:
+                place = f"{self.name(index)} is {abs(way):.0f} deg from where it began, and nothing brings it back"
+                raise DeviceError(f"{place}: turn it back by hand, then repeat this step")
         self._reach, self._reach_from = reach + 1.0 + 4 * self.noise, self.mean()
 
     def _check_reach(self) -> None:

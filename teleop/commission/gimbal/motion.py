@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from teleop.commission.gimbal.places import Places, around, gone
@@ -24,6 +24,7 @@ ANSWERED, TRIES = 0.3, 3  # s for an answer, and how often it is asked for
 MOVED = 0.35  # deg: less is noise
 PARTS = 5  # of a way back, beside those that its length asks for
 LAPSES, ROOM = 2.0, 4.6  # s and deg in which a command that is not repeated is to end
+ASTRAY = 3.0  # deg that a way back may lead away, until it is given up
 STEER, ARRIVED = 2.0, 0.12  # 1/s and deg of a way that is steered by speeds
 
 Pause = Generator[Wait | Question, str, None]
@@ -152,14 +153,21 @@ def home(bench: GimbalBench) -> Pause:
 
     It ends where that leads nowhere: nothing must be driven on and on.
     """
+    start = bench.ways_back()
     for index in bench.driven:
         before, failed, sign = math.inf, 0, 1.0
         left = PARTS + abs(bench.ways_back().get(index, 0.0)) / bench.back_speed
-        while (way := bench.ways_back().get(index, 0.0)) and failed < 4 and left > 0:
+        while (way := bench.ways_back().get(index, 0.0)) and failed < 4 and left > 0 and not _astray(bench, start):
             failed = failed + 1 if abs(way) > before - 0.1 else 0
             sign = -sign if failed in (2, 3) else sign
             before, left = abs(way), left - 1
             yield from _home_by(bench, index, sign, way, f"{bench.name(index)} goes back, {abs(way):.1f} deg left")
+
+
+def _astray(bench: GimbalBench, start: Mapping[int, float]) -> bool:
+    """Whether the way back has led an angle further away."""
+    ways = bench.ways_back()
+    return any(abs(way) > abs(start.get(index, 0.0)) + ASTRAY + 4 * bench.noise for index, way in ways.items())
 
 
 def _home_by(bench: GimbalBench, index: int, sign: float, way: float, progress: str) -> Pause:
@@ -180,7 +188,8 @@ def _steer(bench: GimbalBench, index: int, target: float, send: Callable[[float]
     """To a reading, by speeds that shrink on the way; for as long as that should take, and a little."""
     way = around(target - bench.mean()[index])
     end = bench.now + abs(way) / bench.back_speed + 2.0
-    while bench.now < end and abs(way) > ARRIVED:
+    most = abs(way) + ASTRAY
+    while bench.now < end and ARRIVED < abs(way) < most:
         send(max(-bench.back_speed, min(bench.back_speed, STEER * way)))
         yield Wait(0.04, progress)
         way = around(target - bench.mean(0.06)[index])
