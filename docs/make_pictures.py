@@ -50,6 +50,7 @@ SCREENS: dict[str, tuple[list[str], Keys, str]] = {
         ),
         "pan goes 2 deg",
     ),
+    "commission-drone": (["commission", "--rig", "sim-drone"], (), "Take all propellers off"),
     "live": (["live"], (("arrows jog", "L"), (r"pan .* \+10\.00 ", "K"), (r"tilt .* \+10\.00 ", "s1")), "presets +1"),
 }
 """By picture: the command, what is typed, and the text that it has when the picture is taken."""
@@ -62,6 +63,8 @@ def main(folder: Path) -> None:
         while screen is None:
             with tempfile.TemporaryDirectory() as place:
                 screen = run(command, keys, until, Path(place))
+                for page in Path(place).glob("commission-*/report.html"):
+                    shot(page, folder / "commission-report.png")
         (folder / f"{name}.svg").write_text(drawn(screen, " ".join(["teleop", *command])), encoding="utf-8")
     photograph(folder)
 
@@ -167,10 +170,6 @@ def color(name: str, default: str) -> str:
 
 def photograph(folder: Path) -> None:
     """The preview of a move and the report of a take, as PNG."""
-    browser = shutil.which("chromium") or shutil.which("google-chrome")
-    if browser is None:
-        sys.stderr.write("Chromium is not installed: no pictures of the pages\n")
-        return
     with tempfile.TemporaryDirectory() as place:
         for command in (
             "preview reveal -o preview.html",
@@ -179,10 +178,18 @@ def photograph(folder: Path) -> None:
         ):
             subprocess.run([*TELEOP, *command.split()], cwd=place, check=True, capture_output=True)
         for name in ("preview", "report"):
-            options = ["--headless", "--no-sandbox", "--hide-scrollbars", "--window-size=840,450"]
-            picture = f"--screenshot={folder.resolve() / name}.png"
-            page = Path(place, f"{name}.html").as_uri()
-            subprocess.run([browser, *options, picture, page], check=True, capture_output=True, timeout=LONGEST)
+            shot(Path(place, f"{name}.html"), folder / f"{name}.png")
+
+
+def shot(page: Path, picture: Path) -> None:
+    """A photograph of a page."""
+    browser = shutil.which("chromium") or shutil.which("google-chrome")
+    if browser is None:
+        sys.stderr.write(f"Chromium is not installed: no {picture.name}\n")
+        return
+    options = ["--headless", "--no-sandbox", "--hide-scrollbars", "--window-size=840,450"]
+    shown = f"--screenshot={picture.resolve()}"
+    subprocess.run([browser, *options, shown, page.as_uri()], check=True, capture_output=True, timeout=LONGEST)
 
 
 if __name__ == "__main__":

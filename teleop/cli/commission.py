@@ -108,18 +108,21 @@ def _keyboard() -> Keyboard:
 
 def _report(made: Commissioning | DroneCommissioning, kept: Kept, interrupted: bool, as_json: bool) -> int:
     findings, profile = made.findings, _profile_written(made)
-    is_done = profile is not None if isinstance(made, Commissioning) else not made.runner.reason
+    reason = made.runner.reason
+    if not reason and all(fact.found is None for fact in findings.facts):
+        reason = "nothing was found: every step was skipped, or had no point"
+    is_done = profile is not None if isinstance(made, Commissioning) else not reason
     if as_json:
         report = {"ok": is_done, "profile": profile, **kept.facts(findings)}
-        print(json.dumps({**report, "reason": made.runner.reason, "findings": json.loads(findings.to_json())}))
+        print(json.dumps({**report, "reason": reason, "findings": json.loads(findings.to_json())}))
         return CODE if interrupted else 0 if is_done else FAILED
     if profile is not None:
         announce(f"{profile}: {counted(findings)}. Try it: teleop live --rig {profile}", Path(profile))
     elif isinstance(made, DroneCommissioning) and is_done:
         tell(f"{counted(findings)}. The gimbal of this rig: teleop commission --device gimbal")
     kept.tell(findings)
-    if made.runner.reason:
-        complain(f"teleop: {made.runner.reason}")
+    if reason:
+        complain(f"teleop: {reason}")
     if isinstance(made, Commissioning) and profile is None:
         complain("teleop: no profile was written")
     return CODE if interrupted else 0 if is_done else FAILED

@@ -61,14 +61,9 @@ def written(value: Value, unit: str) -> str:
         return "-"
     if isinstance(value, bool):
         return "yes" if value else "no"
-    text = (
-        f"{value:.4g}"
-        if isinstance(value, float) and not value.is_integer()
-        else f"{value:g}"
-        if _is_number(value)
-        else str(value)
-    )
-    return f"{text} {unit}".rstrip()
+    if isinstance(value, float):
+        value = int(value) if value.is_integer() else f"{value:.4g}"
+    return f"{value} {unit}".rstrip()
 
 
 def _change(before: Fact | None, now: Fact | None) -> Change | None:

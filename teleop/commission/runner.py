@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from teleop.commission.findings import Fact, Findings
+from teleop.commission.findings import Fact, Findings, Verdict
 from teleop.commission.page import END, GO, REPEAT, RUBOUT, SKIP, STOP, Page, Stage
 from teleop.commission.step import Device, Question, Script, Step
 from teleop.core.errors import DeviceError, LinkError
@@ -235,7 +235,8 @@ class Runner:
 
     def _show(self, now: float) -> None:
         self.stage = Stage.SHOWN
-        nothing_to_read = self.step.automatic or not self.step.subjects
+        expected = all(fact.verdict is not Verdict.DIFFERENT for fact in self._facts)
+        nothing_to_read = not self.step.subjects or (self.step.automatic and expected)
         if nothing_to_read and not self._trouble:
             self._next(now)
 
@@ -333,7 +334,7 @@ class Runner:
             consent=step.consent,
             question=question.text if question else "",
             typed=task.typed if task and question and question.word else None,
-            progress=task.progress if task else "",
+            progress=task.progress if task and not question else "",
             trouble=self._trouble,
             facts=self._facts,
             keys=self._keys(question),
@@ -347,7 +348,8 @@ class Runner:
             case Stage.RUNNING | Stage.RESTORING:
                 return {STOP: "STOP"}
             case Stage.ASKING if question is not None:
-                return {**question.choices, **({GO: "answers"} if question.word else {}), STOP: "STOP"}
+                own = {GO: "answers"} if question.word else {END: "ends", **question.choices}
+                return {**question.choices, **own, STOP: "STOP"}
             case Stage.SHOWN if self._trouble:
                 return {REPEAT: "repeats", SKIP: "skips", END: "ends"}
             case Stage.SHOWN:

@@ -99,6 +99,11 @@ class Connection:
         return sum(getattr(self._link, "foreign", {}).values())
 
     @property
+    def with_own_id(self) -> int:
+        """CAN frames with the host's id that arrived: before anything was sent, those of another host."""
+        return getattr(self._link, "with_own_id", 0)
+
+    @property
     def warnings(self) -> Iterator[str]:
         """What is wrong with it and ends nothing, in a line each that stays the same."""
         if self._behind:

@@ -19,6 +19,7 @@ from teleop.links.url import LinkAddress
 HOST_ID = 0x223  # what the host sends: DJI R SDK Protocol V2.5, section 3.1, figure 38
 GIMBAL_ID = 0x222
 
+ECHOING = ("udp_multicast",)  # the interfaces on which one's own frames come back
 _PIECE = 8  # bytes in a CAN frame
 
 
@@ -70,6 +71,8 @@ class Adapter(Protocol):
 class CanLink(BufferedLink):
     """DJI frames over CAN: sends on `transmit_id`, receives `receive_id`, counts the frames of other ids in `foreign`.
 
+    `with_own_id` counts what arrives with `transmit_id`: its own frames, where the bus echoes them, or another host's.
+
     The defaults are the host's ids; a simulated gimbal has them the other way round. `counts` has the outbox's and the
     adapter's: `damage` (what arrived was no CAN frame), `error frames`, `bus off`, `refused`. `now` is a clock in
     seconds. Raises LinkError when the bus cannot be opened. `tap` is called with every frame of the bus, those sent
@@ -86,6 +89,7 @@ class CanLink(BufferedLink):
     ) -> None:
         super().__init__(address, _PIECE, now)
         self.foreign: Counter[int] = Counter()
+        self.with_own_id = 0
         self._transmit_id, self._receive_id = transmit_id, receive_id
         self._adapter = _open(address, self.counts, now)
         self._failures = self._adapter.failures
@@ -112,7 +116,7 @@ class CanLink(BufferedLink):
     def _put(self, piece: bytes) -> int:
         if not self._adapter.put(self._transmit_id, piece):
             return 0
-        if self._adapter.tap:
+        if self._adapter.tap and self.address.interface not in ECHOING:  # an echo is heard when it comes back
             self._adapter.tap(BusFrame(self._transmit_id, piece))
         return len(piece)
 
@@ -125,7 +129,9 @@ class CanLink(BufferedLink):
     def _is_ours(self, arrival: Arrival) -> bool:
         if arrival.ordinary and arrival.id == self._receive_id:
             return True
-        if not (arrival.ordinary and arrival.id == self._transmit_id):
+        if arrival.ordinary and arrival.id == self._transmit_id:
+            self.with_own_id += 1
+        else:
             self.foreign[arrival.id] += 1
         return False
 

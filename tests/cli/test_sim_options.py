@@ -28,6 +28,10 @@ def test_without_options_there_are_devices_as_documented():
         ({"pitch_max": 180}, r"--pitch-max must be 1\.\.179 deg, not 180"),
         ({"speed_signs": "yaw=2"}, r"--speed-signs yaw=2: write yaw, roll or pitch"),
         ({"report_signs": "pan=-1"}, r"--report-signs pan=-1"),
+        ({"signs": "yaw=-2"}, r"--signs yaw=-2: write yaw, roll or pitch"),
+        ({"bus_errors": 1.1}, r"--bus-errors must be 0\.\.1, not 1\.1"),
+        ({"bus_errors": float("nan")}, r"--bus-errors must be 0\.\.1"),
+        ({"refuses": "position,focus"}, r"--refuses position,focus: write position, speed, stick, mode, not focus"),
     ],
 )
 def test_a_gimbal_that_cannot_be_is_refused_by_the_option_s_name(options: dict, error: str):

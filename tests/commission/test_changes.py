@@ -44,7 +44,14 @@ def test_measured_numbers_may_differ_a_little(subject: Subject, before: float, n
 
 @pytest.mark.parametrize(
     ("value", "unit", "text"),
-    [(True, "", "yes"), (False, "", "no"), (None, "s", "-"), (0.0812345, "s", "0.08123 s"), (145.0, "deg", "145 deg")],
+    [
+        (True, "", "yes"),
+        (False, "", "no"),
+        (None, "s", "-"),
+        (0.0812345, "s", "0.08123 s"),
+        (145.0, "deg", "145 deg"),
+        (1000000, "bit/s", "1000000 bit/s"),
+    ],
 )
 def test_values_as_people_read_them(value: bool | float | None, unit: str, text: str) -> None:
     assert written(value, unit) == text

@@ -14,6 +14,8 @@ SHOWN = {
     "check.svg": "Slow reveal: 15.00 s on Simulated rig",
     "play.svg": " playing",
     "live.svg": "preset 1 stored",
+    "commission.svg": "pan goes 2 deg to one side",
+    "commission-drone.svg": "Take all propellers off",
 }
 """What each screen has."""
 

@@ -127,9 +127,9 @@ class CommissionBench:
     def run(self, until: str = "") -> Findings:
         """To the end, or to the page of the step `until`."""
         end = self.clock.now() + LONGEST
-        while not self.runner.over and self.runner.page.key != until:
-            assert self.clock.now() < end, self.runner.page
-            self.turn(*self.operator.keys(self.runner.page, self.clock.now()))
+        while not self.runner.over and (page := self.runner.page).key != until:
+            assert self.clock.now() < end, page
+            self.turn(*self.operator.keys(page, self.clock.now()))
         return self.made.findings
 
     @property

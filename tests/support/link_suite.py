@@ -82,6 +82,19 @@ class CanSuite(LinkSuite):
         assert collect(near, 12) == b"the gimbal's"
         assert near.foreign == {0x530: 2, 0x222: 1}  # type: ignore[attr-defined]  # every CanLink has it
 
+    def test_what_is_tapped_has_each_frame_once_and_another_host_is_counted(self, ends: Ends, inject) -> None:
+        near, far = ends
+        heard: list[tuple[int, bytes]] = []
+        near.tap = lambda frame: heard.append((frame.id, frame.data))  # type: ignore[attr-defined]
+        inject(0x223, b"other")
+        wait_until(lambda: near.receive() == b"" and near.with_own_id == 1)  # type: ignore[attr-defined]
+        near.send(b"question")
+        arrived = bytearray()
+        wait_until(lambda: arrived.extend(far.receive()) or arrived.endswith(b"question"))
+        far.send(b"answer")
+        assert collect(near, 6) == b"answer"
+        assert heard == [(0x223, b"other"), (0x223, b"question"), (0x222, b"answer")]
+
     def test_frames_of_two_threads_never_interleave(self, ends: Ends) -> None:
         near, far = ends
         frames = [[bytes([mark]) * 26 for _ in range(20)] for mark in (1, 2)]

@@ -28,14 +28,14 @@ class ProfileStep:
 
     @property
     def about(self) -> Sequence[str]:
-        verb = "updated, its comments kept" if self.file.updates else "written"
-        head = f"{self.file.file} is {verb}. Found:"
+        verb = "updates" if self.file.updates else "writes"
+        head = f"Enter {verb} {self.file.file}{', its comments kept' * self.file.updates}. New in it:"
         if self._findings is None:
             return (head,)
         settings = self.file.settings(self._findings)
         lines = [line for notes in settings.notes.values() for line in notes]
         more = [f"and {len(lines) - SHOWN} more"] if len(lines) > SHOWN else []
-        return (head, *(f"  {line}" for line in lines[:SHOWN]), *more) if lines else (f"{head} nothing for it",)
+        return (head, *(f"  {line}" for line in lines[:SHOWN]), *more) if lines else (f"{head} nothing",)
 
     def script(self, findings: Findings) -> Script:
         yield Wait(0.0, "writing")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Self
@@ -15,7 +16,9 @@ from teleop.commission.findings import Fact, Verdict
 from teleop.commission.page import Page, Stage
 
 _TITLE = 46  # cells of what a fact is about
+_VALUE = 14  # and of its value
 _STYLES = {Verdict.DOCUMENTED: "green", Verdict.DIFFERENT: "yellow", Verdict.NOT_SEEN: "dim"}
+_UNBROKEN = "\u00a0"  # a space at which no line ends: between a key and what it does
 _KEYS = {"enter": "Enter", "space": "space"}
 
 
@@ -55,36 +58,50 @@ class CommissionView:
             for line in _in_lines(page):
                 self._lines.notify(line)
 
-    def _draw(self, width: int, height: int) -> Rows:  # noqa: ARG002 - Rows fit themselves
+    def _draw(self, width: int, height: int) -> Rows:  # noqa: ARG002 - Rows fit themselves in height
         page = self._shown
         place = f"step {page.number} of {page.total}"
         title = f" {self._rig}: {page.title}"[: max(0, width - len(place) - 2)]
         state: list[Text] = []
         if page.stage is Stage.SHOWN:
-            state = [_fact_row(fact) for fact in page.facts]
+            state = [row for fact in page.facts for row in _fact_rows(fact, width)]
             if page.displaced:
                 state.append(Text(f" It goes back to where it began: {page.displaced}", "yellow"))
         elif page.progress:
             state = [Text(f" {page.progress}", "cyan")]
+        trouble = _wrapped(page.trouble, width)
         return Rows(
             title=Text(title.ljust(width - len(place) - 1) + place, "reverse"),
-            banner=Text(f" {page.trouble}", "bold red") if page.trouble else Text(),
-            axes=[Text(), *_head(page), Text()],
+            banner=Text(f" {trouble[0]}", "bold red") if trouble else Text(),
+            axes=[*(Text(f" {line}", "bold red") for line in trouble[1:]), Text(), *_head(page, width), Text()],
             state=state,
-            bottom=[Text(f" {line}", "bold" if page.question else "") for line in _bottom(page)],
+            bottom=[
+                Text(f" {line}", "bold" if page.question else "")
+                for text in _bottom(page)
+                for line in _wrapped(text, width)
+            ],
         )
 
 
-def _head(page: Page) -> list[Text]:
+def _wrapped(text: str, width: int) -> list[str]:
+    """In lines that leave a cell free on either side; the space in front of the first stays."""
+    space = " " * (len(text) - len(text.lstrip(" ")))
+    lines = textwrap.wrap(text.strip(), max(10, width - 2), initial_indent=space, subsequent_indent=space)
+    return [line.replace(_UNBROKEN, " ") for line in lines]
+
+
+def _head(page: Page, width: int) -> list[Text]:
     if page.stage is Stage.SHOWN and not page.trouble:
         return [Text(" Found:", "bold")]
     style = "" if page.stage is Stage.PROMPT else "dim"
-    lines = [Text(f" {line}", style) for line in page.lines]
-    return [*lines, *([Text(f" {page.consent}", "yellow")] if page.consent else [])]
+    lines = [Text(f" {line}", style) for text in page.lines for line in _wrapped(text, width)]
+    return [*lines, *(Text(f" {line}", "yellow") for line in _wrapped(page.consent, width))]
 
 
 def _bottom(page: Page) -> list[str]:
-    keys = "   ".join(f"{_KEYS.get(key, key)} {does}" for key, does in page.keys.items())
+    keys = "   ".join(
+        f"{_KEYS.get(key, key)}{_UNBROKEN}{does.replace(' ', _UNBROKEN)}" for key, does in page.keys.items()
+    )
     asked = [] if not page.question else [page.question]
     typed = [f"> {page.typed}_"] if page.typed is not None else []
     match page.stage:
@@ -95,10 +112,13 @@ def _bottom(page: Page) -> list[str]:
     return [*asked, *typed, keys]
 
 
-def _fact_row(fact: Fact) -> Text:
-    row = Text(f" {fact.title[:_TITLE]:<{_TITLE}} {written(fact.found, fact.unit):<14} ")
+def _fact_rows(fact: Fact, width: int) -> list[Text]:
+    """A line; a value that is too long for its column has lines of its own."""
+    value = written(fact.found, fact.unit)
+    below = [Text(f" {line}") for line in _wrapped(f"  {value}", width)] if len(value) > _VALUE else []
+    row = Text(f" {fact.title[:_TITLE]:<{_TITLE}} {'' if below else value:<{_VALUE}} ")
     row.append(fact.verdict, _STYLES[fact.verdict])
-    return row
+    return [row, *below]
 
 
 def _in_lines(page: Page) -> list[str]:
@@ -109,6 +129,7 @@ def _in_lines(page: Page) -> list[str]:
             if page.trouble
             else [f"{fact.title}: {written(fact.found, fact.unit)}" for fact in page.facts]
         )
+    bottom = [line.replace(_UNBROKEN, " ") for line in _bottom(page)]
     if page.stage is Stage.PROMPT:
-        return [page.title, *page.lines, *filter(None, [page.consent]), *_bottom(page)]
-    return _bottom(page) if page.question else [page.trouble] if page.trouble else []
+        return [page.title, *page.lines, *filter(None, [page.consent]), *bottom]
+    return bottom if page.question else [page.trouble] if page.trouble else []

@@ -14,7 +14,7 @@ NO_ANGLES = "no angles are read"
 
 
 class GimbalStep:
-    """A step on a bench; those of an axis have its place `index` among yaw, roll and pitch."""
+    """A step on a bench."""
 
     key = title = consent = ""
     about: Sequence[str] = ()
@@ -30,6 +30,16 @@ class GimbalStep:
 
     def script(self, findings: Findings) -> Script:
         raise NotImplementedError
+
+
+class AxisStep(GimbalStep):
+    """A step that moves one axis, the one with the place `index` among yaw, roll and pitch."""
+
+    moves = True
+
+    def __init__(self, bench: GimbalBench, index: int) -> None:
+        super().__init__(bench)
+        self.index, self.name = index, bench.name(index)
 
 
 def direction_question(name: str) -> Question:

@@ -69,12 +69,13 @@ class GimbalBench:
         self.answered: dict[int, Answer] = {}
         self.frames: list[tuple[float, Received]] = []  # all that came, while `keeps_frames`
         self.keeps_frames = False
-        self.asked = self.replied = 0  # questions for the angles
+        self.replied = self.lost = 0  # questions for the angles; those that are still on their way are in neither
         self.reply_times: deque[float] = deque(maxlen=200)  # s
         self.begin: tuple[float, float, float] | None = None
         self.back_speed = 4.0  # deg/s of the way back
         self.full_stick = [0.0, 0.0, 0.0]  # deg/s of the reading at full deflection, with its sign; 0 where unknown
         self.pushes_on = False
+        self._in_vain: tuple[object, ...] = ()  # what was known when the way back led nowhere
         self._places: deque[Places] = deque()
         self._reach: float | None = None
         self._reach_from: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -191,7 +192,11 @@ class GimbalBench:
         return {index: way for index, way in ways.items() if abs(way) > near}
 
     def restore(self) -> Script:
-        yield from home(self)
+        """Where that led nowhere it is not tried again, until something more is known of what moves it."""
+        known = (*self.obeys_position, *self.speed_signs, *self.full_stick)
+        if known != self._in_vain:
+            yield from home(self)
+            self._in_vain = known if self.ways_back() else ()
         return ()
 
     def mark_begin(self) -> None:
@@ -206,7 +211,14 @@ class GimbalBench:
             self.begin = yaw, third, second
 
     def allow(self, reach: float) -> None:
-        """From now on no angle goes further than `reach` (deg) from here, and a little."""
+        """From now on no angle goes further than `reach` (deg) from here, and a little.
+
+        Raises DeviceError where an angle is that far from where it began already: it must not wander off step by step.
+        """
+        for index, way in self.ways_back().items():
+            if abs(way) > reach:
+                place = f"{self.name(index)} is {abs(way):.0f} deg from where it began, and nothing brings it back"
+                raise DeviceError(f"{place}: turn it back by hand, then repeat this step")
         self._reach, self._reach_from = reach + 1.0 + 4 * self.noise, self.mean()
 
     def _check_reach(self) -> None:
@@ -230,15 +242,18 @@ class GimbalBench:
 
     def increment(self, index: int, way: float, seconds: float) -> int:
         """Turn one angle by `way` (deg, in the signs of positions)."""
-        angles = [way if each == index else 0.0 for each in range(3)]
-        ignored = [each != index for each in range(3)]
-        return self.request(gimbal.Position(*angles, False, *ignored, time_for_action=round(seconds, 1)))
+        return self._position(index, way, seconds, absolute=False)
 
     def target(self, index: int, angle: float, seconds: float) -> int:
         """Turn one angle to `angle` (deg, as positions count it)."""
-        angles = [around(angle) if each == index else 0.0 for each in range(3)]
-        ignored = [each != index for each in range(3)]
-        return self.request(gimbal.Position(*angles, True, *ignored, time_for_action=round(seconds, 1)))
+        return self._position(index, around(angle), seconds, absolute=True)
+
+    def _position(self, index: int, angle: float, seconds: float, *, absolute: bool) -> int:
+        yaw, roll, pitch = (angle if each == index else 0.0 for each in range(3))
+        no_yaw, no_roll, no_pitch = (each != index for each in range(3))
+        ignored = no_yaw, no_roll, no_pitch
+        message = gimbal.Position(yaw, roll, pitch, absolute, *ignored, time_for_action=round(seconds, 1))
+        return self.request(message)
 
     def speed(self, index: int, value: float) -> int:
         """Turn one angle at `value` deg/s, in the signs of speeds; 0 for the others."""
@@ -265,7 +280,6 @@ class GimbalBench:
             self.connection.stream(gimbal.VersionPush(version=own_version()))
         if now >= self._ask_at - 1e-6:
             self._ask_at = now + ASK
-            self.asked += 1
             self.connection.request(gimbal.Angles(AngleKind.ATTITUDE), now)
         if self._unanswered > 3 and now >= self._alive_at - 1e-6:
             self._alive_at = now + ALIVE
@@ -283,6 +297,7 @@ class GimbalBench:
         reply = answer.reply
         if reply is None:
             self._unanswered += 1
+            self.lost += 1
             return
         self._unanswered = 0
         self.replied += 1

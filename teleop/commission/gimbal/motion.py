@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from teleop.commission.gimbal.places import Places, around, gone
@@ -23,6 +23,8 @@ LATE = 0.6  # s by which the effect of a command may be late
 ANSWERED, TRIES = 0.3, 3  # s for an answer, and how often it is asked for
 MOVED = 0.35  # deg: less is noise
 PARTS = 5  # of a way back, beside those that its length asks for
+LAPSES, ROOM = 2.0, 4.6  # s and deg in which a command that is not repeated is to end
+ASTRAY = 3.0  # deg that a way back may lead away, until it is given up
 STEER, ARRIVED = 2.0, 0.12  # 1/s and deg of a way that is steered by speeds
 
 Pause = Generator[Wait | Question, str, None]
@@ -35,6 +37,14 @@ class Shift(NamedTuple):
     code: int | None
     track: list[Places]
     sent: float
+
+
+class Lapse(NamedTuple):
+    """How far (deg) an angle went by a command that was sent for `sent` s, and whether it stopped by itself."""
+
+    went: float
+    sent: float
+    stopped: bool
 
 
 def wait(bench: GimbalBench, seconds: float, progress: str = "") -> Pause:
@@ -73,15 +83,16 @@ def shift(
 
     One that was lost on the way, without an answer and without a motion, is sent again.
     """
-    for _ in range(TRIES):
+    tries = 0
+    while True:
         before, sent = bench.mean(), bench.now
         sequence = bench.increment(index, way, seconds)
         yield from wait(bench, seconds, progress)
         yield from rest(bench)
         done = Shift(gone(before, bench.mean()), bench.code(sequence), bench.since(sent), sent)
-        if done.code is not None or max(map(abs, done.moved)) >= MOVED:
-            break
-    return done
+        tries += 1
+        if done.code is not None or max(map(abs, done.moved)) >= MOVED or tries == TRIES:
+            return done
 
 
 def cruise(
@@ -107,6 +118,24 @@ def pulse(
     return moved
 
 
+def lapse(
+    bench: GimbalBench, index: int, value: float, seconds: float, send: Callable[[float], object]
+) -> Generator[Wait | Question, str, Lapse]:
+    """Send `value` for so long, and then no more: how far the angle goes says how long the last one held."""
+    start, begin = bench.mean()[index], bench.now
+    yield from cruise(bench, value, seconds, send, "the last command is on its way")
+    last = bench.now - 0.02  # between the last one and the next that did not come
+    end = bench.now + LAPSES
+    while bench.now < end and abs(around(bench.mean(0.06)[index] - start)) < ROOM:
+        yield Wait(0.02, "nothing is sent: it should stop by itself")
+        if bench.now > last + 0.8 and bench.still:
+            break
+    stopped = bench.still
+    if stopped:
+        yield from wait(bench, 0.1 + SETTLE)
+    return Lapse(abs(around(bench.mean()[index] - start)), last - begin, stopped)
+
+
 def less(moved: tuple[float, float, float], baseline: tuple[float, float, float]) -> tuple[float, float, float]:
     """Without what zero does: a drift."""
     yaw, roll, pitch = (a - b for a, b in zip(moved, baseline, strict=True))
@@ -124,14 +153,21 @@ def home(bench: GimbalBench) -> Pause:
 
     It ends where that leads nowhere: nothing must be driven on and on.
     """
+    start = bench.ways_back()
     for index in bench.driven:
         before, failed, sign = math.inf, 0, 1.0
         left = PARTS + abs(bench.ways_back().get(index, 0.0)) / bench.back_speed
-        while (way := bench.ways_back().get(index, 0.0)) and failed < 4 and left > 0:
+        while (way := bench.ways_back().get(index, 0.0)) and failed < 4 and left > 0 and not _astray(bench, start):
             failed = failed + 1 if abs(way) > before - 0.1 else 0
             sign = -sign if failed in (2, 3) else sign
             before, left = abs(way), left - 1
             yield from _home_by(bench, index, sign, way, f"{bench.name(index)} goes back, {abs(way):.1f} deg left")
+
+
+def _astray(bench: GimbalBench, start: Mapping[int, float]) -> bool:
+    """Whether the way back has led an angle further away."""
+    ways = bench.ways_back()
+    return any(abs(way) > abs(start.get(index, 0.0)) + ASTRAY + 4 * bench.noise for index, way in ways.items())
 
 
 def _home_by(bench: GimbalBench, index: int, sign: float, way: float, progress: str) -> Pause:
@@ -152,7 +188,8 @@ def _steer(bench: GimbalBench, index: int, target: float, send: Callable[[float]
     """To a reading, by speeds that shrink on the way; for as long as that should take, and a little."""
     way = around(target - bench.mean()[index])
     end = bench.now + abs(way) / bench.back_speed + 2.0
-    while bench.now < end and abs(way) > ARRIVED:
+    most = abs(way) + ASTRAY
+    while bench.now < end and ARRIVED < abs(way) < most:
         send(max(-bench.back_speed, min(bench.back_speed, STEER * way)))
         yield Wait(0.04, progress)
         way = around(target - bench.mean(0.06)[index])
@@ -166,9 +203,9 @@ def sender(bench: GimbalBench, index: int, by_speed: bool) -> Callable[[float], 
     return lambda value: bench.push(index, round(15000 * value / bench.full_stick[index]))
 
 
-def moving_part(track: list[Places], index: int) -> list[tuple[float, float]]:
-    """The readings of one angle, unrolled: times and deg."""
+def moving_part(track: list[Places], index: int, near: float | None = None) -> list[tuple[float, float]]:
+    """The readings of one angle, times and deg, unrolled: within half a turn of `near`, or of the first of them."""
     if not track:
         return []
-    first = track[0].angles[index]
-    return [(each.time, first + around(each.angles[index] - first)) for each in track]
+    near = track[0].angles[index] if near is None else near
+    return [(each.time, near + around(each.angles[index] - near)) for each in track]

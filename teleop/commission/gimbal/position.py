@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from teleop.commission.findings import Fact, Findings, Subject
-from teleop.commission.gimbal.base import WAYS, GimbalStep, direction_question
+from teleop.commission.gimbal.base import WAYS, AxisStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import FURTHEST, MOVED, SETTLE, TRIES, Shift, home, moving_part, rest, shift, wait
+from teleop.commission.gimbal.places import around
 from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.step import Question, Script, Wait
 
@@ -18,17 +20,15 @@ REACH, SECONDS, SHORT = 2.0, 1.0, 0.5  # deg and s
 SLOWEST = 25.5  # s: a place that is not where it is thought to be is approached slowly
 LEAPS = 0.6  # deg
 LATEST, LONGEST = 0.9, 2.0  # s: the beginnings and lengths of a move that are tried
+FIT = "the constant speed that the readings fit best"
 NAMEABLE = ((-180.0, 180.0), (-30.0, 30.0), (-56.0, 146.0))  # yaw, roll, pitch: V2.5, figure 7
 
 
-class PositionStep(GimbalStep):
+class PositionStep(AxisStep):
     """2 degrees to one side and back, at 2 deg/s; then what a second command does to the first."""
 
-    moves = True
-
     def __init__(self, bench: GimbalBench, index: int) -> None:
-        super().__init__(bench)
-        self.index, self.name = index, bench.name(index)
+        super().__init__(bench, index)
         name, way = self.name, WAYS[self.name][0]
         self.key, self.title = f"position-{name}", f"Position command: {name}"
         self.about = (
@@ -44,8 +44,9 @@ class PositionStep(GimbalStep):
         self.absolute = Subject(f"position.absolute.{name}", f"Absolute positions of {name} are its readings", True)
         self.newer = Subject(f"position.newer.{name}", f"A newer command of {name} replaces the older one", True)
         self.step = Subject(f"angles.resolution.{name}", f"Steps of the angle of {name}", 0.1, "deg")
+        self.age = Subject(f"angles.age.{name}", f"Age of a reading of {name}, at most", None, "s")
         self.signs = sign_subjects(name)
-        own = (self.obeyed, self.error, self.travel, self.brief, self.absolute, self.newer, self.step)
+        own = (self.obeyed, self.error, self.travel, self.brief, self.absolute, self.newer, self.step, self.age)
         self.subjects = (*own, self.signs.order, self.signs.position, self.signs.report)
 
     def script(self, findings: Findings) -> Script:  # noqa: ARG002
@@ -56,7 +57,7 @@ class PositionStep(GimbalStep):
         if moved is None:
             return [self.obeyed.found(False, f"{_answered(first.code)}, and it did not move")]
         order = settle_order(bench, self.signs.order, index, moved)
-        way = bench.mean()[index] - self._began(first)
+        way = around(bench.mean()[index] - self._began(first))
         bench.position_signs[index], bench.obeys_position[index] = (1 if way > 0 else -1), True
         facts = [self.obeyed.found(True, f"{_answered(first.code)}, moved {abs(way):.1f} of {REACH:g} deg"), *order]
         facts.append(self.error.found(round(abs(way) - REACH, 2), f"after {REACH:g} deg", within=0.2 + bench.noise))
@@ -77,9 +78,13 @@ class PositionStep(GimbalStep):
     def _track_facts(self, first: Shift) -> list[Fact]:
         bench, index = self.bench, self.index
         track = moving_part(bench.since(first.sent - 0.3), index)
-        seconds, steps = travel_time(track), smallest_step(track)
-        how = "the constant speed that the readings fit best"
-        facts = [self.travel.not_seen("too few readings") if seconds is None else self._time(self.travel, seconds, how)]
+        fitted, steps = fitted_move(track), smallest_step(track)
+        if fitted is None:
+            facts = [each.not_seen("too few readings") for each in (self.travel, self.age)]
+        else:
+            late = max(0.0, fitted.begin - first.sent)
+            how = "from the command to where the readings begin to move: with the dead time of the motion"
+            facts = [self._time(self.travel, fitted.seconds, FIT), self.age.found(round(late, 2), how)]
         if bench.noise or steps is None:
             return [*facts, self.step.not_seen("the readings are noisy" if bench.noise else "too few readings")]
         return [*facts, self.step.found(round(steps, 2), "the smallest step between two readings", within=0.03)]
@@ -100,12 +105,14 @@ class PositionStep(GimbalStep):
         """Out by 2 deg in 1 s, and half way the first half of that back."""
         bench, index = self.bench, self.index
         sign = bench.position_signs[index]
-        for _ in range(TRIES):
+        tries = 0
+        while True:
             begin, sent = bench.mean()[index], bench.now
-            if (yield from self._out_and_back()):
+            answered, tries = (yield from self._out_and_back()), tries + 1
+            if answered or tries == TRIES:
                 break
             yield from home(bench)
-        track = [(time, sign * (place - begin)) for time, place in moving_part(bench.since(sent), index)]
+        track = [(time, sign * (place - begin)) for time, place in moving_part(bench.since(sent), index, begin)]
         furthest, end = max(place for _, place in track), track[-1][1]
         slack = 0.3 + 2 * bench.noise
         how = f"called back after {SHORT:g} s of {SECONDS:g}: it got {furthest:.1f} deg far and ended at {end:.1f}"
@@ -113,10 +120,10 @@ class PositionStep(GimbalStep):
         yield from home(bench)
         facts = [self.newer.found(replaces, how)]
         brief = yield from shift(bench, index, 1.0, SHORT, f"1 deg in {SHORT:g} s")
-        seconds = travel_time(moving_part(bench.since(brief.sent - 0.3), index))
-        if seconds is None:
+        fitted = fitted_move(moving_part(bench.since(brief.sent - 0.3), index))
+        if fitted is None:
             return [*facts, self.brief.not_seen("too few readings")]
-        return [*facts, self._time(self.brief, seconds, "the constant speed that the readings fit best")]
+        return [*facts, self._time(self.brief, fitted.seconds, FIT)]
 
     def _out_and_back(self) -> Generator[Wait | Question, str, bool]:
         """Whether both commands were answered: one that is lost says nothing."""
@@ -132,21 +139,28 @@ class PositionStep(GimbalStep):
         """To where it is, as an absolute position: it must stay. Where it does not, it is on a long way, slowly."""
         bench, index = self.bench, self.index
         here = bench.mean()[index]
-        angle = bench.position_signs[index] * here
+        angle = around(bench.position_signs[index] * here)
         low, high = NAMEABLE[index]
         if not low <= angle <= high:
             return [self.absolute.not_seen(f"{angle:.0f} deg is beyond what a position command can say")]
         sequence = bench.target(index, angle, SLOWEST)
         yield from wait(bench, 1.5, "sent to where it is: it must not move")
-        moved, code = bench.mean()[index] - here, bench.code(sequence)
+        moved, code = around(bench.mean()[index] - here), bench.code(sequence)
         while (after := bench.rest.release(bench.now)) is not None:
             yield from wait(bench, after - bench.now)
         stays = abs(moved) < LEAPS / 2 + bench.noise and not code
         return [self.absolute.found(stays, f"{_answered(code)}, moved {moved:+.1f} deg when sent to where it was")]
 
 
-def travel_time(track: list[tuple[float, float]]) -> float | None:
-    """How long a move at constant speed took, in s: of all such moves the one that the readings fit best."""
+class FittedMove(NamedTuple):
+    """A move at constant speed: when it began, and how long it took (s)."""
+
+    begin: float
+    seconds: float
+
+
+def fitted_move(track: list[tuple[float, float]]) -> FittedMove | None:
+    """Of all moves at constant speed the one that the readings fit best; None with too few of them."""
     if len(track) < 8:
         return None
     times, places = np.asarray(track).T
@@ -158,7 +172,8 @@ def travel_time(track: list[tuple[float, float]]) -> float | None:
     begins = np.arange(times[0], times[0] + LATEST, 0.01)[:, None, None]
     lengths = np.arange(0.1, LONGEST, 0.02)[None, :, None]
     left = ((np.clip((times - begins) / lengths, 0.0, 1.0) - shares) ** 2).sum(axis=2)
-    return float(lengths[0, np.unravel_index(left.argmin(), left.shape)[1], 0])
+    begin, length = np.unravel_index(left.argmin(), left.shape)
+    return FittedMove(float(begins[begin, 0, 0]), float(lengths[0, length, 0]))
 
 
 def smallest_step(track: list[tuple[float, float]]) -> float | None:

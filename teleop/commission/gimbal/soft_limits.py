@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from teleop.commission.findings import Fact, Findings, Subject
-from teleop.commission.gimbal.base import GimbalStep
+from teleop.commission.gimbal.base import AxisStep
 from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import home, rest, wait
 from teleop.commission.gimbal.places import around
@@ -26,15 +26,13 @@ BLOCKED = 0.5  # share of a step that an axis at its stop does not go
 MARGIN = 1.0  # deg from a mechanical stop
 
 
-class SoftLimitsStep(GimbalStep):
+class SoftLimitsStep(AxisStep):
     """Each end of an axis, where the operator drives it."""
 
-    moves = True
     consent = f"It goes as far as you drive it, at up to {SPEED:g} deg/s."
 
     def __init__(self, bench: GimbalBench, index: int) -> None:
-        super().__init__(bench)
-        self.index, self.name = index, bench.name(index)
+        super().__init__(bench, index)
         self.key, self.title = f"soft-limits-{self.name}", f"Soft limits: {self.name}"
         coarse = " and ".join(key for key in KEYS[self.name] if len(key) == 1)
         self.about = (

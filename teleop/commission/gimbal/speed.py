@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-import math
-
 from teleop.commission.findings import Fact, Findings, Subject
-from teleop.commission.gimbal.base import GimbalStep, direction_question
+from teleop.commission.gimbal.base import AxisStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, Pause, cruise, home, less, let_go, pulse, rest, wait
-from teleop.commission.gimbal.places import around, gone
+from teleop.commission.gimbal.motion import FURTHEST, Pause, cruise, home, lapse, less, let_go, pulse, rest, wait
+from teleop.commission.gimbal.places import gone
 from teleop.commission.gimbal.signs import seen_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.gimbal.swings import Swings
-from teleop.commission.step import Script, Wait
+from teleop.commission.step import Script
 from teleop.core.response import Response
 
 PROBE, FAST = 1.0, 4.0  # deg/s
 PROBE_SECONDS = 0.6
 HELD = 0.5  # s for which the speed is sent, before it is left to lapse
-LAPSES = 2.0  # s at most, in which it is to
-ROOM = 4.6  # deg: further it does not go while it lapses
 LEFT = 0.3  # deg off its place after speed control that is more than noise
 
 
-class SpeedStep(GimbalStep):
+class SpeedStep(AxisStep):
     """Slow swings of 2.5 degrees to one side, and one speed that is not repeated."""
 
-    moves = True
-
     def __init__(self, bench: GimbalBench, index: int) -> None:
-        super().__init__(bench)
-        self.index, self.name = index, bench.name(index)
+        super().__init__(bench, index)
         name = self.name
         self.key, self.title = f"speed-{name}", f"Speed command: {name}"
         self.about = (
@@ -136,21 +129,12 @@ class SpeedStep(GimbalStep):
         bench, index = self.bench, self.index
         speed = FAST / rough
         actual = speed if response is None else response.gain * speed + sign * response.drift
-        start, begin = bench.mean()[index], bench.now
-        yield from cruise(bench, speed, HELD, lambda value: bench.speed(index, value), "the last speed is on its way")
-        last = bench.now - 0.02  # between the last one and the next that did not come
-        end = bench.now + LAPSES
-        while bench.now < end and abs(around(bench.mean(0.06)[index] - start)) < ROOM:
-            yield Wait(0.02, "nothing is sent: it should stop by itself")
-            if bench.now > last + 0.8 and bench.still:
-                break
-        went, stopped = abs(around(bench.mean(0.1)[index] - start)), bench.still
-        yield from rest(bench, 0.1)
-        if not stopped or actual <= 0.2:
-            return [self.holds.found(None, f"it went on for {went:.1f} deg, and was stopped", different=True)]
-        went = abs(around(bench.mean()[index] - start))
-        holds = went / actual - (last - begin)
-        how = f"left to lapse: it went {went:.1f} deg at {actual:.1f} deg/s"
+        done = yield from lapse(bench, index, speed, HELD, lambda value: bench.speed(index, value))
+        if not done.stopped or actual <= 0.2:
+            how = f"it went on for {done.went:.1f} deg, and was stopped"
+            return [self.holds.found(None, how, different=True)]
+        how = f"left to lapse: it went {done.went:.1f} deg at {actual:.1f} deg/s"
+        holds = done.went / actual - done.sent
         return [self.holds.found(round(holds, 2), how, within=0.08 + bench.noise / 4)]
 
     def _given_back(self) -> Script:
@@ -164,6 +148,3 @@ class SpeedStep(GimbalStep):
         return [
             self.left.found(round(left, 1) + 0.0, "before and after control was released", within=LEFT + bench.noise)
         ]
-
-
-__all__ = ["SpeedStep", "math"]

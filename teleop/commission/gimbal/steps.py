@@ -30,7 +30,7 @@ def gimbal_steps(bench: GimbalBench, address: LinkAddress, others: Sequence[Step
     return [
         Listen(bench, address),
         CameraIdle(bench),
-        Replies(bench),
+        Replies(bench, address),
         Ready(bench),
         Identity(bench),
         Settings(bench),

@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 from teleop.commission.findings import Findings, Subject
-from teleop.commission.gimbal.base import GimbalStep, direction_question
+from teleop.commission.gimbal.base import AxisStep, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, cruise, home, less, pulse
-from teleop.commission.gimbal.places import around
+from teleop.commission.gimbal.motion import FURTHEST, home, lapse, less, pulse
 from teleop.commission.gimbal.signs import seen_angle, settle_order, sign_facts, sign_subjects
-from teleop.commission.step import Script, Wait
+from teleop.commission.step import Script
 
 FULL = 15000
 FIRST, BRIEF = 1, 0.1  # the smallest push, and s
 SEEN = 0.2  # deg in that time that are no more noise
 SPEED = 3.0  # deg/s of the push that is measured
 LONG, LEAST = 1.0, 1.2  # s of it, and deg that it is to go at least
-LAPSES, ROOM = 1.5, 4.6  # s and deg in which a push that is not repeated is to end
 
 
-class StickStep(GimbalStep):
+class StickStep(AxisStep):
     """Pushes that grow, each measured before the next."""
 
-    moves = True
-
     def __init__(self, bench: GimbalBench, index: int) -> None:
-        super().__init__(bench)
-        self.index, self.name = index, bench.name(index)
+        super().__init__(bench, index)
         name = self.name
         self.key, self.title = f"stick-{name}", f"Joystick (0x0A): {name}"
         self.about = (
@@ -104,17 +99,10 @@ class StickStep(GimbalStep):
 
     def _lapse(self, push: int, full: float) -> Script:
         bench, index = self.bench, self.index
-        start, begin = bench.mean()[index], bench.now
-        yield from cruise(bench, push, 0.4, self._send, "the last push")
-        last = bench.now - 0.02
-        end = bench.now + LAPSES
-        while bench.now < end and abs(around(bench.mean(0.06)[index] - start)) < ROOM:
-            yield Wait(0.02, "nothing is sent: it should stop by itself")
-            if bench.now > last + 0.8 and bench.still:
-                break
-        went, stopped = abs(around(bench.mean(0.1)[index] - start)), bench.still
+        done = yield from lapse(bench, index, push, 0.4, self._send)
         speed = abs(full) * push / FULL
-        if not stopped or speed < 0.2:
-            return [self.holds.found(None, f"it went on for {went:.1f} deg, and was stopped", different=True)]
-        how = f"left to lapse: it went {went:.1f} deg at {speed:.1f} deg/s"
-        return [self.holds.found(round(went / speed - (last - begin), 2), how)]
+        if not done.stopped or speed < 0.2:
+            how = f"it went on for {done.went:.1f} deg, and was stopped"
+            return [self.holds.found(None, how, different=True)]
+        how = f"left to lapse: it went {done.went:.1f} deg at {speed:.1f} deg/s"
+        return [self.holds.found(round(done.went / speed - done.sent, 2), how)]

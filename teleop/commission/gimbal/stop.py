@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from teleop.commission.findings import Findings, Subject
-from teleop.commission.gimbal.base import GimbalStep
+from teleop.commission.gimbal.base import AxisStep, GimbalStep
 from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import FURTHEST, home, moving_part, rest
 from teleop.commission.gimbal.places import around
@@ -31,7 +31,7 @@ class StopStep(GimbalStep):
     moves = True
 
     @property
-    def about(self) -> tuple[str, ...]:
+    def about(self) -> tuple[str, ...]:  # pyright: ignore[reportIncompatibleVariableOverride] - it changes with the bench
         return (
             f"{self._name} goes {REACH:g} deg to and fro at {SPEED:g} deg/s, until you press space.",
             "Press it while the axis moves. Then it goes back to where it began.",
@@ -85,14 +85,11 @@ class StopStep(GimbalStep):
         raise DeviceError(f"nothing was pressed for {LONGEST:g} s: stopped")
 
 
-class LatencyStep(GimbalStep):
+class LatencyStep(AxisStep):
     """Slow swings by positions, as a move sends them."""
 
-    moves = True
-
     def __init__(self, bench: GimbalBench, index: int) -> None:
-        super().__init__(bench)
-        self.index, self.name = index, bench.name(index)
+        super().__init__(bench, index)
         self.key, self.title = f"latency-{self.name}", f"Latency from end to end: {self.name}"
         self.about = (
             f"{self.name} swings {REACH:g} deg to one side and back, {SWINGS} times in {PERIOD * SWINGS:g} s,",
@@ -114,9 +111,9 @@ class LatencyStep(GimbalStep):
         if absolute is not True:
             raise DeviceError("absolute positions are not what the readings say: there is no move to measure")
         bench.allow(FURTHEST)
-        commanded, begin = yield from self._swings()
+        start, (commanded, begin) = bench.mean()[index], (yield from self._swings())
         yield from rest(bench)
-        late = estimate(commanded, moving_part(bench.since(begin), index), begin, begin + PERIOD * SWINGS)
+        late = estimate(commanded, moving_part(bench.since(begin), index, start), begin, begin + PERIOD * SWINGS)
         yield from home(bench)
         if late is None or not math.isfinite(late.doubt):
             return [each.not_seen("the readings do not say") for each in self.subjects]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from teleop.commission.findings import Findings, Subject
-from teleop.commission.gimbal.base import GimbalStep
+from teleop.commission.gimbal.base import AxisStep
 from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import FURTHEST, cruise, home, let_go, rest
 from teleop.commission.gimbal.places import gone
@@ -12,16 +12,14 @@ from teleop.commission.step import Script, Wait
 UNDER_SPEED = Subject("position.under_speed", "A position command under speed control")
 
 
-class UnderSpeedStep(GimbalStep):
+class UnderSpeedStep(AxisStep):
     """1 degree by a position command, with speed control taken over at zero."""
 
     key, title = "position-under-speed", "A position command under speed control"
     subjects = (UNDER_SPEED,)
-    moves = True
 
     def __init__(self, bench: GimbalBench, index: int) -> None:
-        super().__init__(bench)
-        self.index, self.name = index, bench.name(index)
+        super().__init__(bench, index)
         self.about = (
             "Speed control is taken over with speed 0. Then a position command asks",
             f"{self.name} to go 1 deg in 0.4 s. It obeys, or it does not; then it goes back.",

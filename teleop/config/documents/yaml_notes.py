@@ -1,4 +1,8 @@
-"""Comments of our own above a place in a YAML text, in the place of those that an earlier run left there."""
+"""Comments of our own above a place in a YAML text, among those that an earlier run left there.
+
+A line with a colon is about its first word, and replaces an earlier one about the same. One without is a heading, which
+stays above earlier lines that are still true.
+"""
 
 from __future__ import annotations
 
@@ -15,13 +19,13 @@ def with_notes(text: str, notes: Mapping[Location, Sequence[str]], mark: str) ->
     """`text` with the lines of `notes` as comments above each place; `mark` begins each comment of ours."""
     mark = f"# {mark}"
     for path, lines in notes.items():
-        text = _noted(text, path, [f"{mark}: {line}" for line in lines], mark)
+        text = _noted(text, path, lines, mark)
     return text
 
 
-def _noted(text: str, path: Location, comments: Sequence[str], mark: str) -> str:
+def _noted(text: str, path: Location, notes: Sequence[str], mark: str) -> str:
     line = _line_of(text, path)
-    if line is None or not comments:
+    if line is None or not notes:
         return text
     lines = text.splitlines(keepends=True)
     first = line
@@ -29,7 +33,22 @@ def _noted(text: str, path: Location, comments: Sequence[str], mark: str) -> str
         first -= 1
     end = "\r\n" if lines[line].endswith("\r\n") else "\n"
     indent = lines[line][: len(lines[line]) - len(lines[line].lstrip(" "))]
-    return "".join([*lines[:first], *(f"{indent}{comment}{end}" for comment in comments), *lines[line:]])
+    earlier = [each.strip().removeprefix(mark).removeprefix(":").strip() for each in lines[first:line]]
+    comments = [f"{indent}{mark}: {note}{end}" for note in (*notes, *_still_true(earlier, notes))]
+    return "".join([*lines[:first], *comments, *lines[line:]])
+
+
+def _still_true(earlier: Sequence[str], notes: Sequence[str]) -> list[str]:
+    """The earlier notes about what the new ones say nothing of, each below its heading."""
+    known = {note.partition(" ")[0] for note in notes if ": " in note}
+    kept, heading = list[str](), list[str]()
+    for note in earlier:
+        if ": " not in note:
+            heading = [note]
+        elif note.partition(" ")[0] not in known:
+            kept += [*heading, note]
+            heading = []
+    return kept
 
 
 def _line_of(text: str, path: Location) -> int | None:

@@ -82,6 +82,30 @@ def test_all_keys_of_a_mapping_are_replaced_in_its_own_style() -> None:
     assert edited(text, {"a": [{"b": 1, "c": {"e": 4}}]}, "rig.yaml") == text.replace("d: 2", "e: 4")
 
 
+@pytest.mark.parametrize(
+    ("text", "gone", "expected"),
+    [
+        ("a:\n  # one\n  - b: 1\n    c: 2  # two\n  # three\n  - d\n", 0, "a:\n  # one\n  # three\n  - d\n"),
+        ("a:\n  - b\n  - {c: 1}  # gone with it\nd: 1  # stays\n", 1, "a:\n  - b\nd: 1  # stays\n"),
+        ("a:\n- b\n- c\n- d", 2, "a:\n- b\n- c\n"),
+        ("a: [b, {c: 1}, d]  # stays\n", 1, "a: [b, d]  # stays\n"),
+        ("a: [b, c]\n", 1, "a: [b]\n"),
+    ],
+    ids=["several lines", "one line", "the last of the text", "flow", "the last of flow"],
+)
+def test_an_entry_of_a_list_is_removed_and_the_others_stay(text: str, gone: int, expected: str) -> None:
+    data = loaded(text)
+    del data["a"][gone]
+    assert edited(text, data, "rig.yaml") == expected
+    assert loaded(expected) == data
+
+
+def test_several_entries_are_removed_at_once_and_one_that_is_another_is_written_anew() -> None:
+    text = "a:\n  - b  # 0\n  - c  # 1\n  - b  # 2\n  - d  # 3\n"
+    assert edited(text, {"a": ["c", "d"]}, "rig.yaml") == "a:\n  - c  # 1\n  - d  # 3\n"
+    assert loaded(edited(text, {"a": ["d", "c"]}, "rig.yaml")) == {"a": ["d", "c"]}
+
+
 def test_what_an_alias_repeats_is_not_changed_behind_its_back() -> None:
     text = "a: &x {b: 1}\nc: *x\n"
     with pytest.raises(DocumentError, match="cannot be updated, because of an alias"):
