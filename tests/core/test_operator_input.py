@@ -37,4 +37,4 @@ def test_two_states_share_no_mapping():
 
 def test_commands_are_the_words_of_profiles():
     assert Command("stop") is Command.STOP
-    assert Press(Command("recall"), 3) == (Command.RECALL, 3, None)
+    assert Press(Command("recall"), 3) == (Command.RECALL, 3, None, "")
