@@ -12,6 +12,7 @@ from shutil import rmtree
 from typing import NamedTuple
 
 PREFIX = "teleop-"
+MEMORY = "/dev/shm"  # of Linux: a folder that is on no disk
 
 
 class DoorAddress(NamedTuple):
@@ -44,12 +45,15 @@ def new_door() -> Iterator[DoorAddress]:
 
 
 def _runtime_folder() -> str | None:
-    """`$XDG_RUNTIME_DIR` where it is this user's alone; else None, the system's place for temporary files."""
+    """`$XDG_RUNTIME_DIR` where it is this user's alone, else memory; None is the system's place for temporary files.
+
+    On a disk a write to a mapped page waits now and then for the disk: the loop stalled for 0.28 s by that.
+    """
     named = os.environ.get("XDG_RUNTIME_DIR", "")
     try:
         found = os.stat(named) if os.path.isabs(named) else None
     except OSError:
-        return None
+        found = None
     if found is None or not stat.S_ISDIR(found.st_mode) or found.st_uid != os.getuid() or found.st_mode & 0o077:
-        return None
+        return MEMORY if os.path.isdir(MEMORY) and os.access(MEMORY, os.W_OK) else None
     return named

@@ -197,7 +197,7 @@ def test_a_run_stops_with_the_line_for_the_profile_which_mends_it(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     """The gimbal counts as documented, whatever the profile claims."""
-    monkeypatch.setattr("teleop.devices.rig.profile_firmware", lambda _profile, _link: DOCUMENTED)
+    monkeypatch.setattr("teleop.devices.gimbal.simulated.profile_firmware", lambda _profile, _link: DOCUMENTED)
     path = tmp_path / "rig.yaml"
     path.write_text(PROFILE.replace("MODE", mode).replace("SIGNS", signs))
     code = run(["play", "nudge", "--rig", str(path), "--fast"])

@@ -12,7 +12,8 @@ import sys
 
 LIBRARIES = (
     "asyncio", "ctypes.util", "multiprocessing", "pty", "subprocess", "tempfile", "uuid", "zipfile",
-    "can", "clarabel", "cyclopts", "hidraw", "mcap.reader", "mcap.writer", "msgpack", "numpy", "platform", "pydantic",
+    "can", "clarabel", "cyclopts", "hidraw", "mcap.reader", "mcap.writer", "msgpack", "numpy", "platform",
+    "platformdirs", "pydantic",
     "rich.console", "rich.live", "rich.progress", "rich.table", "ruckig", "scipy.sparse", "serial",
     "serial.tools.list_ports", "yaml",
 )  # fmt: skip

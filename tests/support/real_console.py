@@ -18,8 +18,7 @@ class RealConsole:
     """The rig, the control process and its gateway. `state` is what /api/state answers."""
 
     def __init__(self, folder: Path, *options: str, rig: str = "sim") -> None:
-        environment = {**os.environ, "XDG_RUNTIME_DIR": str(folder), "XDG_STATE_HOME": str(folder / "state")}
-        folder.chmod(0o700)
+        environment = {**os.environ, "XDG_STATE_HOME": str(folder / "state")}
         self.folder = folder
         options = ("--rig", rig, "--bind", "127.0.0.1:0", "--json", "--realtime", *options)
         self._process = subprocess.Popen(

@@ -13,6 +13,9 @@ from page_bench import PHONE, take_control, until
 from playwright.sync_api import expect
 from real_console import RealConsole
 
+# A computer that stalls ends a run in real time, as it has to; what else was to be seen is then seen in another try.
+pytestmark = pytest.mark.flaky(reruns=2, only_rerun="the computer stalled")
+
 
 @pytest.fixture(scope="module")
 def consoles():
