@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import urllib.request
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Self
 
@@ -61,7 +62,7 @@ class RealConsole:
         return until(self._state)
 
     def _state(self) -> dict[str, Any] | None:
-        assert self._process.poll() is None, self._process.stdout and self._process.stdout.read()
+        assert self.lives, self.report
         try:
             return self.request("api/state")
         except OSError:
@@ -70,6 +71,17 @@ class RealConsole:
     @property
     def lives(self) -> bool:
         return self._process.poll() is None
+
+    @cached_property
+    def report(self) -> bytes:
+        """What it had to say at its end."""
+        assert self._process.stdout is not None
+        return self._process.stdout.read()
+
+    @property
+    def stalled(self) -> bool:
+        """Whether a stall of this computer has ended it."""
+        return not self.lives and b"the computer stalled" in self.report
 
     def axis(self, name: str) -> dict[str, Any]:
         return self.state["axes"][name]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
+
 import pytest
 from page_bench import CHROMIUM, PageServer, chrome
 
@@ -32,3 +34,24 @@ def visit(browser, server, rig):
     yield lambda *args, **options: browser.open(server.url + options.pop("at", ""), *args, **options)
     browser.close()
     assert browser.errors == []
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_setup(item: pytest.Item) -> Generator[None, None, None]:
+    yield from _blamed(item)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Generator[None, None, None]:
+    yield from _blamed(item)
+
+
+def _blamed(item: pytest.Item) -> Generator[None, None, None]:
+    """Whatever was missed on the page of a console that a stall of the computer had ended is that stall's."""
+    try:
+        yield
+    except Exception as error:
+        console = getattr(item, "funcargs", {}).get("console")
+        if console is not None and console.stalled:
+            raise AssertionError("the computer stalled") from error
+        raise
