@@ -77,6 +77,10 @@ class PlayKeys:
             if not key and any(known.startswith(text) for known in self._keys):
                 self._begun = text
                 return
-            if key:
-                yield self._keys[key]
+            act = self._keys[key] if key else self._other(text[0])
+            if act is not None:
+                yield act
             text = text[len(key) or 1 :]
+
+    def _other(self, character: str) -> Act | None:  # noqa: ARG002 - for readers that know more than a table
+        return None

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable
-from contextlib import ExitStack
-from typing import Self
 
 from rich.text import Text
 
-from teleop.cli.screens.picture import Picture, Rows
-from teleop.cli.screens.stderr_writer import StderrWriter
+from teleop.cli.screens.page_view import PageView
+from teleop.cli.screens.picture import Rows
 from teleop.commission.changes import written
 from teleop.commission.findings import Fact, Verdict
 from teleop.commission.page import Page, Stage
@@ -22,25 +20,14 @@ _UNBROKEN = "\u00a0"  # a space at which no line ends: between a key and what it
 _KEYS = {"enter": "Enter", "space": "space"}
 
 
-class CommissionView:
+class CommissionView(PageView):
     """Shows the page while it is entered: on a terminal a screen, elsewhere what is asked and found as lines."""
 
     def __init__(self, rig: str, page: Callable[[], Page]) -> None:
+        super().__init__(self._draw)
         self._rig, self._page = rig, page
-        self._picture = Picture(self._draw)
-        self._lines = StderrWriter()
         self._said = ""
         self._shown = page()
-        self._stack = ExitStack()
-
-    def __enter__(self) -> Self:
-        if self._picture.possible:
-            self._stack.enter_context(self._picture)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._stack.close()
-        self._lines.finish()
 
     def notify(self, text: str) -> None:
         """A line about a signal: it must not wait."""

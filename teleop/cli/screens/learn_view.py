@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
-from typing import Self
-
 from rich.text import Text
 
 from teleop.app.learn.session import LearnSession, Stage
 from teleop.app.learn.trial import Row, words
-from teleop.cli.screens.picture import Picture, Rows
-from teleop.cli.screens.stderr_writer import StderrWriter
+from teleop.cli.screens.page_view import PageView
+from teleop.cli.screens.picture import Rows
 from teleop.config.inputs_section import ControlSection
 
 _SKIPS = "Enter skips"
@@ -19,24 +16,13 @@ _LONGEST = 50  # cells of a path
 _DOES = 30  # cells of what it does
 
 
-class LearnView:
+class LearnView(PageView):
     """Shows the session while it is entered: on a terminal a screen, elsewhere each question as a line."""
 
     def __init__(self, session: LearnSession) -> None:
+        super().__init__(self._draw)
         self._session = session
-        self._picture = Picture(self._draw)
-        self._lines = StderrWriter()
         self._line = ""
-        self._stack = ExitStack()
-
-    def __enter__(self) -> Self:
-        if self._picture.possible:
-            self._stack.enter_context(self._picture)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._stack.close()
-        self._lines.finish()
 
     def update(self) -> None:
         """Print what is asked, where there is no screen."""
