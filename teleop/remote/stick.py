@@ -17,7 +17,6 @@ from typing import Any
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Held
 
-AMBER = 0.15  # s of age from which on a view shows it
 RAMP = 0.25  # s from which on its axes come to rest
 DISARM = 1.0  # s from which on it has to take control again
 TOO_LATE = 0.2  # s behind the quickest message: dropped
