@@ -13,6 +13,7 @@ from starlette.responses import Response
 
 from teleop.config.documents.yaml_edit import block
 from teleop.config.files import OutputError, write_text
+from teleop.config.files_read import saved
 from teleop.config.named_files import NamedFiles
 from teleop.config.resources import described, folder
 from teleop.console.answers import answer
@@ -145,11 +146,9 @@ class MoveRoutes:
 
     async def _description(self, file: Path) -> Mapping[str, Any] | None:
         """Title and kind of a file; None for one that is no move. Files that have not changed are not read again."""
-        try:
-            facts = file.stat()
-        except OSError:
+        if (when := saved(file)) is None:
             return None
-        key = str(file), facts.st_mtime_ns, facts.st_size
+        key = str(file), *when
         if key not in self._described:
             if len(self._described) >= MOST_DESCRIBED:
                 self._described.clear()
