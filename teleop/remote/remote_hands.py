@@ -49,7 +49,7 @@ class RemoteHands:
         self.door = OpenDoor(stack)
         expo = EXPO if profile.sticks.expo is None else profile.sticks.expo
         moved = [axis for axis in limits if not axis.is_stick]
-        stick = RemoteStick(dict.fromkeys(moved), lambda value: shape(value, 0.0, expo))
+        stick = RemoteStick(moved, lambda value: shape(value, 0.0, expo))
         self._works = Works(profile, limits, self._folder)
         stack.callback(self._works.close)
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()

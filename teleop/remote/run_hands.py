@@ -48,7 +48,7 @@ class RunHands:
         """Open the door, until the stack is left."""
         self._profile, self._limits, self._clock = profile, limits, clock
         self.door = OpenDoor(stack)
-        self.desk = Desk(self.door.socket, RemoteStick({}, float), self.line, self)
+        self.desk = Desk(self.door.socket, RemoteStick((), float), self.line, self)
 
     @property
     def inputs(self) -> Sequence[Input]:

@@ -10,7 +10,7 @@ Silence after a message with every axis at 0 is a stick that was released. Any o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -56,7 +56,7 @@ class RemoteStick:
     `name` is that of the one who has control. `missed` counts messages that were lost, late or out of order.
     """
 
-    def __init__(self, axes: Mapping[Axis, object], shape: Callable[[float], float]) -> None:
+    def __init__(self, axes: Collection[Axis], shape: Callable[[float], float]) -> None:
         self._axes, self._shape = axes, shape
         self.session = ""
         self._stream = _Stream()
