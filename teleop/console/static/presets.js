@@ -10,9 +10,11 @@ const LONG = 700; // ms of a press that stores
 const SHOWN = 10; // numbers 0 to 9 have a key on the keyboard; higher ones are listed when they are stored
 const presets = part((s) => s.presets, {});
 const KEPT = "teleop.recall-seconds";
+/** The set time of a recall, in s. */
+export const recallSeconds = () => Number(localStorage.getItem(KEPT)) || 2;
 
 export function Presets() {
-  const seconds = useSignal(Number(localStorage.getItem(KEPT)) || 2);
+  const seconds = useSignal(recallSeconds());
   const numbers = [...new Set([...Array.from({ length: SHOWN }, (_, n) => n), ...Object.keys(presets.value).map(Number)])].sort((a, b) => a - b);
   const order = [...numbers.filter((n) => n > 0), ...numbers.filter((n) => n === 0)];
   const change = (/** @type {number} */ value) => {
