@@ -1,7 +1,7 @@
 // The transport: what plays, its preroll, play and pause, its speed, its keys, its passes and how far each was off.
 import { html, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
-import { able, fresh, mine, part } from "./store.js";
+import { able, inControl, part } from "./store.js";
 import { clock, short } from "./format.js";
 import { NumberField } from "./number_field.js";
 import { Icon } from "./icons.js";
@@ -29,7 +29,7 @@ export function Transport({ compact = false, open, blocked = "" }) {
       <button class="icon pause ${paused ? "on" : ""}" data-testid="pause" disabled=${off || !playing} aria-label=${paused ? "Resume" : "Pause"}
         onClick=${() => command(paused ? "resume" : "pause")}><${Icon} name=${paused ? "resume" : "pause"} /></button>
       <button class="icon" disabled=${off || !paused} title="while paused" aria-label="Next key" onClick=${() => command("next_key")}><${Icon} name="next" /></button>
-      <button class="icon" disabled=${!fresh.value || !mine.value || !playing} aria-label="End the move" onClick=${() => command("abort")}><${Icon} name="stop" /></button>
+      <button class="icon" disabled=${!inControl.value || !playing} aria-label="End the move" onClick=${() => command("abort")}><${Icon} name="stop" /></button>
       <progress max=${now?.duration || 1} value=${now ? Math.max(now.at ?? 0, 0) : 0} aria-label="Progress of the move"></progress>
       <output class="time">${now ? clock(now.at ?? 0) : "00:00.00"}</output>
     </div>
