@@ -89,7 +89,7 @@ class MoveRoutes:
             if not isinstance(value, str):
                 raise Refusal(400, "move: must be the name of a move")
             return await self._plan(_text(self._find(value)[0]), value)
-        return await self._plan(_given_text(data) if given == ["text"] else _fresh(value), name)
+        return await self._plan(_given_text(data) if given == ["text"] else _fresh(_values(value)), name)
 
     async def save_new(self, name: str, text: str) -> None:
         """A new move of this name. Raises Refusal (400, 409)."""
@@ -123,8 +123,7 @@ class MoveRoutes:
             raise Refusal(409, "the move has been saved by someone else since: load it again")
         if "text" in data:
             return _given_text(data)
-        if not isinstance(content := data.get("content"), dict) or not content:
-            raise Refusal(400, 'content: must be the values of a move, as in {"keyframes": [...]}')
+        content = _values(data.get("content"))
         if old is None:
             return _fresh(content)
         found = await self._worker.do("edit", old, content, name)
@@ -183,8 +182,12 @@ def _given_text(data: Mapping[str, Any]) -> str:
     return text
 
 
-def _fresh(content: Any) -> str:
-    """Values as a new YAML text."""
+def _values(content: Any) -> Mapping[str, Any]:
     if not isinstance(content, dict) or not content:
         raise Refusal(400, 'content: must be the values of a move, as in {"keyframes": [...]}')
+    return content
+
+
+def _fresh(content: Mapping[str, Any]) -> str:
+    """Values as a new YAML text."""
     return "\n".join(block(content, 0)) + "\n"
