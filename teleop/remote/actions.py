@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile
-from teleop.core.axes import Axis, Limits, Motion
+from teleop.core.axes import Axis, Limits, Motion, moves
 from teleop.core.errors import TeleopError
 from teleop.core.events import Action, Tick
 from teleop.core.operator_input import Command
@@ -80,8 +80,7 @@ class LiveActions:
 
     @property
     def rests(self) -> bool:
-        moving = (state for axis, state in self._motion.items() if not axis.is_stick)
-        return not any(state.velocity or state.acceleration for state in moving)
+        return not moves(self._motion)
 
     def busy(self, session: str) -> bool:
         job = self._jobs.job
