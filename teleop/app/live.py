@@ -167,11 +167,9 @@ class LiveRun:
     def _watched(
         self, rig: Rig, axes: Sequence[Axis], operator: Operator, lenient: bool
     ) -> tuple[Sequence[Observer], Sequence[Sink]]:
-        beside = self.beside
-        notify = operator.notify if beside is None else both(operator.notify, beside.line)
-        confirmed = operator.confirmed if beside is None else both(operator.confirmed, beside.confirmed)
-        answered = operator.camera_answered
-        if beside is not None:
+        notify, confirmed, answered = operator.notify, operator.confirmed, operator.camera_answered
+        if (beside := self.beside) is not None:
+            notify, confirmed = both(notify, beside.line), both(confirmed, beside.confirmed)
             answered = both(answered, beside.camera_answered)
         observers, sinks = commands(rig, axes, notify, confirmed)
         camera = CameraAnswers(rig.camera, notify, answered, lenient=lenient)

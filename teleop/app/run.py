@@ -23,6 +23,7 @@ from teleop.devices.rig import Rig
 from teleop.monitors.tracking_error import TrackingErrorMonitor
 from teleop.recording.writer import Recorder
 
+COLLECTING = (700, 10, 10)  # Python's own: the collector looks often and shortly, not seldom and for long
 Signals = Callable[
     [Callable[[str], object], Callable[[], object], Callable[[str], object]], AbstractContextManager[None]
 ]
@@ -107,9 +108,6 @@ def commands(
     sinks = command_sinks(rig, notify, done)
     unheard = Unheard(gimbal=bool(sinks), drone=rig.drone(axes) is not None, notify=notify)
     return [unheard, LinkNotes(rig.connections.values(), notify)], sinks
-
-
-COLLECTING = (700, 10, 10)  # Python's own: the collector looks often and shortly, not seldom and for long
 
 
 def command_sinks(

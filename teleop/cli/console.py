@@ -10,19 +10,22 @@ from cyclopts import Parameter
 from teleop.app.drone_flight import refuse_offsets
 from teleop.app.live import LiveParts, LiveRun
 from teleop.app.realtime import realtime
-from teleop.cli.console_options import BIND, NO_CONSOLE, ConsoleOptions, Realtime
+from teleop.cli.console_options import NO_CONSOLE, ConsoleOptions, Realtime
 from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Take
 from teleop.cli.running import print_report
 from teleop.cli.screens.console_view import ConsoleView
 from teleop.cli.screens.folded import complain
 from teleop.cli.signals import signals_to
+from teleop.console import DEFAULT_BIND
 from teleop.core.clock import SystemClock
 
 
 def console(
     *,
-    bind: Annotated[str, Parameter(metavar="HOST:PORT", help="Where the console listens; port 0 picks one.")] = BIND,
+    bind: Annotated[
+        str, Parameter(metavar="HOST:PORT", help="Where the console listens; port 0 picks one.")
+    ] = DEFAULT_BIND,
     reached: ConsoleOptions = NO_CONSOLE,
     presets: Annotated[
         Path | None, Parameter(metavar="FILE", help="File of the presets; without it, one for each rig.")

@@ -13,17 +13,19 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from teleop.cli.screens.folded import tell
+from teleop.console import DEFAULT_BIND
 from teleop.core.errors import UsageError
 
 if TYPE_CHECKING:
     from teleop.remote.gateway_child import Gateway
 
-BIND = "127.0.0.1:8470"
 _ADDRESS = re.compile(r"(\[[0-9a-fA-F:.]+\]|[^\s/\[\]:]*):\d+|\d+(\.\d+){3}")
 
 Console = Annotated[
     str | None,
-    Parameter(metavar="HOST:PORT", help=f"Also serve the console, at {BIND} without an address.", show_default=False),
+    Parameter(
+        metavar="HOST:PORT", help=f"Also serve the console, at {DEFAULT_BIND} without an address.", show_default=False
+    ),
 ]
 Realtime = Annotated[
     bool,
@@ -44,10 +46,10 @@ def with_console(arguments: Sequence[str]) -> list[str]:
             if _ADDRESS.fullmatch(argument):
                 result[-1] += f"={argument}"
                 continue
-            result[-1] += f"={BIND}"
+            result[-1] += f"={DEFAULT_BIND}"
         result.append(argument)
     if result and result[-1] == "--console":
-        result[-1] += f"={BIND}"
+        result[-1] += f"={DEFAULT_BIND}"
     return result
 
 
@@ -87,7 +89,7 @@ class ConsoleOptions:
         except ImportError:
             raise UsageError("the console needs its packages: pip install 'rs-teleop[console]'") from None
         from teleop.console.invitation import as_json as reached
-        from teleop.console.invitation import invitation
+        from teleop.console.invitation import greeting, invitation
         from teleop.console.settings import ConsoleSettings, listen, parse_bind, with_tokens
         from teleop.remote.gateway_child import Gateway
 
@@ -110,7 +112,7 @@ class ConsoleOptions:
                     tell(line)
             number = listener.fileno()
             console = {"settings": settings.as_json(), "listener": number}
-            yield Gateway({"console": console}, (number,), invitation(settings)[0])
+            yield Gateway({"console": console}, (number,), greeting(settings))
 
     @contextmanager
     def beside(self, bind: str | None, rig: str, as_json: bool) -> Iterator[Gateway | None]:

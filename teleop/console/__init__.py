@@ -4,3 +4,5 @@ Nothing here moves a rig. Every command goes through the door to the control pro
 the server may hang, crash or be flooded without an effect on a move. `server.serve` runs it; `settings` and
 `invitation` are light, for the process that starts it.
 """
+
+DEFAULT_BIND = "127.0.0.1:8470"

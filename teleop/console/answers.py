@@ -13,10 +13,16 @@ from starlette.responses import Response
 from teleop.console.json_body import Refusal
 
 
+def json_text(content: Mapping[str, Any]) -> str:
+    """Compact JSON. Raises ValueError for NaN and infinity, which JSON has not."""
+    return json.dumps(content, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
+
+
 def answer(content: Mapping[str, Any], status: int = 200, headers: Mapping[str, str] | None = None) -> Response:
     """`content` as JSON."""
-    text = json.dumps(content, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
-    return Response(text.encode(), status, {"cache-control": "no-store", **(headers or {})}, "application/json")
+    return Response(
+        json_text(content).encode(), status, {"cache-control": "no-store", **(headers or {})}, "application/json"
+    )
 
 
 async def refused(_: Request, error: Exception) -> Response:

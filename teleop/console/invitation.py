@@ -42,9 +42,14 @@ def as_json(settings: ConsoleSettings) -> dict[str, str | None]:
     }
 
 
+def greeting(settings: ConsoleSettings) -> str:
+    """How it is reached, in one line."""
+    return f"Console: {url(settings)}"
+
+
 def invitation(settings: ConsoleSettings) -> Sequence[str]:
     """Lines for a terminal: the URL; with a token also both roles' tokens, and a QR code where a phone can reach it."""
-    lines = [f"Console: {url(settings)}"]
+    lines = [greeting(settings)]
     if settings.is_open:
         return [*lines, "Only this computer can open it. For a phone: --bind 0.0.0.0:8470"]
     lines += [f"Token to operate: {settings.token}", f"Token to watch, with STOP: {settings.watch_token}"]

@@ -13,6 +13,7 @@ from starlette.responses import Response
 
 from teleop.config.documents.yaml_edit import block
 from teleop.config.files import OutputError, write_text
+from teleop.config.files_read import saved
 from teleop.config.named_files import NamedFiles
 from teleop.config.resources import described, folder
 from teleop.console.answers import answer
@@ -88,7 +89,7 @@ class MoveRoutes:
             if not isinstance(value, str):
                 raise Refusal(400, "move: must be the name of a move")
             return await self._plan(_text(self._find(value)[0]), value)
-        return await self._plan(_given_text(data) if given == ["text"] else _fresh(value), name)
+        return await self._plan(_given_text(data) if given == ["text"] else _fresh(_values(value)), name)
 
     async def save_new(self, name: str, text: str) -> None:
         """A new move of this name. Raises Refusal (400, 409)."""
@@ -122,8 +123,7 @@ class MoveRoutes:
             raise Refusal(409, "the move has been saved by someone else since: load it again")
         if "text" in data:
             return _given_text(data)
-        if not isinstance(content := data.get("content"), dict) or not content:
-            raise Refusal(400, 'content: must be the values of a move, as in {"keyframes": [...]}')
+        content = _values(data.get("content"))
         if old is None:
             return _fresh(content)
         found = await self._worker.do("edit", old, content, name)
@@ -145,11 +145,9 @@ class MoveRoutes:
 
     async def _description(self, file: Path) -> Mapping[str, Any] | None:
         """Title and kind of a file; None for one that is no move. Files that have not changed are not read again."""
-        try:
-            facts = file.stat()
-        except OSError:
+        if (when := saved(file)) is None:
             return None
-        key = str(file), facts.st_mtime_ns, facts.st_size
+        key = str(file), *when
         if key not in self._described:
             if len(self._described) >= MOST_DESCRIBED:
                 self._described.clear()
@@ -184,8 +182,12 @@ def _given_text(data: Mapping[str, Any]) -> str:
     return text
 
 
-def _fresh(content: Any) -> str:
-    """Values as a new YAML text."""
+def _values(content: Any) -> Mapping[str, Any]:
     if not isinstance(content, dict) or not content:
         raise Refusal(400, 'content: must be the values of a move, as in {"keyframes": [...]}')
+    return content
+
+
+def _fresh(content: Mapping[str, Any]) -> str:
+    """Values as a new YAML text."""
     return "\n".join(block(content, 0)) + "\n"

@@ -13,10 +13,10 @@ import socket
 from dataclasses import asdict, dataclass, replace
 from typing import Literal
 
+from teleop.console import DEFAULT_BIND
 from teleop.core.errors import DeviceError, UsageError
 
 Role = Literal["operate", "watch"]
-DEFAULT_BIND = "127.0.0.1:8470"
 TOKEN_BYTES = 16  # 128 bits: cannot be guessed
 BACKLOG = 64  # connections that wait to be accepted
 SEND_BUFFER = 65_536  # bytes in the kernel for a client: a larger buffer would only hold states that are too old

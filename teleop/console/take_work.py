@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
-import math
 from collections.abc import Mapping
-from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from teleop.config.documents.document import DocumentError
 from teleop.core.run_state import Result
+from teleop.recording.format import plain
 from teleop.recording.reader import read_take
 from teleop.recording.report import report
 from teleop.recording.summary import Summary, summarize_index
@@ -35,7 +33,7 @@ def take_report(file: str) -> dict[str, Any]:
         take = read_take(path)
     except DocumentError as error:
         return {"error": _text(error, path)}
-    axes = {axis.value: {key: _plain(value) for key, value in asdict(of).items()} for axis, of in report(take).items()}
+    axes = {axis.value: plain(of) for axis, of in report(take).items()}
     peaks = {name: found["peak"] for name, found in axes.items()}
     return {"axes": axes, "peaks": peaks, "seconds": round(take.duration, 3), "result": take.ended}
 
@@ -89,10 +87,3 @@ def _text(error: DocumentError, path: Path) -> str:
 
 def _without_folder(text: str, path: Path) -> str:
     return text.removeprefix(f"{path}: ").replace(f"{path.parent}/", "")
-
-
-def _plain(value: object) -> Any:
-    """NaN, which JSON has not, is null."""
-    if isinstance(value, float):
-        return round(value, 6) if math.isfinite(value) else None
-    return value if isinstance(value, str | int | bool | None) else json.dumps(value)

@@ -13,6 +13,7 @@ from urllib.parse import quote
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response
 
+from teleop.config.files_read import saved
 from teleop.config.named_files import NamedFiles
 from teleop.console.answers import answer
 from teleop.console.commands import require_operator
@@ -118,8 +119,6 @@ class TakeRoutes:
 
 
 def _stamp(file: Path) -> Stamp:
-    try:
-        facts = file.stat()
-    except OSError:
-        raise Refusal(404, "no take of that name") from None
-    return str(file), facts.st_mtime_ns, facts.st_size
+    if (when := saved(file)) is None:
+        raise Refusal(404, "no take of that name")
+    return str(file), *when

@@ -7,7 +7,6 @@ that a slow client gets fewer states and never a backlog. A client that takes no
 from __future__ import annotations
 
 import asyncio
-import json
 import time
 from collections import deque
 from collections.abc import Callable, Coroutine, Mapping
@@ -15,6 +14,7 @@ from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
+from teleop.console.answers import json_text
 from teleop.console.commands import WATCHERS, check_command, pass_stick
 from teleop.console.door import Door
 from teleop.console.json_body import MOST_BYTES, Refusal, parse_object
@@ -125,7 +125,7 @@ class Client:
             self._sent = newest
 
     async def _send(self, message: Mapping[str, Any]) -> None:
-        text = json.dumps(message, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
+        text = json_text(message)
         try:
             async with asyncio.timeout(LONGEST_SEND):
                 await self._websocket.send_text(text)

@@ -80,6 +80,11 @@ class State(NamedTuple):
 Motion = Mapping[Axis, State]
 
 
+def moves(motion: Motion) -> bool:
+    """Whether an axis is commanded to move. A drone's stick is none: its place is its deflection."""
+    return any(state.velocity or state.acceleration for axis, state in motion.items() if not axis.is_stick)
+
+
 class Reading(NamedTuple):
     """Where an axis was measured to be, in units, and when, on the loop's clock."""
 

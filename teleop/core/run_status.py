@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from teleop.core.axes import Motion
+from teleop.core.axes import Motion, moves
 
 StopState = Literal["", "stopping", "stopped"]
 
@@ -74,5 +74,4 @@ def stop_state(latched: bool, motion: Motion) -> StopState:
     """What a view says of a latched STOP while the axes are commanded to move like this."""
     if not latched:
         return ""
-    moves = any(state.velocity or state.acceleration for axis, state in motion.items() if not axis.is_stick)
-    return "stopping" if moves else "stopped"
+    return "stopping" if moves(motion) else "stopped"

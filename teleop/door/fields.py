@@ -78,15 +78,15 @@ def axes(low: float, high: float) -> Check:
     return check
 
 
+_NAME, _WORD, _AMOUNT = text(40, r"[a-z][a-z0-9_]*"), text(64, r"[\w.+-]+"), number(-1e12, 1e12)
+
+
 def plain_fields(value: Any) -> dict[str, str | int | float | bool]:
     """The fields of a message of the protocol: words and numbers."""
     if not isinstance(value, Mapping) or len(value) > MOST_FIELDS:
         raise ValueError(f"must be at most {MOST_FIELDS} fields with their values")
-    word, amount = text(64, r"[\w.+-]+"), number(-1e12, 1e12)
-    fields: dict[str, str | int | float | bool] = {}
     for key, each in value.items():
-        name = text(40, r"[a-z][a-z0-9_]*")(key)
-        fields[name] = each if isinstance(each, bool) else word(each) if isinstance(each, str) else amount(each)
-        if isinstance(each, int):
-            fields[name] = each
-    return fields
+        _NAME(key)
+        if not isinstance(each, bool):
+            (_WORD if isinstance(each, str) else _AMOUNT)(each)
+    return dict(value)

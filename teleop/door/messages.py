@@ -24,7 +24,7 @@ FILE_NAME = r"[\w][\w. -]*"  # of a move: no separator, and nothing that begins 
 
 
 class CommandError(ValueError):
-    """Why a message is no command. `id` and `session` are those it has, None and "" where it has none."""
+    """Why a message is no command. `id` is the one it has, None where it has none."""
 
     def __init__(self, reason: str, number: int | None = None) -> None:
         super().__init__(reason)
@@ -32,11 +32,10 @@ class CommandError(ValueError):
 
 
 class Shape(NamedTuple):
-    """The fields of a kind of command. `control`: only the holder of control may give it. `moves`: it moves an axis."""
+    """The fields of a kind of command. Who may give it is the desk's to decide."""
 
     required: Mapping[str, Check] = {}
     optional: Mapping[str, Check] = {}
-    control: bool = True
 
 
 def _ages(value: Any) -> dict[str, float]:
@@ -51,10 +50,10 @@ PRESET = whole(0, 999)
 NUMBER = whole(1, 999)
 SECONDS = number(0.0, LONGEST)
 SHAPES: Mapping[str, Shape] = {
-    "take_control": Shape(optional={"ask": truth}, control=False),
-    "release_control": Shape(control=False),
+    "take_control": Shape(optional={"ask": truth}),
+    "release_control": Shape(),
     "deny_control": Shape(),
-    "stop": Shape(control=False),
+    "stop": Shape(),
     "clear": Shape(),
     "stick": Shape({"seq": whole(0, MOST_ID), "axes": axes(-1.0, 1.0)}, {"hold": truth}),
     "jog": Shape({"axis": axis, "by": number(-90.0, 90.0)}, {"within": number(0.0, 60.0)}),
@@ -92,8 +91,8 @@ SHAPES: Mapping[str, Shape] = {
     "range": Shape({"number": NUMBER}),
     "shoot": Shape({"move": text(120, FILE_NAME)}),
     "message": Shape({"name": text(60, r"[a-z][a-z0-9 _-]*")}, {"fields": plain_fields}),
-    "alive": Shape(optional={"seen": _ages}, control=False),
-    "closed": Shape(control=False),
+    "alive": Shape(optional={"seen": _ages}),
+    "closed": Shape(),
 }
 """Every command by its name. `alive` and `closed` are for the gateway itself: who is there, and who has left."""
 
@@ -119,10 +118,6 @@ class DoorCommand:
     time: float
     fields: Mapping[str, Any] = field(default_factory=dict)
     brief: bool = False
-
-    @property
-    def shape(self) -> Shape:
-        return SHAPES[self.do]
 
 
 def checked(message: object) -> DoorCommand:

@@ -17,7 +17,7 @@ from typing import Any, Self
 
 from teleop.core.errors import TeleopError
 from teleop.door.address import DoorAddress
-from teleop.door.messages import CommandError, checked, packed, unpacked
+from teleop.door.messages import MOST_SEEN, CommandError, checked, packed, unpacked
 from teleop.door.ring import RingReader
 from teleop.door.sockets import LARGEST, client_socket
 from teleop.door.states import StateUnpacker
@@ -95,8 +95,8 @@ class DoorClient:
         """Each new state, as it comes; those that come while the last one is dealt with are left out."""
         before = 0
         while True:
-            state = self.state()
-            if state and self._number != before:
+            if self._newest() and self._number != before:
+                state = self.state()  # which may be a newer one again
                 before = self._number
                 yield state
             await asyncio.sleep(LOOK)
@@ -204,7 +204,7 @@ class DoorClient:
         while True:
             now = monotonic()
             self._seen = {session: at for session, at in self._seen.items() if now - at < FORGOTTEN}
-            newest = sorted(self._seen.items(), key=lambda item: -item[1])[:24]
+            newest = sorted(self._seen.items(), key=lambda item: -item[1])[:MOST_SEEN]
             ages = {session: round((now - at) * 1000, 1) for session, at in newest}
             with suppress(CommandError):
                 self._send(packed({"do": "alive", "id": next(self._ids), "session": "gateway", "seen": ages}))

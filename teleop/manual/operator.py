@@ -14,7 +14,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from teleop.config.device_commands import DRONE
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
-from teleop.core.axes import Axis, Limits, Motion, Reading
+from teleop.core.axes import Axis, Limits, Motion, Reading, moves
 from teleop.core.events import Action, DeviceCommand, DialInput, TickEvent
 from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Input, Press
@@ -164,11 +164,6 @@ class Operator:
             self._actions.append(DialInput(speed))
         self._dial = speed
 
-    @property
-    def _moving(self) -> bool:
-        moved = (state for axis, state in self._motion.items() if not axis.is_stick)
-        return any(state.velocity or state.acceleration for state in moved)
-
     def _stop(self, lock: Interlock, press: Press) -> None:
         if not self._stopped:
             name = press.by or lock.name
@@ -255,7 +250,7 @@ class Operator:
             self._send_to_drone(command)
         elif command.device == TARGET:
             self._mark(command.name)
-        elif self._moving:
+        elif moves(self._motion):
             self.notify(f"{command} refused: an axis is moving")
         else:
             self._actions.append(command)
@@ -266,7 +261,7 @@ class Operator:
             self.notify("mark target: start teleop live with --targets FILE")
         elif pan is None or tilt is None:
             self.notify("mark target: needs a rig that measures pan and tilt")
-        elif self._moving:
+        elif moves(self._motion):
             self.notify("mark target refused: an axis is moving")
         else:
             self.notify(self._marks.mark(typed, pan.position, tilt.position))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile
-from teleop.core.axes import Axis, Limits, Motion
+from teleop.core.axes import Axis, Limits, Motion, moves
 from teleop.core.errors import TeleopError
 from teleop.core.events import Action, Tick
 from teleop.core.operator_input import Command
@@ -80,8 +80,7 @@ class LiveActions:
 
     @property
     def rests(self) -> bool:
-        moving = (state for axis, state in self._motion.items() if not axis.is_stick)
-        return not any(state.velocity or state.acceleration for state in moving)
+        return not moves(self._motion)
 
     def busy(self, session: str) -> bool:
         job = self._jobs.job
@@ -131,10 +130,13 @@ class LiveActions:
         if self.operator.status.deflections:
             raise Refusal("release the stick first")
 
-    def _go(self, title: str, asked: Asked, targets: dict[Axis, float], seconds: float | None) -> None:
+    def _may_begin(self) -> None:
         self._may_move()
         if isinstance(self._jobs.job, PlayJob):
             raise Refusal(f"{self._jobs.job.title} is playing: abort it first")
+
+    def _go(self, title: str, asked: Asked, targets: dict[Axis, float], seconds: float | None) -> None:
+        self._may_begin()
         where = {axis: self._place(axis, to) for axis, to in targets.items()}
         if not where:
             raise Refusal(f"{title} has no axis of this rig")
@@ -162,9 +164,7 @@ class LiveActions:
         target = min(max(start + asked["by"], limits.minimum), limits.maximum)
         if target == start:
             raise Refusal(f"{axis} is at its soft limit")
-        self._may_move()
-        if isinstance(job, PlayJob):
-            raise Refusal(f"{job.title} is playing: abort it first")
+        self._may_begin()
         asked.accept()
         seconds = asked.get("within", JOG_TIME)
         self._jobs.begin(WayJob("jog", asked.command.session, {axis: target}, seconds, asked.end))
@@ -213,9 +213,7 @@ class LiveActions:
     # --- moves
 
     def _play(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        self._may_move()
-        if isinstance(self._jobs.job, PlayJob):
-            raise Refusal(f"{self._jobs.job.title} is playing: abort it first")
+        self._may_begin()
         if self._works.planning:
             raise Refusal("another move is being planned")
         by_hand = asked["move"] == "keys"

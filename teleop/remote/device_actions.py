@@ -45,10 +45,10 @@ class DueList:
     def look(self, now: float) -> None:
         """Tell those whose wait is over."""
         for due in list(self._due):
-            why = due.failed()
-            if due.done(now) or why or now > due.by:
+            why, done = due.failed(), due.done(now)
+            if done or why or now > due.by:
                 self._due.remove(due)
-                due.asked.end("" if due.done(now) else why or due.missing)
+                due.asked.end("" if done else why or due.missing)
 
 
 class DeviceActions:

@@ -12,6 +12,7 @@ from teleop.door.ring import RingWriter
 from teleop.door.sockets import CommandSocket
 from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway, GatewayChild
+from teleop.remote.state import Parts, StatePublisher
 
 LISTENS = 1.0  # s without a tick, after which the gateway's silence says nothing: a shoot that waits for its rig
 
@@ -26,6 +27,13 @@ class OpenDoor:
         self.socket = CommandSocket(self.address.commands)
         stack.callback(self.socket.close)
         self._ended = False  # the gateway, since the last look
+
+    def publisher(self, stack: ExitStack, parts: Parts, clock: Clock) -> StatePublisher:
+        """What writes the states of the run: that it waits at once, and that it is over when the stack is left."""
+        made = StatePublisher(parts, self.ring)
+        made.publish("waiting", clock.now())
+        stack.callback(lambda: made.publish("over", clock.now()))
+        return made
 
     def start(
         self, stack: ExitStack, gateway: Gateway, desk: Desk, clock: Clock, notify: Callable[[str], object]

@@ -38,6 +38,11 @@ def receive(stream: IO[bytes]) -> Any:
     return pickle.loads(stream.read(HEAD.unpack(head)[0]))
 
 
+def why(error: TeleopError) -> str:
+    """All that is wrong, in one line."""
+    return "; ".join(getattr(error, "problems", ()) or [str(error)])
+
+
 class PlanningProcess:
     """One that has ended is started again. `plan` waits, so call it in a thread."""
 
@@ -102,7 +107,7 @@ def main() -> None:
                 plan = plan_file(what, profile) if isinstance(what, str) else plan_content(what, profile)
                 found = _playable(plan)
             except TeleopError as error:
-                found = "; ".join(getattr(error, "problems", ()) or [str(error)])
+                found = why(error)
             send(writing, found)
 
 

@@ -25,7 +25,7 @@ from teleop.remote.jobs import JobSource
 from teleop.remote.keys import HandKeys
 from teleop.remote.live_shown import LiveShown
 from teleop.remote.open_door import OpenDoor
-from teleop.remote.state import Parts, StatePublisher
+from teleop.remote.state import Parts
 from teleop.remote.stick import RemoteStick
 from teleop.remote.told import Told
 from teleop.remote.works import Works
@@ -49,7 +49,7 @@ class RemoteHands:
         self.door = OpenDoor(stack)
         expo = EXPO if profile.sticks.expo is None else profile.sticks.expo
         moved = [axis for axis in limits if not axis.is_stick]
-        stick = RemoteStick(dict.fromkeys(moved), lambda value: shape(value, 0.0, expo))
+        stick = RemoteStick(moved, lambda value: shape(value, 0.0, expo))
         self._works = Works(profile, limits, self._folder)
         stack.callback(self._works.close)
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
@@ -71,12 +71,8 @@ class RemoteHands:
         self._operator = self._actions.operator = operator
         self._actions.presets, self._actions.devices.has_camera = presets, rig.camera is not None
         shown = LiveShown(operator, presets, self._jobs, self._keys)
-        parts = Parts(
-            *(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None),
-        )
-        self._publisher = StatePublisher(parts, self.door.ring)
-        self._publisher.publish("waiting", rig.clock.now())
-        stack.callback(lambda: self._publisher.publish("over", rig.clock.now()))
+        parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None)
+        self._publisher = self.door.publisher(stack, parts, rig.clock)
         if self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, rig.clock, operator.notify)
             self._works.start()

@@ -19,7 +19,7 @@ from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway
 from teleop.remote.move_state import move_state
 from teleop.remote.open_door import OpenDoor
-from teleop.remote.state import Parts, StatePublisher
+from teleop.remote.state import Parts
 from teleop.remote.stick import RemoteStick
 
 POLL = 0.02  # s: a STOP is in the loop within 50 ms
@@ -48,7 +48,7 @@ class RunHands:
         """Open the door, until the stack is left."""
         self._profile, self._limits, self._clock = profile, limits, clock
         self.door = OpenDoor(stack)
-        self.desk = Desk(self.door.socket, RemoteStick({}, float), self.line, self)
+        self.desk = Desk(self.door.socket, RemoteStick((), float), self.line, self)
 
     @property
     def inputs(self) -> Sequence[Input]:
@@ -59,9 +59,7 @@ class RunHands:
         self._running = running
         camera = any(sink.type == "camera" for sink in self._profile.sinks)
         parts = Parts(self._profile.name, self._limits, self, {}, self.desk, camera)
-        self._publisher = StatePublisher(parts, self.door.ring)
-        self._publisher.publish("waiting", self._clock.now())
-        stack.callback(lambda: self._publisher.publish("over", self._clock.now()))
+        self._publisher = self.door.publisher(stack, parts, self._clock)
         if self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, self._clock, self.line)
             running.show(self._gateway.greeting)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -14,6 +13,7 @@ from teleop.devices.connection import Connection
 from teleop.door.ring import RingWriter
 from teleop.door.states import StatePacker
 from teleop.manual.status import OperatorStatus
+from teleop.plots.numbers import finite
 from teleop.remote.desk import Desk
 
 MESSAGES = 10  # of the newest
@@ -79,13 +79,14 @@ class StatePublisher:
     def publish(self, run: str, now: float, tick: Tick | None = None) -> None:
         """The state at `now`, in a run that is "waiting", "running", "stopping", "releasing" or "over"."""
         self._tick = tick or self._tick
-        data = self._packer.pack(self._often(run, now), self._seldom_now())
+        status = self._parts.shown.status
+        data = self._packer.pack(self._often(run, now, status), self._seldom_now(status))
         self._ring.write(data)
         self._parts.desk.tick = self._ring.number
 
-    def _often(self, run: str, now: float) -> Mapping[str, Any]:
+    def _often(self, run: str, now: float, status: OperatorStatus) -> Mapping[str, Any]:
         parts, shown = self._parts, self._parts.shown
-        status, control = shown.status, parts.desk.control
+        control = parts.desk.control
         drivers = {**shown.drivers(), **{axis: each.name for each in status.inputs for axis in each.moves}}
         stick, age = parts.desk.stick, parts.desk.stick.age(now)
         if status.recording and self._recording_since is None:
@@ -134,9 +135,8 @@ class StatePublisher:
         age = max(0.0, now - connection.heard)
         return {"age_ms": round(age * 1000, 1), "ok": age < QUIET}
 
-    def _seldom_now(self) -> Mapping[str, Any]:
+    def _seldom_now(self, status: OperatorStatus) -> Mapping[str, Any]:
         parts, shown = self._parts, self._parts.shown
-        status = shown.status
         of = (status.messages, status.inputs, status.range, status.follow, shown.changes)
         if of == self._of:
             return self._seldom
@@ -168,8 +168,8 @@ def _facts(axis: Axis, limits: Limits) -> Mapping[str, Any]:
     """What never changes. JSON has no infinity: an axis that turns for ever has no ends."""
     return {
         "unit": axis.unit,
-        "minimum": limits.minimum if math.isfinite(limits.minimum) else None,
-        "maximum": limits.maximum if math.isfinite(limits.maximum) else None,
+        "minimum": finite(limits.minimum),
+        "maximum": finite(limits.maximum),
         "max_speed": limits.velocity,
         "continuous": limits.continuous,
     }

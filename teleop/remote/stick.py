@@ -10,14 +10,13 @@ Silence after a message with every axis at 0 is a stick that was released. Any o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Held
 
-AMBER = 0.15  # s of age from which on a view shows it
 RAMP = 0.25  # s from which on its axes come to rest
 DISARM = 1.0  # s from which on it has to take control again
 TOO_LATE = 0.2  # s behind the quickest message: dropped
@@ -57,7 +56,7 @@ class RemoteStick:
     `name` is that of the one who has control. `missed` counts messages that were lost, late or out of order.
     """
 
-    def __init__(self, axes: Mapping[Axis, object], shape: Callable[[float], float]) -> None:
+    def __init__(self, axes: Collection[Axis], shape: Callable[[float], float]) -> None:
         self._axes, self._shape = axes, shape
         self.session = ""
         self._stream = _Stream()

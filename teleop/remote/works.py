@@ -13,7 +13,7 @@ from teleop.core.axes import Axis, Limits
 from teleop.core.errors import TeleopError
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.moves import move_file
-from teleop.remote.planning_process import PlanningProcess
+from teleop.remote.planning_process import PlanningProcess, why
 from teleop.remote.play_job import PlayJob
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cycle import Cycle
@@ -76,7 +76,7 @@ class Works:
         try:
             found: PlayJob | str = self._made(asked, what)
         except TeleopError as error:
-            found = "; ".join(getattr(error, "problems", ()) or [str(error)])
+            found = why(error)
         except (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError) as error:
             found = f"cannot be planned: {error!r}"
         self._found.append((asked, begin, found))

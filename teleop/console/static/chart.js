@@ -6,7 +6,7 @@ import { axes, state } from "./store.js";
 const SPAN = 20; // s
 const MOST = 640; // points: 20 s at 30 Hz, and some
 const REDRAW = 66; // ms
-export const INK = { pan: "#4cc9f0", tilt: "#ffa23e", roll: "#94d82d", focus: "#c77dff" };
+const INK = { pan: "#4cc9f0", tilt: "#ffa23e", roll: "#94d82d", focus: "#c77dff" };
 const MUTED = "#9aa1ab", GRID = "#23272d";
 
 /** @type {number[]} */

@@ -33,7 +33,7 @@ export const onLost = (fn) => (whenLost.add(fn), () => whenLost.delete(fn));
 /** @param {(s: import("./types.js").State) => void} fn */
 export const onState = (fn) => (whenState.add(fn), () => whenState.delete(fn));
 
-export function connect() {
+function connect() {
   const scheme = location.protocol === "https:" ? "wss:" : "ws:";
   const name = new URLSearchParams(location.search).get("name"); // what others see of this page, else its kind and address
   const mine = (socket = new WebSocket(`${scheme}//${location.host}/ws${name ? `?name=${encodeURIComponent(name)}` : ""}`));

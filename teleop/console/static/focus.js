@@ -1,7 +1,7 @@
 // The focus slider with its marks A, B and C: a tap goes there in the set time, a long press sets the mark here.
 import { html, useRef, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
-import { able, fresh, mine, notify, part, state } from "./store.js";
+import { able, inControl, notify, part, state } from "./store.js";
 import { NumberField } from "./number_field.js";
 import { position } from "./format.js";
 
@@ -53,7 +53,7 @@ function Mark({ name, value, set, go }) {
     else go();
   };
   const shown = value === undefined ? "set" : position(value, ""), action = value === undefined ? "set the focus mark here" : "go to the focus mark; hold to set it here";
-  return html`<button disabled=${!fresh.value || !mine.value || (value !== undefined && !able.value)} aria-label=${`${name} ${shown}: ${action}`} data-testid=${`focus-mark-${name}`}
+  return html`<button disabled=${!inControl.value || (value !== undefined && !able.value)} aria-label=${`${name} ${shown}: ${action}`} data-testid=${`focus-mark-${name}`}
     onPointerDown=${begin} onPointerUp=${end} onPointerLeave=${end} onPointerCancel=${end} onClick=${tap} onContextMenu=${(/** @type {Event} */ e) => e.preventDefault()}>
     <b>${name}</b>${" "}<span>${shown}</span></button>`;
 }

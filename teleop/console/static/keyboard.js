@@ -2,6 +2,7 @@
 import { html, signal, useEffect, useRef } from "./vendor/preact/preact.min.js";
 import { command, stop } from "./connection.js";
 import { able, mine, notify, state } from "./store.js";
+import { recallSeconds } from "./presets.js";
 import { toPlay } from "./transport.js";
 
 /** Jogs: [axis, units]. @type {Object<string, [string, number]>} */
@@ -83,7 +84,7 @@ function jog(event, axis, units) {
 
 /** @param {number} number */
 function recall(number) {
-  command("preset_recall", { number, seconds: Number(localStorage.getItem("teleop.recall-seconds")) || 2 });
+  command("preset_recall", { number, seconds: recallSeconds() });
   return true;
 }
 

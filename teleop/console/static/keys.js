@@ -1,7 +1,7 @@
 // Keys from the hand: jog, set key, jog, set key, play. The keys become a move whose times are even and can be dragged.
 import { html } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
-import { axes, fresh, mine, part, tab } from "./store.js";
+import { axes, inControl, part, tab } from "./store.js";
 import { short } from "./format.js";
 import { chosen } from "./moves.js";
 import { openKeys } from "./move/document.js";
@@ -10,7 +10,7 @@ const EVEN = 4; // s between two keys until they are dragged
 export const keys = part((s) => s.keys, []);
 
 export function Keys() {
-  const list = keys.value, off = !fresh.value || !mine.value;
+  const list = keys.value, off = !inControl.value;
   const set = () => {
     chosen.value = ""; // Play is about the keys now
     command("set_key");

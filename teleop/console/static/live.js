@@ -1,7 +1,7 @@
 // The Live page: where everything is, and every way to move it by hand.
 import { html, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
-import { able, axes, fresh, mayOperate, mine, part, state } from "./store.js";
+import { able, axes, inControl, mayOperate, part, state } from "./store.js";
 import { position, short, sign, signed } from "./format.js";
 import { Attitude, DEFAULT_FOV } from "./attitude.js";
 import { StripChart } from "./chart.js";
@@ -75,14 +75,14 @@ function StickCard() {
   const off = !able.value;
   return html`<section class="card tools" aria-label="Speed and camera">
     <div class="segments" role="group" aria-label="Speed range">${ranges.value.map(
-      (share, n) => html`<button disabled=${!fresh.value || !mine.value} aria-pressed=${range.value === n + 1} aria-label=${`Speed ${Math.round(100 * share)} percent`}
+      (share, n) => html`<button disabled=${!inControl.value} aria-pressed=${range.value === n + 1} aria-label=${`Speed ${Math.round(100 * share)} percent`}
         onClick=${() => command("range", { number: n + 1 })}>${Math.round(100 * share)} %</button>`)}</div>
     <div class="segments" role="group" aria-label="Follow mode">${MODES.map(
       (mode) => html`<button disabled=${off} aria-pressed=${follow.value === mode} onClick=${() => command("follow", { mode })}>${mode}</button>`)}</div>
     <button disabled=${off} onClick=${() => command("recenter")}>Recenter</button>
-    ${camera.value && html`<button class="record ${recording.value ? "on" : ""}" disabled=${!mayOperate.value || !mine.value || !fresh.value}
+    ${camera.value && html`<button class="record ${recording.value ? "on" : ""}" disabled=${!mayOperate.value || !inControl.value}
       onClick=${() => command(recording.value ? "stop_recording" : "record")}><i aria-hidden="true"></i>${recording.value ? "Stop recording" : "Record"}</button>
-    <button disabled=${!mine.value || !fresh.value} onClick=${() => command("shutter")}>Shutter</button>`}
+    <button disabled=${!inControl.value} onClick=${() => command("shutter")}>Shutter</button>`}
     <${StickState} />
     ${newest.value && html`<p class="newest" role="log" aria-label="Newest message">${newest.value}</p>`}
   </section>`;

@@ -1,7 +1,7 @@
 // Presets as tiles with a picture of the attitude: a tap recalls in the set time, a long press stores.
 import { html, useRef, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
-import { able, axes, fresh, mine, notify, part } from "./store.js";
+import { able, axes, inControl, notify, part } from "./store.js";
 import { Attitude } from "./attitude.js";
 import { NumberField } from "./number_field.js";
 import { short } from "./format.js";
@@ -10,9 +10,11 @@ const LONG = 700; // ms of a press that stores
 const SHOWN = 10; // numbers 0 to 9 have a key on the keyboard; higher ones are listed when they are stored
 const presets = part((s) => s.presets, {});
 const KEPT = "teleop.recall-seconds";
+/** The set time of a recall, in s. */
+export const recallSeconds = () => Number(localStorage.getItem(KEPT)) || 2;
 
 export function Presets() {
-  const seconds = useSignal(Number(localStorage.getItem(KEPT)) || 2);
+  const seconds = useSignal(recallSeconds());
   const numbers = [...new Set([...Array.from({ length: SHOWN }, (_, n) => n), ...Object.keys(presets.value).map(Number)])].sort((a, b) => a - b);
   const order = [...numbers.filter((n) => n > 0), ...numbers.filter((n) => n === 0)];
   const change = (/** @type {number} */ value) => {
@@ -34,7 +36,7 @@ function Tile({ number, preset, seconds }) {
     command("preset_store", { number }).then((answer) => answer.ok && notify(`preset ${number} stored`));
   };
   const begin = (/** @type {PointerEvent} */ event) => {
-    if (event.button > 0 || !fresh.value || !mine.value) return;
+    if (event.button > 0 || !inControl.value) return;
     stored.current = false;
     pressing.value = true;
     timer.current = window.setTimeout(store, LONG);
@@ -52,7 +54,7 @@ function Tile({ number, preset, seconds }) {
   const named = preset ? axes.value.filter((axis) => axis in preset).map((axis) => `${axis} ${short(at(axis), 1)}`).join(", ") : "empty";
   const shown = preset?.name ?? (preset ? `${short(at("pan"), 0)}° ${short(at("tilt"), 0)}°` : "");
   return html`<button class="tile ${preset ? "" : "empty"} ${pressing.value ? "pressing" : ""}" data-testid=${`preset-${number}`}
-      disabled=${!mine.value || !fresh.value || (preset && !able.value)} aria-label=${`Preset ${number} ${shown}: ${named}. Hold to store.`}
+      disabled=${!inControl.value || (preset && !able.value)} aria-label=${`Preset ${number} ${shown}: ${named}. Hold to store.`}
       onPointerDown=${begin} onPointerUp=${end} onPointerCancel=${end} onPointerLeave=${end} onClick=${tap} onContextMenu=${(/** @type {Event} */ e) => e.preventDefault()}>
     ${preset ? html`<${Attitude} pan=${at("pan")} tilt=${at("tilt")} roll=${at("roll")} label="" />` : html`<span class="none" aria-hidden="true">+</span>`}
     <span class="tile-name"><b>${number}</b>${" "}${shown}</span>

@@ -1,7 +1,7 @@
 // The Shoot page: a timelapse frame by frame, when it ends, and what it missed.
 import { html, useEffect, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
-import { able, fresh, mine, part } from "./store.js";
+import { able, inControl, part } from "./store.js";
 import { clock, short, timeOfDay } from "./format.js";
 import { moves, request, urlOf } from "./moves.js";
 import { seconds } from "./move/content.js";
@@ -37,7 +37,7 @@ function Running({ now }) {
   useEffect(() => {
     if (file) request(urlOf(file), { quiet: true }).then((found) => (intervals.value = intervalsOf(found?.content)));
   }, [file]);
-  const left = Math.max(now.frames - now.frames_done, 0), off = !fresh.value || !mine.value;
+  const left = Math.max(now.frames - now.frames_done, 0), off = !inControl.value;
   return html`<section class="card frames"><h2>Frames</h2>
       <p class="huge"><b>${now.frames_done}</b> of ${now.frames}</p>
       <progress max=${now.frames || 1} value=${now.frames_done} aria-label="Frames done"></progress>

@@ -36,7 +36,7 @@ export function release(name) {
   turn();
 }
 
-export function releaseAll() {
+function releaseAll() {
   const held = hands.size > 0;
   hands.clear();
   if (held) {

@@ -95,7 +95,7 @@ function keyHandlers(/** @type {(x: number, y: number) => void} */ deflect, /** 
 }
 
 /** Why a stick moves nothing now, in a line. */
-export function whyNot() {
+function whyNot() {
   if (!fresh.value) return "no connection to the rig";
   if (state.value?.stopped) return "stopped: clear STOP first";
   if (!mine.value) return state.value?.holder ? `${state.value.holder} has control: ask for it first` : "take control first";

@@ -25,8 +25,10 @@ export const holder = part((s) => s.holder, null);
 export const mine = computed(() => !!state.value?.holder_session && state.value.holder_session === hello.value.session);
 export const mayOperate = computed(() => hello.value.role === "operate");
 export const fresh = computed(() => link.value === "live");
+/** Whether this page has control of a rig that answers. */
+export const inControl = computed(() => fresh.value && mine.value);
 /** Whether a button that moves something can be pressed now. */
-export const able = computed(() => fresh.value && mine.value && !state.value?.stopped);
+export const able = computed(() => inControl.value && !state.value?.stopped);
 
 /** The RFC 7396 merge of `changes` into `target`; parts that do not change stay the same objects. @param {any} target @param {any} changes @returns {any} */
 export function merged(target, changes) {

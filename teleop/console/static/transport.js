@@ -1,7 +1,7 @@
 // The transport: what plays, its preroll, play and pause, its speed, its keys, its passes and how far each was off.
 import { html, useSignal } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
-import { able, fresh, mine, part } from "./store.js";
+import { able, inControl, part } from "./store.js";
 import { clock, short } from "./format.js";
 import { NumberField } from "./number_field.js";
 import { Icon } from "./icons.js";
@@ -10,14 +10,14 @@ import { keys } from "./keys.js";
 
 const move = part((s) => s.move, null);
 const SPEEDS = [0.25, 0.5, 0.75, 1, 1.5, 2];
-export const preroll = { key: "teleop.preroll" };
+const KEPT = "teleop.preroll";
 
 /** What play starts: a move that was chosen, else the keys from the hand where there are two, else a move of the folder. @param {string} [open] */
 export const toPlay = (open) => open ?? (chosen.value || (keys.value.length > 1 ? "keys" : preferred.value || "keys"));
 
 /** @param {{compact?: boolean, open?: string, blocked?: string}} props `open` is the move that the editor has, `blocked` why it cannot play */
 export function Transport({ compact = false, open, blocked = "" }) {
-  const loop = useSignal(false), passes = useSignal(1), wait = useSignal(Number(localStorage.getItem(preroll.key) ?? 3));
+  const loop = useSignal(false), passes = useSignal(1), wait = useSignal(Number(localStorage.getItem(KEPT) ?? 3));
   const now = move.value, playing = now !== null, paused = now?.phase === "paused", off = !able.value;
   const what = toPlay(open), none = what === "keys" && keys.value.length < 2;
   const start = () => command("play", { move: what, preroll: wait.value, passes: passes.value, loop: loop.value });
@@ -29,7 +29,7 @@ export function Transport({ compact = false, open, blocked = "" }) {
       <button class="icon pause ${paused ? "on" : ""}" data-testid="pause" disabled=${off || !playing} aria-label=${paused ? "Resume" : "Pause"}
         onClick=${() => command(paused ? "resume" : "pause")}><${Icon} name=${paused ? "resume" : "pause"} /></button>
       <button class="icon" disabled=${off || !paused} title="while paused" aria-label="Next key" onClick=${() => command("next_key")}><${Icon} name="next" /></button>
-      <button class="icon" disabled=${!fresh.value || !mine.value || !playing} aria-label="End the move" onClick=${() => command("abort")}><${Icon} name="stop" /></button>
+      <button class="icon" disabled=${!inControl.value || !playing} aria-label="End the move" onClick=${() => command("abort")}><${Icon} name="stop" /></button>
       <progress max=${now?.duration || 1} value=${now ? Math.max(now.at ?? 0, 0) : 0} aria-label="Progress of the move"></progress>
       <output class="time">${now ? clock(now.at ?? 0) : "00:00.00"}</output>
     </div>
@@ -40,7 +40,7 @@ export function Transport({ compact = false, open, blocked = "" }) {
         ${speeds(now).map((share) => html`<option value=${String(share)}>${Math.round(100 * share)} %</option>`)}</select></label>
       <label>Preroll <${NumberField} min=${0} max=${60} value=${wait.value} set=${(/** @type {number} */ value) => {
         wait.value = value;
-        localStorage.setItem(preroll.key, String(wait.value));
+        localStorage.setItem(KEPT, String(wait.value));
       }} /> s</label>
       <label>Passes <${NumberField} min=${1} max=${999} value=${passes.value} set=${(/** @type {number} */ value) => (passes.value = Math.round(value))} /></label>
       <button aria-pressed=${loop.value} onClick=${() => (loop.value = !loop.value)}>Loop</button>

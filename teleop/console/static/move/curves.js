@@ -2,10 +2,9 @@
 import { html, useEffect, useRef, useSignal } from "../vendor/preact/preact.min.js";
 import { axes as rigAxes, part, state } from "../store.js";
 import { axis as chosenAxis, doc, edit, plan, planning } from "./document.js";
-import { LINE, padded, ROOM, scaleOf, ticks } from "./scale.js";
+import { isShare, LINE, padded, ROOM, scaleOf, ticks } from "./scale.js";
 import { Diamond } from "./diamond.js";
 
-export const isShare = (/** @type {string} */ name) => !["pan", "tilt", "roll"].includes(name);
 const playing = part((s) => s.move, null);
 
 /** The axes of the open move, in the rig's order. */
@@ -53,7 +52,7 @@ function fitted({ width, height }, names) {
   const degrees = names.filter((name) => !isShare(name));
   const values = degrees.flatMap((name) => [...keys.map((key) => key[name]).filter((value) => typeof value === "number"), ...(curves[name]?.position ?? [])]);
   const last = keys.at(-1), end = Math.max(plan.value?.duration ?? 0, last ? last.at + (last.hold ?? 0) : 1, 1);
-  return scaleOf(width, height, end, padded(values), isShare);
+  return scaleOf(width, height, end, padded(values));
 }
 
 /** @param {{scale: import("./scale.js").Scale, names: string[]}} props */

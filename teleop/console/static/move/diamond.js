@@ -2,12 +2,13 @@
 import { html, useRef } from "../vendor/preact/preact.min.js";
 import { short } from "../format.js";
 import { axis as chosenAxis, doc, edit, room, selected } from "./document.js";
+import { isShare } from "./scale.js";
 
 const NEAR = 4; // px that a press may move and still be a click
 const STEP = { deg: 0.1, share: 0.001 }, TIME_STEP = 0.01; // what a drag snaps to
 
 /** @param {string} name */
-const stepOf = (name) => (["pan", "tilt", "roll"].includes(name) ? STEP.deg : STEP.share);
+const stepOf = (name) => (isShare(name) ? STEP.share : STEP.deg);
 /** @param {number} value @param {number} step */
 const snapped = (value, step) => Number((Math.round(value / step) * step).toFixed(4));
 

@@ -5,14 +5,17 @@ const REM = parseFloat(getComputedStyle(document.documentElement).fontSize);
 export const ROOM = { left: 2.9 * REM, right: 2.5 * REM, top: 0.9 * REM, bottom: 1.65 * REM }; // px around the curves
 export const LINE = 2.8 * REM; // px from one line of the grid to the next, at least
 
+/** Whether an axis has no angle but a share: 0 to 1. @param {string} axis */
+export const isShare = (axis) => !["pan", "tilt", "roll"].includes(axis);
+
 /** @typedef {{x: (t: number) => number, y: (axis: string, v: number) => number, time: (x: number) => number, value: (axis: string, y: number) => number,
  *   low: number, high: number, span: number, width: number, height: number, valueRange: (axis: string) => [number, number]}} Scale */
 
 /**
  * Degrees share one scale; focus and other shares have 0 to 1 over the whole height.
- * @param {number} width @param {number} height @param {number} span @param {[number, number]} degrees @param {(axis: string) => boolean} isShare @returns {Scale}
+ * @param {number} width @param {number} height @param {number} span @param {[number, number]} degrees @returns {Scale}
  */
-export function scaleOf(width, height, span, degrees, isShare) {
+export function scaleOf(width, height, span, degrees) {
   const w = Math.max(width - ROOM.left - ROOM.right, 10), h = Math.max(height - ROOM.top - ROOM.bottom, 10);
   const valueRange = (/** @type {string} */ axis) => /** @type {[number, number]} */ (isShare(axis) ? [0, 1] : degrees);
   return {

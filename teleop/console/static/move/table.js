@@ -2,7 +2,8 @@
 import { html } from "../vendor/preact/preact.min.js";
 import { NumberField } from "../number_field.js";
 import { doc, edit, plan, positionsAt, room, selected } from "./document.js";
-import { axesOfMove, isShare } from "./curves.js";
+import { axesOfMove } from "./curves.js";
+import { isShare } from "./scale.js";
 
 const EASES = ["", "soft", "25%", "50%", "1s", "2s"];
 
