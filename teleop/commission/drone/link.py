@@ -37,7 +37,7 @@ class DroneLink:
         self.tap: Callable[[Link], Link] = lambda link: link
         self.simulated = simulated
         if simulated is None and self.address.kind == "sim":
-            self.simulated = SimulatedDrone(now=clock.now(), cipher=app_cipher(self.section.encrypted))
+            self.simulated = SimulatedDrone(now=clock.now(), cipher=self.cipher)
         self._clock = clock
         self._link: ClosableLink | None = None
 
