@@ -16,7 +16,6 @@ from teleop.commission.gimbal.places import ANGLES, Places, around
 from teleop.commission.gimbal.rest import Rest
 from teleop.commission.step import Script
 from teleop.config.sinks_section import GimbalSection
-from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError
 from teleop.devices.connection import Answer, Connection
 from teleop.devices.gimbal.position import own_version
@@ -129,13 +128,6 @@ class GimbalBench:
     def driven(self) -> Sequence[int]:
         """The gimbal's angles that the profile drives, by their places in yaw, roll, pitch."""
         return [index for index, axis in enumerate(self.section.axes) if axis is not None]
-
-    def axis(self, index: int) -> Axis:
-        """The operator's axis of one of the gimbal's angles. Raises DeviceError where the profile drives none."""
-        axis = self.section.axes[index]
-        if axis is None:
-            raise DeviceError(f"the profile drives no {ANGLES[index]}")
-        return axis
 
     def name(self, index: int) -> str:
         axis = self.section.axes[index]

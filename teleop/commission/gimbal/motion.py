@@ -10,7 +10,8 @@ from collections.abc import Callable, Generator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from teleop.commission.gimbal.places import Places, around, gone
-from teleop.commission.step import Question, Wait
+from teleop.commission.step import Pause, Question, Wait
+from teleop.dji.gimbal.joystick import FULL_DEFLECTION
 from teleop.dji.message import Message
 
 if TYPE_CHECKING:
@@ -26,8 +27,6 @@ PARTS = 5  # of a way back, beside those that its length asks for
 LAPSES, ROOM = 2.0, 4.6  # s and deg in which a command that is not repeated is to end
 ASTRAY = 3.0  # deg that a way back may lead away, until it is given up
 STEER, ARRIVED = 2.0, 0.12  # 1/s and deg of a way that is steered by speeds
-
-Pause = Generator[Wait | Question, str, None]
 
 
 class Shift(NamedTuple):
@@ -200,7 +199,7 @@ def sender(bench: GimbalBench, index: int, by_speed: bool) -> Callable[[float], 
     if by_speed:
         sign = bench.speed_signs[index] or 1
         return lambda value: bench.speed(index, sign * value)
-    return lambda value: bench.push(index, round(15000 * value / bench.full_stick[index]))
+    return lambda value: bench.push(index, round(FULL_DEFLECTION * value / bench.full_stick[index]))
 
 
 def moving_part(track: list[Places], index: int, near: float | None = None) -> list[tuple[float, float]]:

@@ -7,7 +7,7 @@ import math
 from teleop.commission.findings import Fact, Findings, Subject
 from teleop.commission.gimbal.base import AxisStep
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import home, rest, wait
+from teleop.commission.gimbal.motion import home, let_go, rest, wait
 from teleop.commission.gimbal.places import around
 from teleop.commission.gimbal.stop import can_move, move
 from teleop.commission.page import DOWN, GO, LEFT, RIGHT, UP
@@ -102,8 +102,7 @@ class SoftLimitsStep(AxisStep):
             while bench.now < end:
                 move(bench, index, step / seconds, 0.1)
                 yield from wait(bench, 0.05)
-            while (after := bench.rest.release(bench.now)) is not None:
-                yield from wait(bench, after - bench.now)
+            yield from let_go(bench)
             yield from rest(bench, 0.2)
             return around(bench.mean(0.1)[index] - before)
         sequence = bench.increment(index, bench.position_signs[index] * step, round(seconds, 1))

@@ -7,7 +7,7 @@ import math
 from teleop.commission.findings import Findings, Subject
 from teleop.commission.gimbal.base import AxisStep, GimbalStep
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, home, moving_part, rest
+from teleop.commission.gimbal.motion import FURTHEST, home, moving_part, rest, sender
 from teleop.commission.gimbal.places import around
 from teleop.commission.page import STOP
 from teleop.commission.step import Question, Script, Wait
@@ -146,7 +146,5 @@ def move(bench: GimbalBench, index: int, speed: float, seconds: float) -> None:
     """On at `speed` (deg/s, in the sign of readings) for a moment, by what the axis was found to obey."""
     if bench.obeys_position[index]:
         bench.increment(index, bench.position_signs[index] * speed * seconds, seconds)
-    elif sign := bench.speed_signs[index]:
-        bench.speed(index, sign * speed)
     else:
-        bench.push(index, round(15000 * speed / bench.full_stick[index]))
+        sender(bench, index, by_speed=bool(bench.speed_signs[index]))(speed)

@@ -6,9 +6,9 @@ import math
 from collections.abc import Generator
 
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import Pause, home, let_go, rest
+from teleop.commission.gimbal.motion import home, let_go, rest
 from teleop.commission.gimbal.places import around, gone
-from teleop.commission.step import Question, Wait
+from teleop.commission.step import Pause, Question, Wait
 from teleop.core.axes import Reading
 from teleop.core.response import Response
 from teleop.identification.candidates import Start
