@@ -10,11 +10,12 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from teleop.commission.gimbal.motion import home
-from teleop.commission.gimbal.places import ANGLES, around
+from teleop.commission.gimbal.places import ANGLES
 from teleop.commission.gimbal.rest import Rest
 from teleop.commission.gimbal.track import Track
 from teleop.commission.step import Script
 from teleop.config.sinks_section import GimbalSection
+from teleop.config.wiring import half_turn
 from teleop.core.errors import DeviceError
 from teleop.devices.connection import Answer, Connection
 from teleop.devices.gimbal.position import own_version
@@ -123,7 +124,7 @@ class GimbalBench(Track):
         if self.begin is None:
             return {}
         here, near = self.mean(), SAME_PLACE + self.noise
-        ways = {index: around(self.begin[index] - here[index]) for index in self.driven}
+        ways = {index: half_turn(self.begin[index] - here[index]) for index in self.driven}
         return {index: way for index, way in ways.items() if abs(way) > near}
 
     def restore(self) -> Script:
@@ -161,7 +162,7 @@ class GimbalBench(Track):
         if self._reach is None or here is None:
             return
         for index, (angle, start) in enumerate(zip(here, self._reach_from, strict=True)):
-            if abs(moved := around(angle - start)) > self._reach:
+            if abs(moved := half_turn(angle - start)) > self._reach:
                 self._reach = None
                 raise DeviceError(f"{self.name(index)} moved {abs(moved):.1f} deg, more than it was sent: stopped")
 
@@ -181,7 +182,7 @@ class GimbalBench(Track):
 
     def target(self, index: int, angle: float, seconds: float) -> int:
         """Turn one angle to `angle` (deg, as positions count it)."""
-        return self._position(index, around(angle), seconds, absolute=True)
+        return self._position(index, half_turn(angle), seconds, absolute=True)
 
     def _position(self, index: int, angle: float, seconds: float, *, absolute: bool) -> int:
         yaw, roll, pitch = (angle if each == index else 0.0 for each in range(3))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from teleop.commission.findings import Findings, Subject
 from teleop.commission.gimbal.base import GimbalStep, answered
 from teleop.commission.gimbal.motion import answer, home, wait
-from teleop.commission.gimbal.places import around, gone
+from teleop.commission.gimbal.places import gone
 from teleop.commission.step import Question, Script, Wait
+from teleop.config.wiring import half_turn
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.enums import CenterAction, FollowMode
 
@@ -83,7 +84,7 @@ class RecenterStep(GimbalStep):
             recent = bench.since(bench.now - 0.15)
             if len(recent) >= 3:
                 span = recent[-1].time - recent[0].time
-                ways = [abs(around(b - a)) for a, b in zip(recent[0].angles, recent[-1].angles, strict=True)]
+                ways = [abs(half_turn(b - a)) for a, b in zip(recent[0].angles, recent[-1].angles, strict=True)]
                 fastest = max(fastest, max(ways) / span)
             rests = rests if bench.still else bench.now
             if bench.now > begin + 1.5 and bench.still:

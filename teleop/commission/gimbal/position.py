@@ -24,9 +24,9 @@ from teleop.commission.gimbal.motion import (
     shift,
     wait,
 )
-from teleop.commission.gimbal.places import around
 from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.step import Question, Script, Wait
+from teleop.config.wiring import half_turn
 
 REACH, SECONDS, SHORT = 2.0, 1.0, 0.5  # deg and s
 SLOWEST = 25.5  # s: a place that is not where it is thought to be is approached slowly
@@ -69,7 +69,7 @@ class PositionStep(AxisStep):
         if moved is None:
             return [self.obeyed.found(False, f"{answered(first.code)}, and it did not move")]
         order = settle_order(bench, self.signs.order, index, moved)
-        way = around(bench.mean()[index] - self._began(first))
+        way = half_turn(bench.mean()[index] - self._began(first))
         bench.position_signs[index], bench.obeys_position[index] = (1 if way > 0 else -1), True
         facts = [self.obeyed.found(True, f"{answered(first.code)}, moved {abs(way):.1f} of {REACH:g} deg"), *order]
         facts.append(self.error.found(round(abs(way) - REACH, 2), f"after {REACH:g} deg", within=0.2 + bench.noise))
@@ -151,13 +151,13 @@ class PositionStep(AxisStep):
         """To where it is, as an absolute position: it must stay. Where it does not, it is on a long way, slowly."""
         bench, index = self.bench, self.index
         here = bench.mean()[index]
-        angle = around(bench.position_signs[index] * here)
+        angle = half_turn(bench.position_signs[index] * here)
         low, high = NAMEABLE[index]
         if not low <= angle <= high:
             return [self.absolute.not_seen(f"{angle:.0f} deg is beyond what a position command can say")]
         sequence = bench.target(index, angle, SLOWEST)
         yield from wait(bench, 1.5, "sent to where it is: it must not move")
-        moved, code = around(bench.mean()[index] - here), bench.code(sequence)
+        moved, code = half_turn(bench.mean()[index] - here), bench.code(sequence)
         yield from let_go(bench)
         stays = abs(moved) < LEAPS / 2 + bench.noise and not code
         return [self.absolute.found(stays, f"{answered(code)}, moved {moved:+.1f} deg when sent to where it was")]
