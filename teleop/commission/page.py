@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from teleop.commission.findings import Fact
+from teleop.commission.step import Question
 
 GO, STOP, SKIP, REPEAT, END = "enter", "space", "s", "r", "q"
 LEFT, RIGHT, UP, DOWN, RUBOUT = "left", "right", "up", "down", "backspace"
@@ -47,3 +48,22 @@ class Page:
     facts: Sequence[Fact] = ()
     keys: Mapping[str, str] = field(default_factory=dict)
     displaced: str = ""
+
+
+def keys_on(stage: Stage, question: Question | None, in_trouble: bool) -> dict[str, str]:
+    """What each key does on a page."""
+    match stage:
+        case Stage.PROMPT:
+            return {GO: "goes", SKIP: "skips", END: "ends"}
+        case Stage.RUNNING | Stage.RESTORING:
+            return {STOP: "STOP"}
+        case Stage.ASKING if question is not None:
+            own = {GO: "answers"} if question.word else {END: "ends", **question.choices}
+            return {**question.choices, **own, STOP: "STOP"}
+        case Stage.SHOWN if in_trouble:
+            return {REPEAT: "repeats", SKIP: "skips", END: "ends"}
+        case Stage.SHOWN:
+            return {GO: "next", REPEAT: "repeats", END: "ends"}
+        case Stage.LOST:
+            return {END: "ends"}
+    return {}

@@ -8,33 +8,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from teleop.commission.findings import Fact, Findings, Verdict
-from teleop.commission.page import END, GO, REPEAT, RUBOUT, SKIP, STOP, Page, Stage
-from teleop.commission.step import Device, Question, Script, Step
+from teleop.commission.page import END, GO, REPEAT, SKIP, STOP, Page, Stage, keys_on
+from teleop.commission.step import Device, Step
+from teleop.commission.task import Task
 from teleop.core.errors import DeviceError, LinkError
 from teleop.dji.message import FieldError
 
 AUTOREPEAT = 0.045  # s between two Enters of a key that is held down: the second does not count
 STALL = 0.5  # s between two turns: the computer was elsewhere, and what was sent has lapsed
 RETRY = 1.0  # s between two attempts to open a lost link
-LONGEST_WORD = 40
 
 
 class RefusedError(DeviceError):
     """The commissioning must not go on at all."""
-
-
-@dataclass
-class _Task:
-    """A script under way: `wake` is when it goes on, `question` what it waits for."""
-
-    script: Script
-    wake: float = -math.inf
-    question: Question | None = None
-    typed: str = ""
-    progress: str = ""
 
 
 class Runner:
@@ -55,7 +44,7 @@ class Runner:
         self._device, self._steps, self._first_final = device, [*steps, *final], len(steps)
         self._on_facts = on_facts
         self._index = -1
-        self._task: _Task | None = None
+        self._task: Task | None = None
         self._facts: Sequence[Fact] = ()
         self._trouble = ""
         self._then: Callable[[float], None] = self._show  # after the release
@@ -138,19 +127,12 @@ class Runner:
         if key == STOP and STOP not in task.question.choices:
             self._end_task("STOPPED")
         elif task.question.word:
-            self._type(task, key, now)
+            if (word := task.type(key)) is not None:
+                self._answer(task, word, now)
         elif key in task.question.choices:
             self._answer(task, key, now)
         elif key == END:
             self._end_task("STOPPED", self._end_from)
-
-    def _type(self, task: _Task, key: str, now: float) -> None:
-        if key == GO:
-            self._answer(task, task.typed.strip(), now)
-        elif key == RUBOUT:
-            task.typed = task.typed[:-1]
-        else:
-            task.typed = (task.typed + key)[:LONGEST_WORD] if len(key) == 1 else task.typed
 
     def _at_result(self, key: str, now: float) -> None:
         if key == END:
@@ -167,9 +149,8 @@ class Runner:
             self.reason = self.reason or self._trouble
             self._finish(now)
 
-    def _answer(self, task: _Task, answer: str, now: float) -> None:
-        task.question, task.typed = None, ""
-        self.stage = Stage.RUNNING
+    def _answer(self, task: Task, answer: str, now: float) -> None:
+        task.typed = ""
         self._resume(task, answer, now)
 
     def _advance(self, now: float) -> None:
@@ -179,27 +160,15 @@ class Runner:
         elif self.stage is Stage.RELEASING:
             self._release(now)
         elif task is not None and now >= task.wake - 1e-9:
-            answer = None if task.question is None else ""
-            if task.question is not None:
-                self.stage = Stage.RUNNING
-                task.question = None
-            self._resume(task, answer, now)
+            self._resume(task, None if task.question is None else "", now)
 
-    def _resume(self, task: _Task, answer: str | None, now: float) -> None:
-        """Let the script go on until it has to wait for a later turn."""
+    def _resume(self, task: Task, answer: str | None, now: float) -> None:
+        if answer is not None:
+            self.stage = Stage.RUNNING
         try:
-            while True:
-                asked = next(task.script) if answer is None else task.script.send(answer)
-                answer = None
-                if isinstance(asked, Question):
-                    task.question = asked
-                    task.wake = math.inf if asked.seconds is None else now + asked.seconds
-                    self.stage = Stage.ASKING
-                    return
-                task.progress = asked.progress or task.progress
-                if asked.seconds > 0:
-                    task.wake = now + asked.seconds
-                    return
+            task.go_on(answer, now)
+            if task.question is not None:
+                self.stage = Stage.ASKING
         except StopIteration as end:
             if self.stage is not Stage.RESTORING:
                 self._found([replace(fact, step=self.step.key) for fact in end.value or ()])
@@ -245,7 +214,7 @@ class Runner:
         if not self._device.displaced():
             target(now)
             return
-        self._target, self._trouble, self._task = target, "", _Task(self._device.restore())
+        self._target, self._trouble, self._task = target, "", Task(self._device.restore())
         self.stage = Stage.RESTORING
 
     def _end_from(self, now: float) -> None:
@@ -270,7 +239,7 @@ class Runner:
             self.stage = Stage.PROMPT
 
     def _begin(self) -> None:
-        self._task = _Task(self.step.script(self.findings))
+        self._task = Task(self.step.script(self.findings))
         self.stage = Stage.RUNNING
 
     def _skip(self, now: float) -> None:
@@ -337,23 +306,6 @@ class Runner:
             progress=task.progress if task and not question else "",
             trouble=self._trouble,
             facts=self._facts,
-            keys=self._keys(question),
+            keys=keys_on(self.stage, question, bool(self._trouble)),
             displaced=self._device.displaced() if self.stage is Stage.SHOWN else "",
         )
-
-    def _keys(self, question: Question | None) -> dict[str, str]:
-        match self.stage:
-            case Stage.PROMPT:
-                return {GO: "goes", SKIP: "skips", END: "ends"}
-            case Stage.RUNNING | Stage.RESTORING:
-                return {STOP: "STOP"}
-            case Stage.ASKING if question is not None:
-                own = {GO: "answers"} if question.word else {END: "ends", **question.choices}
-                return {**question.choices, **own, STOP: "STOP"}
-            case Stage.SHOWN if self._trouble:
-                return {REPEAT: "repeats", SKIP: "skips", END: "ends"}
-            case Stage.SHOWN:
-                return {GO: "next", REPEAT: "repeats", END: "ends"}
-            case Stage.LOST:
-                return {END: "ends"}
-        return {}

@@ -36,6 +36,8 @@ class Question:
     seconds: float | None = None
 
 
+Pause = Generator[Wait | Question, str, None]
+"""A part of a script that only takes its time."""
 Script = Generator[Wait | Question, str, Sequence[Fact]]
 
 

@@ -12,6 +12,7 @@ from command import teleop
 from far_gimbal import FarGimbal, far_gimbal
 from terminal_screen import TerminalScreen, screen
 
+from teleop.commission.runner import AUTOREPEAT
 from teleop.config.profile import load_profile
 from teleop.config.sinks_section import GimbalSection
 from teleop.dji.gimbal import camera
@@ -29,6 +30,7 @@ def to_the_first_move(terminal: TerminalScreen) -> None:
         terminal.wait_until(lambda rows: any(page in row for page in pages for row in rows), "a page")
         if "Leave 10 cm" not in terminal.text:
             terminal.type("\n")
+            time.sleep(2 * AUTOREPEAT)  # a hand is no faster: two Enters within that are a key that is held down
     terminal.type("\n")
     terminal.wait_for("balanced, unlocked and on?")
     terminal.type("y")

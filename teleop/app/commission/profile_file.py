@@ -7,14 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from teleop.app.commission.settings import Settings, settings_of
+from teleop.app.rig_file import RigFile, check_target
 from teleop.commission.findings import Findings
 from teleop.config.documents.document import Location, mapping
 from teleop.config.documents.yaml_edit import edited
-from teleop.config.documents.yaml_loader import parse_document
 from teleop.config.documents.yaml_notes import with_notes
-from teleop.config.files import OutputError, check_place, write_text
+from teleop.config.files import check_place, write_text
 from teleop.config.profile import Profile, checked_profile
-from teleop.config.resources import described, find, folder, is_bare
 from teleop.core.errors import UsageError
 
 MARK = "commission"
@@ -28,12 +27,11 @@ class ProfileFile:
     """
 
     def __init__(self, rig: str, out: Path | None, urls: dict[str, str] | None = None) -> None:
-        self._source, self._name = find(rig, "profiles", "rig")
+        self._rig = RigFile(rig)
         self._urls = urls or {}
-        shipped = is_bare(rig) or _is_shipped(self._source)
-        self.file = out or (Path(f"{self._source.stem}.yaml") if shipped else self._source)
-        if _is_shipped(self.file):
-            raise UsageError(f"{self.file}: a shipped rig is never written: choose another file with -o")
+        shipped, source = self._rig.is_shipped, self._rig.source
+        self.file = out or (Path(f"{source.stem}.yaml") if shipped else source)
+        check_target(self.file)
         if self.file.exists() and not self.updates:
             cure = f"give it with --rig ./{self.file}" if shipped and out is None else "choose another file with -o"
             raise UsageError(f"{self.file} exists already: {cure}")
@@ -42,25 +40,25 @@ class ProfileFile:
     @property
     def updates(self) -> bool:
         """Whether it is the rig's own file."""
-        return self.file.exists() and self._source.exists() and self._source.samefile(self.file)
+        return self.file.exists() and self._rig.source.exists() and self._rig.source.samefile(self.file)
 
     def settings(self, findings: Findings) -> Settings:
         return settings_of(findings, self._profile())
 
     def text(self, findings: Findings) -> str:
         """The whole profile with what was found. Raises DocumentError where the result is none."""
-        text = self._read()
+        text = self._rig.text()
         settings = self.settings(findings)
-        data = deepcopy(parse_document(text.removeprefix("\ufeff"), self._name).data)
+        data = deepcopy(self._rig.data(text))
         for place, value in settings.values.items():
             _put(data, place, value)
         for name, url in self._urls.items():
             _put(data, ("links", name), url)
-        text = with_notes(edited(text, data, self._name), settings.notes, MARK)
+        text = with_notes(edited(text, data, self._rig.name), settings.notes, MARK)
         for place in sorted(settings.removed, key=str, reverse=True):
             _remove(data, place)
-        text = edited(text, data, self._name)
-        checked_profile(text, self._name)
+        text = edited(text, data, self._rig.name)
+        checked_profile(text, self._rig.name)
         return text
 
     def write(self, findings: Findings) -> None:
@@ -68,13 +66,7 @@ class ProfileFile:
         write_text(self.file, self.text(findings))
 
     def _profile(self) -> Profile:
-        return checked_profile(self._read(), self._name)
-
-    def _read(self) -> str:
-        try:
-            return self._source.read_bytes().decode("utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise OutputError(self._source, f"it cannot be read any more: {error}") from None
+        return checked_profile(self._rig.text(), self._rig.name)
 
 
 def _put(data: Any, place: Location, value: Any) -> None:
@@ -87,8 +79,3 @@ def _remove(data: Any, place: Location) -> None:
     for step in place[:-1]:
         data = data[step]
     del data[place[-1]]
-
-
-def _is_shipped(file: Path) -> bool:
-    shipped = folder("profiles").resolve()
-    return file.resolve().parent == shipped and file.stem in described("profiles")

@@ -21,13 +21,20 @@ class ProfileStep:
     def __init__(self, file: ProfileFile) -> None:
         self.file, self.written = file, False
         self._findings: Findings | None = None
+        self._about: Sequence[str] = ()
 
     def unfit(self, findings: Findings) -> str:
-        self._findings = findings
+        self._findings, self._about = findings, ()
         return ""
 
     @property
     def about(self) -> Sequence[str]:
+        """Made once for each visit of the page: it reads the profile, and a page is asked for 100 times a second."""
+        if not self._about:
+            self._about = self._what_is_new()
+        return self._about
+
+    def _what_is_new(self) -> Sequence[str]:
         verb = "updates" if self.file.updates else "writes"
         head = f"Enter {verb} {self.file.file}{', its comments kept' * self.file.updates}. New in it:"
         if self._findings is None:

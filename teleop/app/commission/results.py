@@ -18,6 +18,7 @@ from teleop.captures.tapping import tap
 from teleop.captures.writer import CaptureWriter
 from teleop.commission.changes import changes, heading, shown
 from teleop.commission.findings import Findings
+from teleop.config.documents.read_bytes import read_bytes
 from teleop.config.files import OutputError, write_text
 from teleop.core.clock import date
 from teleop.core.errors import UsageError
@@ -26,6 +27,7 @@ from teleop.links.url import LinkAddress
 from teleop.plots.findings_html import page
 
 PAGE, REPORT, CAPTURE = "report.html", "report.json", "capture"
+LARGEST = 4_000_000  # bytes of a report that is read: one is 50 kB
 LOOK = 0.1  # s between two writes of the capture
 LAST = 3.0  # s for the last of them
 
@@ -38,10 +40,11 @@ def default_folder(rig: str) -> Path:
 
 def read_report(path: Path) -> Findings:
     """A report of an earlier commissioning. Raises UsageError."""
+    raw = read_bytes(path, str(path), LARGEST)
     try:
-        return Findings.from_json(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+        return Findings.from_json(raw.decode("utf-8"))
+    except UnicodeDecodeError as error:
+        raise UsageError(f"{path}: cannot be read: {error}") from None
     except UsageError as error:
         raise UsageError(f"{path}: {error}") from None
 

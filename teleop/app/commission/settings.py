@@ -12,6 +12,7 @@ from teleop.commission.findings import Findings
 from teleop.config.documents.document import Location
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import GimbalSection
+from teleop.config.wiring import half_turn
 from teleop.core.axes import Axis
 
 MODES = "position", "speed", "stick"
@@ -173,7 +174,7 @@ class _Maker:
         yaw = self._findings.value("recenter.yaw")
         if not isinstance(yaw, int | float):
             return None
-        off = (yaw - self._section.mount.yaw + 180) % 360 - 180
+        off = half_turn(yaw - self._section.mount.yaw)
         if abs(off) <= TURNED:
             return None
         return 180.0 if abs(abs(yaw) - 180) <= TURNED else 0.0 if abs(yaw) <= TURNED else yaw

@@ -8,13 +8,11 @@ from typing import Any
 from teleop.app.learn.answers import Answers
 from teleop.app.learn.devices import LearnedDevices
 from teleop.app.learn.merge import merged
+from teleop.app.rig_file import RigFile, check_target
 from teleop.config.documents.document import mapping
 from teleop.config.documents.yaml_edit import block, edited
-from teleop.config.documents.yaml_loader import parse_document
-from teleop.config.files import OutputError, check_place, is_stream, write_text
+from teleop.config.files import check_place, is_stream, write_text
 from teleop.config.profile import Profile, checked_profile
-from teleop.config.resources import described, find, folder, is_bare
-from teleop.core.errors import UsageError
 
 
 class Target:
@@ -24,13 +22,11 @@ class Target:
     """
 
     def __init__(self, rig: str, out: Path | None) -> None:
-        self._source, self._name = find(rig, "profiles", "rig")
-        shipped = is_bare(rig) or _is_shipped(self._source)
-        self.file = out or (None if shipped else self._source)
+        self._rig = RigFile(rig)
+        self.file = out or (None if self._rig.is_shipped else self._rig.source)
         if self.file is None:
             return
-        if _is_shipped(self.file):
-            raise UsageError(f"{self.file}: a shipped rig is never written: choose another file with -o")
+        check_target(self.file)
         check_place(self.file)
 
     @property
@@ -38,24 +34,24 @@ class Target:
         """Whether another file than the rig's own would be written over."""
         if self.file is None or is_stream(self.file) or not self.file.exists():
             return False
-        return not self._source.samefile(self.file)
+        return not self._rig.source.samefile(self.file)
 
     @property
     def updates(self) -> bool:
         """Whether it is the rig's own file."""
-        return self.file is not None and self.file.exists() and self._source.samefile(self.file)
+        return self.file is not None and self.file.exists() and self._rig.source.samefile(self.file)
 
     def text(self, answers: Answers, devices: LearnedDevices) -> str:
         """The whole profile. Raises DocumentError where the result is none, or the file has become another."""
-        text = self._read()
-        data = self._data(text)
-        done = edited(text, {**mapping(data), "inputs": self._inputs(data, answers, devices)}, self._name)
-        checked_profile(done, self._name)
+        text = self._rig.text()
+        data = self._rig.data(text)
+        done = edited(text, {**mapping(data), "inputs": self._inputs(data, answers, devices)}, self._rig.name)
+        checked_profile(done, self._rig.name)
         return done
 
     def lines(self, answers: Answers, devices: LearnedDevices) -> str:
         """Only its `inputs:`."""
-        inputs = self._inputs(self._data(self._read()), answers, devices)
+        inputs = self._inputs(self._rig.data(self._rig.text()), answers, devices)
         return "\n".join(block({"inputs": inputs}, 0)) + "\n"
 
     def write(self, text: str) -> None:
@@ -65,22 +61,8 @@ class Target:
 
     def profile(self, answers: Answers, devices: LearnedDevices) -> Profile:
         """The profile as it would be written. Raises DocumentError."""
-        return checked_profile(self.text(answers, devices), self._name)
+        return checked_profile(self.text(answers, devices), self._rig.name)
 
     def _inputs(self, data: Any, answers: Answers, devices: LearnedDevices) -> list[dict[str, Any]]:
         infos = [device.info for device in devices.each]
         return merged(mapping(data).get("inputs"), answers, infos, [device.hats for device in devices.each])
-
-    def _data(self, text: str) -> Any:
-        return parse_document(text.removeprefix("\ufeff"), self._name).data
-
-    def _read(self) -> str:
-        try:
-            return self._source.read_bytes().decode("utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise OutputError(self._source, f"it cannot be read any more: {error}") from None
-
-
-def _is_shipped(file: Path) -> bool:
-    shipped = folder("profiles").resolve()
-    return file.resolve().parent == shipped and file.stem in described("profiles")

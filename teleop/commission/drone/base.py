@@ -6,13 +6,13 @@ from collections.abc import Callable, Generator, Sequence
 
 from teleop.commission.drone.bench import DroneBench
 from teleop.commission.findings import Findings, Subject
-from teleop.commission.step import Question, Script, Wait
+from teleop.commission.step import Pause, Question, Script, Wait
 from teleop.core.errors import DeviceError
+from teleop.dji.message import Message
 
 OFF = Subject("drone.propellers", "Propellers off, typed by the operator", True)
 LOOK = 0.02  # s between two looks
-
-Pause = Generator[Wait | Question, str, None]
+ANSWERED = 4.0  # s for an answer: an activation is sent three times, a second apart
 
 
 class DroneStep:
@@ -57,6 +57,12 @@ def until(
             return False
         yield Wait(LOOK, progress)
     return True
+
+
+def answer(bench: DroneBench, sequence: int) -> Generator[Wait | Question, str, Message | None]:
+    """The answer to a request, None where none comes."""
+    yield from until(bench, lambda: sequence in bench.answers, ANSWERED, "asking")
+    return bench.reply(sequence)
 
 
 def until_or_key(

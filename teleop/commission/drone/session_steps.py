@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Generator, Mapping
+from collections.abc import Mapping
 
-from teleop.commission.drone.base import OFF, ActivatedStep, DroneStep, check_on_ground, until, wait
+from teleop.commission.drone.base import OFF, ActivatedStep, DroneStep, answer, check_on_ground, wait
 from teleop.commission.drone.bench import RATES
 from teleop.commission.findings import Fact, Findings, Subject
 from teleop.commission.runner import RefusedError
-from teleop.commission.step import Question, Script, Wait
+from teleop.commission.step import Question, Script
 from teleop.core.errors import DeviceError
+from teleop.devices.drone.control_mode import word_of
 from teleop.dji.drone import messages as drone
 from teleop.dji.drone.broadcast import Broadcast
 from teleop.dji.drone.enums import Code, FlightStatus, Rate
-from teleop.dji.message import Message
 
 WORD = "props-off"  # without a space, which stops
 TRIES = 3  # of typing them
 LISTENS = 1.0  # s
-ANSWERED = 4.0  # s for an answer: an activation is sent three times, a second apart
 COUNTED = 3.0  # s over which the parts of the broadcast are counted
 HERTZ: Mapping[Rate, float] = {Rate.HZ_1: 1.0, Rate.HZ_10: 10.0, Rate.HZ_50: 50.0, Rate.HZ_100: 100.0}
 
@@ -72,7 +71,7 @@ class ListenToDrone(DroneStep):
         counts, damage = bench.counts.total(), bench.connection.session.counts.damage
         yield from wait(bench, LISTENS, "listening")
         came = bench.counts.total() - counts
-        if status_refuses(bench.get("status")):
+        if bench.get("status") not in (None, FlightStatus.STANDBY):
             raise RefusedError("the drone reports that it flies: land it, then start again")
         how = f"{came} parts of the broadcast in {LISTENS:g} s, before anything was sent"
         broken = bench.connection.session.counts.damage - damage
@@ -92,7 +91,7 @@ class Activation(DroneStep):
 
     def script(self, findings: Findings) -> Script:  # noqa: ARG002
         bench = self.bench
-        reply = yield from self._answer(bench.ask_version())
+        reply = yield from answer(bench, bench.ask_version())
         if not isinstance(reply, drone.VersionAck | drone.ShortVersionAck):
             raise DeviceError(
                 "the drone does not answer: is it on, is the cable in, are its baud rate and wires right?"
@@ -101,20 +100,14 @@ class Activation(DroneStep):
         facts = [VERSION.found(reply.version, "asked (00 00)")]
         known: dict[int, str] = {Code.NOT_ACTIVATED: "not activated", Code.OK: "ok"}
         facts.append(CODE.found(known.get(reply.code, f"{reply.code:#06x}"), "asked (00 00)"))
-        activated = yield from self._answer(bench.activate())
+        activated = yield from answer(bench, bench.activate())
         if activated is None:
             raise DeviceError("the drone does not answer when asked to activate it")
         if code := getattr(activated, "code", None):
-            name = getattr(code, "name", str(code)).lower().replace("_", " ")
-            facts.append(ACTIVATED.found(False, f"it answered: {name}"))
+            facts.append(ACTIVATED.found(False, f"it answered: {word_of(code)}"))
             return facts
         bench.use_cipher()
         return [*facts, ACTIVATED.found(True, "asked (00 01)")]
-
-    def _answer(self, sequence: int) -> Generator[Wait | Question, str, Message | None]:
-        bench = self.bench
-        yield from until(bench, lambda: sequence in bench.answers, ANSWERED, "asking")
-        return bench.reply(sequence)
 
 
 class Frequencies(ActivatedStep):
@@ -126,9 +119,7 @@ class Frequencies(ActivatedStep):
 
     def script(self, findings: Findings) -> Script:  # noqa: ARG002
         bench = self.bench
-        sequence = bench.set_rates()
-        yield from until(bench, lambda: sequence in bench.answers, ANSWERED, "asking")
-        reply = bench.reply(sequence)
+        reply = yield from answer(bench, bench.set_rates())
         taken = reply is not None and not getattr(reply, "code", 1)
         facts: list[Fact] = [FREQUENCIES.found(taken, "asked (00 10)" if reply else "no answer to 00 10")]
         yield from wait(bench, 0.3)
@@ -144,13 +135,9 @@ class Frequencies(ActivatedStep):
                 subject.found(rate, how, within=0.15 * wanted + 1 / COUNTED) if count else subject.not_seen(how)
             )
         status = bench.get("status")
-        word = getattr(status, "name", str(status)).lower().replace("_", " ")
-        facts.append(STATUS.not_seen("no status came") if status is None else STATUS.found(word, "broadcast"))
+        facts.append(
+            STATUS.not_seen("no status came") if status is None else STATUS.found(word_of(status), "broadcast")
+        )
         if status is not None:
             check_on_ground(bench)
         return facts
-
-
-def status_refuses(status: object) -> bool:
-    """Whether this flight status means that it does not stand on the ground."""
-    return status is not None and status != FlightStatus.STANDBY

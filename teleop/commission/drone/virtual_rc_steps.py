@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Generator, Mapping
 
-from teleop.commission.drone.base import ActivatedStep, Pause, check_on_ground, until, wait
+from teleop.commission.drone.base import ActivatedStep, check_on_ground, until, wait
 from teleop.commission.findings import Fact, Findings, Subject
-from teleop.commission.step import Question, Script, Wait
+from teleop.commission.step import Pause, Question, Script, Wait
 from teleop.core.errors import DeviceError
 from teleop.devices.drone.control_mode import word_of
 from teleop.dji.drone.enums import ControlDevice, RcMode

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from teleop.commission.findings import Findings, Subject
-from teleop.commission.gimbal.base import GimbalStep
+from teleop.commission.gimbal.base import GimbalStep, answered
 from teleop.commission.gimbal.motion import answer, wait
 from teleop.commission.step import Question, Script
 from teleop.dji.gimbal import camera, focus
@@ -37,8 +37,10 @@ class FocusStep(GimbalStep):
         rest = (CALIBRATED, FOCUS_MOVES, DIRECTION, ZERO)
         if not isinstance(reply, focus.GetReply) or reply.return_code:
             code = getattr(reply, "return_code", None)
-            how = "no answer" if code is None else f"return code {int(code):#04x}"
-            return [FOCUS.found(False, how), *(each.not_seen("there is no focus motor") for each in rest)]
+            return [
+                FOCUS.found(False, answered(code, "no answer")),
+                *(each.not_seen("there is no focus motor") for each in rest),
+            ]
         facts = [FOCUS.found(True, f"it is at {reply.position}")]
         if reply.calibration != EndpointState.CALIBRATED:
             facts.append(CALIBRATED.found(False, f"state {int(reply.calibration)}"))

@@ -42,6 +42,11 @@ class AxisStep(GimbalStep):
         self.index, self.name = index, bench.name(index)
 
 
+def answered(code: int | None, missing: str = "not answered") -> str:
+    """The return code of an answer, as a fact's `how` names it; `missing` where none came."""
+    return missing if code is None else f"return code {int(code):#04x}"
+
+
 def direction_question(name: str) -> Question:
     """Which way it went is for the operator's eyes: no reading can tell."""
     way, other = WAYS[name]

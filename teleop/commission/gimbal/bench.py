@@ -7,16 +7,15 @@ that is what is to be found. Positions are sent as increments, so that nothing l
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from statistics import fmean
 
 from teleop.commission.gimbal.motion import home
-from teleop.commission.gimbal.places import ANGLES, Places, around
+from teleop.commission.gimbal.places import ANGLES
 from teleop.commission.gimbal.rest import Rest
+from teleop.commission.gimbal.track import Track
 from teleop.commission.step import Script
 from teleop.config.sinks_section import GimbalSection
-from teleop.core.axes import Axis
+from teleop.config.wiring import half_turn
 from teleop.core.errors import DeviceError
 from teleop.devices.connection import Answer, Connection
 from teleop.devices.gimbal.position import own_version
@@ -29,9 +28,7 @@ from teleop.dji.message import Message
 ASK = 0.02  # s between two questions for the angles
 GREETING = 1.0  # s between two pushes of our own version: V2.5, section 2.3.4.10
 ALIVE = 0.25  # s between two questions for the version, where those for the angles stay unanswered
-KEPT = 15.0  # s for which readings are kept
 SAME_PLACE = 0.25  # deg: nearer than that an axis is where it was
-STILL, STILL_SPREAD = 0.3, 0.15  # an axis that moves less (deg) in so many s rests
 REQUESTS = (
     gimbal.Position,
     gimbal.Speed,
@@ -48,39 +45,32 @@ REQUESTS = (
 )
 
 
-class GimbalBench:
+class GimbalBench(Track):
     """`open_link` opens the link, and closes the one before. `section` says which axes the profile drives.
 
-    While `quiet` nothing is sent. `swapped` is whether roll and pitch are exchanged in the replies, as far as it is
-    known.
+    While `quiet` nothing is sent.
     """
 
     def __init__(self, open_link: Callable[[], Connection], section: GimbalSection) -> None:
+        super().__init__()
         self._open = open_link
         self.section = section
-        self.now = 0.0
         self.quiet = True
-        self.swapped = self.knows_order = False
-        self.noise = 0.0  # deg
+        self.knows_order = False
         self.position_signs = [1, 1, 1]  # of the reading for a positive position; likewise below for a positive speed
         self.speed_signs: list[int | None] = [None, None, None]
         self.obeys_position = [False, False, False]
-        self.bare = self.legacy = False
         self.answered: dict[int, Answer] = {}
         self.frames: list[tuple[float, Received]] = []  # all that came, while `keeps_frames`
         self.keeps_frames = False
-        self.replied = self.lost = 0  # questions for the angles; those that are still on their way are in neither
-        self.reply_times: deque[float] = deque(maxlen=200)  # s
         self.begin: tuple[float, float, float] | None = None
         self.back_speed = 4.0  # deg/s of the way back
         self.full_stick = [0.0, 0.0, 0.0]  # deg/s of the reading at full deflection, with its sign; 0 where unknown
         self.pushes_on = False
         self._in_vain: tuple[object, ...] = ()  # what was known when the way back led nowhere
-        self._places: deque[Places] = deque()
         self._reach: float | None = None
         self._reach_from: tuple[float, float, float] = (0.0, 0.0, 0.0)
         self._ask_at = self._greet_at = self._alive_at = -math.inf
-        self._unanswered = 0
         self.reopen()
 
     # what the runner needs
@@ -89,8 +79,7 @@ class GimbalBench:
         """Raises LinkError as the link does, DeviceError when an axis goes further than it was sent."""
         self.now = now
         self.connection.poll(now)
-        while self._places and now - self._places[0].time > KEPT:
-            self._places.popleft()
+        self.forget_old()
         if not self.quiet:
             self._ask()
         self._check_reach()
@@ -106,19 +95,15 @@ class GimbalBench:
 
     def reopen(self) -> None:
         self.connection = self._open()
-        self._places.clear()
-        self._unanswered = 0
         self._ask_at = self._greet_at = self._alive_at = -math.inf
         self.rest = Rest(self)
         for request in REQUESTS:
             self.connection.on_answer(request, self._answered)
-        self.connection.on_answer(gimbal.Angles, self._told)
+        self.listen(self.connection)
         self.connection.on_received(self._received)
-        self.connection.on_push(gimbal.Push, self._pushed)
-        self.connection.on_push(gimbal.ShortPush, self._pushed)
 
     def displaced(self) -> str:
-        if self.begin is None or not self._places:
+        if self.begin is None or self.last is None:
             return ""
         ways = self.ways_back()
         return ", ".join(f"{self.name(index)} {abs(way):.1f} deg" for index, way in ways.items())
@@ -130,65 +115,16 @@ class GimbalBench:
         """The gimbal's angles that the profile drives, by their places in yaw, roll, pitch."""
         return [index for index, axis in enumerate(self.section.axes) if axis is not None]
 
-    def axis(self, index: int) -> Axis:
-        """The operator's axis of one of the gimbal's angles. Raises DeviceError where the profile drives none."""
-        axis = self.section.axes[index]
-        if axis is None:
-            raise DeviceError(f"the profile drives no {ANGLES[index]}")
-        return axis
-
     def name(self, index: int) -> str:
         axis = self.section.axes[index]
         return ANGLES[index] if axis is None else axis.value
-
-    @property
-    def reads(self) -> bool:
-        """Whether angles arrive."""
-        return bool(self._places) and self.now - self._places[-1].time < 1.5
-
-    def since(self, time: float) -> list[Places]:
-        """The readings asked for after `time`, each in the order yaw, roll, pitch."""
-        recent: list[Places] = []
-        for each in reversed(self._places):
-            if each.time <= time:
-                break
-            recent.append(Places(each.time, self.ordered(each), each.pushed))
-        return recent[::-1]
-
-    def ordered(self, places: Places) -> tuple[float, float, float]:
-        """As yaw, roll, pitch. Pushes are not known to have another order than the document's."""
-        yaw, second, third = places.angles
-        return (yaw, third, second) if self.swapped and not places.pushed else places.angles
-
-    def mean(self, seconds: float = STILL) -> tuple[float, float, float]:
-        """Where it is, over the last readings. Raises DeviceError without any."""
-        return self._mean([each.angles for each in self.since(self.now - seconds)])
-
-    def _mean(self, angles: Sequence[tuple[float, float, float]]) -> tuple[float, float, float]:
-        if not angles:
-            if not self._places:
-                raise DeviceError("no angles arrive: neither in answers nor in pushes")
-            angles = [self.ordered(self._places[-1])]
-        first = angles[0]
-        unrolled = [[a + 360 * round((b - a) / 360) for a, b in zip(each, first, strict=True)] for each in angles]
-        yaw, roll, pitch = (fmean(column) for column in zip(*unrolled, strict=True))
-        return yaw, roll, pitch
-
-    @property
-    def still(self) -> bool:
-        """Whether the last readings are of one place."""
-        recent = [each.angles for each in self.since(self.now - STILL)]
-        if len(recent) < 2:
-            return bool(recent)
-        spread = STILL_SPREAD + 4 * self.noise
-        return all(max(column) - min(column) <= spread for column in zip(*recent, strict=True))
 
     def ways_back(self) -> Mapping[int, float]:
         """How far (deg) each driven angle is from where it began, those that are there left out."""
         if self.begin is None:
             return {}
         here, near = self.mean(), SAME_PLACE + self.noise
-        ways = {index: around(self.begin[index] - here[index]) for index in self.driven}
+        ways = {index: half_turn(self.begin[index] - here[index]) for index in self.driven}
         return {index: way for index, way in ways.items() if abs(way) > near}
 
     def restore(self) -> Script:
@@ -222,11 +158,11 @@ class GimbalBench:
         self._reach, self._reach_from = reach + 1.0 + 4 * self.noise, self.mean()
 
     def _check_reach(self) -> None:
-        if self._reach is None or not self._places:
+        here = self.last
+        if self._reach is None or here is None:
             return
-        here = self.ordered(self._places[-1])
         for index, (angle, start) in enumerate(zip(here, self._reach_from, strict=True)):
-            if abs(moved := around(angle - start)) > self._reach:
+            if abs(moved := half_turn(angle - start)) > self._reach:
                 self._reach = None
                 raise DeviceError(f"{self.name(index)} moved {abs(moved):.1f} deg, more than it was sent: stopped")
 
@@ -246,7 +182,7 @@ class GimbalBench:
 
     def target(self, index: int, angle: float, seconds: float) -> int:
         """Turn one angle to `angle` (deg, as positions count it)."""
-        return self._position(index, around(angle), seconds, absolute=True)
+        return self._position(index, half_turn(angle), seconds, absolute=True)
 
     def _position(self, index: int, angle: float, seconds: float, *, absolute: bool) -> int:
         yaw, roll, pitch = (angle if each == index else 0.0 for each in range(3))
@@ -281,7 +217,7 @@ class GimbalBench:
         if now >= self._ask_at - 1e-6:
             self._ask_at = now + ASK
             self.connection.request(gimbal.Angles(AngleKind.ATTITUDE), now)
-        if self._unanswered > 3 and now >= self._alive_at - 1e-6:
+        if self.is_silent and now >= self._alive_at - 1e-6:
             self._alive_at = now + ALIVE
             self.connection.request(gimbal.Version(), now)
             if not self.pushes_on:
@@ -292,30 +228,6 @@ class GimbalBench:
         self.answered[answer.sequence] = answer
         if len(self.answered) > 500:
             del self.answered[next(iter(self.answered))]
-
-    def _told(self, answer: Answer) -> None:
-        reply = answer.reply
-        if reply is None:
-            self._unanswered += 1
-            self.lost += 1
-            return
-        self._unanswered = 0
-        self.replied += 1
-        self.reply_times.append(self.now - answer.sent)
-        if not isinstance(reply, gimbal.LegacyAnglesReply | gimbal.AnglesReply) or reply.return_code:
-            return
-        legacy = isinstance(reply, gimbal.LegacyAnglesReply)
-        if isinstance(reply, gimbal.LegacyAnglesReply) or reply.kind == AngleKind.ATTITUDE:
-            self.bare, self.legacy = answer.bare, legacy
-            self._add(Places(answer.sent, (reply.yaw, reply.roll, reply.pitch)))
-
-    def _pushed(self, push: Message, now: float) -> None:
-        if isinstance(push, gimbal.Push | gimbal.ShortPush) and push.angles_valid and self._unanswered > 3:
-            self._add(Places(now, (push.yaw, push.roll, push.pitch), pushed=True))
-
-    def _add(self, places: Places) -> None:
-        if not self._places or places.time > self._places[-1].time:
-            self._places.append(places)
 
     def _received(self, received: Received, now: float) -> None:
         if self.keeps_frames:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from teleop.commission.findings import Findings, Subject
-from teleop.commission.gimbal.base import GimbalStep
+from teleop.commission.gimbal.base import GimbalStep, answered
 from teleop.commission.gimbal.motion import answer, home, wait
-from teleop.commission.gimbal.places import around, gone
+from teleop.commission.gimbal.places import gone
 from teleop.commission.step import Question, Script, Wait
+from teleop.config.wiring import half_turn
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.enums import CenterAction, FollowMode
 
@@ -41,8 +42,7 @@ class FollowStep(GimbalStep):
         for key, mode in MODES.items():
             reply = yield from answer(bench, gimbal.Mode(mode))
             code = getattr(reply, "return_code", None)
-            how = "no answer" if code is None else f"return code {int(code):#04x}"
-            facts.append(FOLLOW[key].found(code == 0, how))
+            facts.append(FOLLOW[key].found(code == 0, answered(code, "no answer")))
             yield from wait(bench, 1.0, f"follow mode {NAMES[key]}")
         yield from answer(bench, gimbal.Mode(MODES[known]))
         yield from wait(bench, 1.0, f"back to {NAMES[known]}")
@@ -84,14 +84,14 @@ class RecenterStep(GimbalStep):
             recent = bench.since(bench.now - 0.15)
             if len(recent) >= 3:
                 span = recent[-1].time - recent[0].time
-                ways = [abs(around(b - a)) for a, b in zip(recent[0].angles, recent[-1].angles, strict=True)]
+                ways = [abs(half_turn(b - a)) for a, b in zip(recent[0].angles, recent[-1].angles, strict=True)]
                 fastest = max(fastest, max(ways) / span)
             rests = rests if bench.still else bench.now
             if bench.now > begin + 1.5 and bench.still:
                 break
             yield Wait(0.02, "it recenters")
         moved, yaw = max(map(abs, gone(before, bench.mean()))), bench.mean()[0]
-        how = ("no answer" if code is None else f"return code {int(code):#04x}") + f", turned {moved:.1f} deg"
+        how = f"{answered(code, 'no answer')}, turned {moved:.1f} deg"
         seen = yield Question("Does the camera look straight ahead, and level?", {"y": "yes", "n": "no"})
         facts = [
             RECENTERS.found(code == 0 and seen == "y", how),

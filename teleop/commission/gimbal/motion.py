@@ -9,8 +9,10 @@ import math
 from collections.abc import Callable, Generator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from teleop.commission.gimbal.places import Places, around, gone
-from teleop.commission.step import Question, Wait
+from teleop.commission.gimbal.places import Places, gone
+from teleop.commission.step import Pause, Question, Wait
+from teleop.config.wiring import half_turn
+from teleop.dji.gimbal.joystick import FULL_DEFLECTION
 from teleop.dji.message import Message
 
 if TYPE_CHECKING:
@@ -26,8 +28,6 @@ PARTS = 5  # of a way back, beside those that its length asks for
 LAPSES, ROOM = 2.0, 4.6  # s and deg in which a command that is not repeated is to end
 ASTRAY = 3.0  # deg that a way back may lead away, until it is given up
 STEER, ARRIVED = 2.0, 0.12  # 1/s and deg of a way that is steered by speeds
-
-Pause = Generator[Wait | Question, str, None]
 
 
 class Shift(NamedTuple):
@@ -126,14 +126,14 @@ def lapse(
     yield from cruise(bench, value, seconds, send, "the last command is on its way")
     last = bench.now - 0.02  # between the last one and the next that did not come
     end = bench.now + LAPSES
-    while bench.now < end and abs(around(bench.mean(0.06)[index] - start)) < ROOM:
+    while bench.now < end and abs(half_turn(bench.mean(0.06)[index] - start)) < ROOM:
         yield Wait(0.02, "nothing is sent: it should stop by itself")
         if bench.now > last + 0.8 and bench.still:
             break
     stopped = bench.still
     if stopped:
         yield from wait(bench, 0.1 + SETTLE)
-    return Lapse(abs(around(bench.mean()[index] - start)), last - begin, stopped)
+    return Lapse(abs(half_turn(bench.mean()[index] - start)), last - begin, stopped)
 
 
 def less(moved: tuple[float, float, float], baseline: tuple[float, float, float]) -> tuple[float, float, float]:
@@ -186,13 +186,13 @@ def _home_by(bench: GimbalBench, index: int, sign: float, way: float, progress: 
 
 def _steer(bench: GimbalBench, index: int, target: float, send: Callable[[float], object], progress: str) -> Pause:
     """To a reading, by speeds that shrink on the way; for as long as that should take, and a little."""
-    way = around(target - bench.mean()[index])
+    way = half_turn(target - bench.mean()[index])
     end = bench.now + abs(way) / bench.back_speed + 2.0
     most = abs(way) + ASTRAY
     while bench.now < end and ARRIVED < abs(way) < most:
         send(max(-bench.back_speed, min(bench.back_speed, STEER * way)))
         yield Wait(0.04, progress)
-        way = around(target - bench.mean(0.06)[index])
+        way = half_turn(target - bench.mean(0.06)[index])
 
 
 def sender(bench: GimbalBench, index: int, by_speed: bool) -> Callable[[float], object]:
@@ -200,7 +200,7 @@ def sender(bench: GimbalBench, index: int, by_speed: bool) -> Callable[[float], 
     if by_speed:
         sign = bench.speed_signs[index] or 1
         return lambda value: bench.speed(index, sign * value)
-    return lambda value: bench.push(index, round(15000 * value / bench.full_stick[index]))
+    return lambda value: bench.push(index, round(FULL_DEFLECTION * value / bench.full_stick[index]))
 
 
 def moving_part(track: list[Places], index: int, near: float | None = None) -> list[tuple[float, float]]:
@@ -208,4 +208,4 @@ def moving_part(track: list[Places], index: int, near: float | None = None) -> l
     if not track:
         return []
     near = track[0].angles[index] if near is None else near
-    return [(each.time, near + around(each.angles[index] - near)) for each in track]
+    return [(each.time, near + half_turn(each.angles[index] - near)) for each in track]

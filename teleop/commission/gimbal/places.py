@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from teleop.config.wiring import half_turn
+
 ANGLES = "yaw", "roll", "pitch"
 
 
@@ -15,12 +17,7 @@ class Places(NamedTuple):
     pushed: bool = False
 
 
-def around(angle: float) -> float:
-    """The same direction within half a turn."""
-    return angle - 360 * round(angle / 360) if abs(angle) > 180 else angle
-
-
 def gone(before: tuple[float, float, float], after: tuple[float, float, float]) -> tuple[float, float, float]:
     """How far (deg) each angle went."""
-    yaw, roll, pitch = (around(end - start) for start, end in zip(before, after, strict=True))
+    yaw, roll, pitch = (half_turn(end - start) for start, end in zip(before, after, strict=True))
     return yaw, roll, pitch

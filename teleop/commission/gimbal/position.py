@@ -9,12 +9,24 @@ from typing import NamedTuple
 import numpy as np
 
 from teleop.commission.findings import Fact, Findings, Subject
-from teleop.commission.gimbal.base import WAYS, AxisStep, direction_question
+from teleop.commission.gimbal.base import WAYS, AxisStep, answered, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, MOVED, SETTLE, TRIES, Shift, home, moving_part, rest, shift, wait
-from teleop.commission.gimbal.places import around
+from teleop.commission.gimbal.motion import (
+    FURTHEST,
+    MOVED,
+    SETTLE,
+    TRIES,
+    Shift,
+    home,
+    let_go,
+    moving_part,
+    rest,
+    shift,
+    wait,
+)
 from teleop.commission.gimbal.signs import main_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.step import Question, Script, Wait
+from teleop.config.wiring import half_turn
 
 REACH, SECONDS, SHORT = 2.0, 1.0, 0.5  # deg and s
 SLOWEST = 25.5  # s: a place that is not where it is thought to be is approached slowly
@@ -55,11 +67,11 @@ class PositionStep(AxisStep):
         first = yield from shift(bench, index, REACH, SECONDS, f"{self.name} goes {REACH:g} deg out")
         moved = main_angle(first.moved)
         if moved is None:
-            return [self.obeyed.found(False, f"{_answered(first.code)}, and it did not move")]
+            return [self.obeyed.found(False, f"{answered(first.code)}, and it did not move")]
         order = settle_order(bench, self.signs.order, index, moved)
-        way = around(bench.mean()[index] - self._began(first))
+        way = half_turn(bench.mean()[index] - self._began(first))
         bench.position_signs[index], bench.obeys_position[index] = (1 if way > 0 else -1), True
-        facts = [self.obeyed.found(True, f"{_answered(first.code)}, moved {abs(way):.1f} of {REACH:g} deg"), *order]
+        facts = [self.obeyed.found(True, f"{answered(first.code)}, moved {abs(way):.1f} of {REACH:g} deg"), *order]
         facts.append(self.error.found(round(abs(way) - REACH, 2), f"after {REACH:g} deg", within=0.2 + bench.noise))
         facts += self._track_facts(first)
         facts += yield from self._direction(way)
@@ -108,8 +120,8 @@ class PositionStep(AxisStep):
         tries = 0
         while True:
             begin, sent = bench.mean()[index], bench.now
-            answered, tries = (yield from self._out_and_back()), tries + 1
-            if answered or tries == TRIES:
+            was_answered, tries = (yield from self._out_and_back()), tries + 1
+            if was_answered or tries == TRIES:
                 break
             yield from home(bench)
         track = [(time, sign * (place - begin)) for time, place in moving_part(bench.since(sent), index, begin)]
@@ -139,17 +151,16 @@ class PositionStep(AxisStep):
         """To where it is, as an absolute position: it must stay. Where it does not, it is on a long way, slowly."""
         bench, index = self.bench, self.index
         here = bench.mean()[index]
-        angle = around(bench.position_signs[index] * here)
+        angle = half_turn(bench.position_signs[index] * here)
         low, high = NAMEABLE[index]
         if not low <= angle <= high:
             return [self.absolute.not_seen(f"{angle:.0f} deg is beyond what a position command can say")]
         sequence = bench.target(index, angle, SLOWEST)
         yield from wait(bench, 1.5, "sent to where it is: it must not move")
-        moved, code = around(bench.mean()[index] - here), bench.code(sequence)
-        while (after := bench.rest.release(bench.now)) is not None:
-            yield from wait(bench, after - bench.now)
+        moved, code = half_turn(bench.mean()[index] - here), bench.code(sequence)
+        yield from let_go(bench)
         stays = abs(moved) < LEAPS / 2 + bench.noise and not code
-        return [self.absolute.found(stays, f"{_answered(code)}, moved {moved:+.1f} deg when sent to where it was")]
+        return [self.absolute.found(stays, f"{answered(code)}, moved {moved:+.1f} deg when sent to where it was")]
 
 
 class FittedMove(NamedTuple):
@@ -180,7 +191,3 @@ def smallest_step(track: list[tuple[float, float]]) -> float | None:
     """The smallest difference between two readings in a row, in deg."""
     steps = [abs(b - a) for (_, a), (_, b) in pairwise(track) if abs(b - a) > 0.01]
     return min(steps) if len(steps) >= 3 else None
-
-
-def _answered(code: int | None) -> str:
-    return "not answered" if code is None else f"return code {code:#04x}"

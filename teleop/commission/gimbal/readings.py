@@ -7,8 +7,8 @@ from statistics import pstdev
 from teleop.commission.findings import Fact, Findings, Subject
 from teleop.commission.gimbal.base import GimbalStep
 from teleop.commission.gimbal.motion import answer, moving_part, wait
-from teleop.commission.gimbal.places import around
 from teleop.commission.step import Script
+from teleop.config.wiring import half_turn
 from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.enums import AngleKind
 
@@ -56,7 +56,7 @@ class Readings(GimbalStep):
         if not isinstance(reply, gimbal.AnglesReply) or reply.return_code or reply.kind != AngleKind.JOINT:
             why = "no answer to a question for joint angles (0E 02)"
             return [JOINT.found(False, why), FRAME.not_seen(why)]
-        offset = round(around(attitude[0] - reply.yaw), 1)
+        offset = round(half_turn(attitude[0] - reply.yaw), 1)
         how = "both kinds asked one after the other (0E 02)"
         return [JOINT.found(True, how), FRAME.found(offset, how)]
 

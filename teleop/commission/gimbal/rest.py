@@ -44,11 +44,6 @@ class Rest:
         self._zeros = self._given_back = 0
         self._until = None
 
-    @property
-    def taken(self) -> bool:
-        """Whether speed control is taken over."""
-        return self._taken
-
     def release(self, now: float) -> float | None:
         bench = self._bench
         if (self._taken or self._pushed) and self._zeros < ZEROS:

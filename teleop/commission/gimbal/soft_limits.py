@@ -7,11 +7,11 @@ import math
 from teleop.commission.findings import Fact, Findings, Subject
 from teleop.commission.gimbal.base import AxisStep
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import home, rest, wait
-from teleop.commission.gimbal.places import around
+from teleop.commission.gimbal.motion import home, let_go, rest, wait
 from teleop.commission.gimbal.stop import can_move, move
 from teleop.commission.page import DOWN, GO, LEFT, RIGHT, UP
 from teleop.commission.step import Question, Script
+from teleop.config.wiring import half_turn
 
 SPEED = 10.0  # deg/s, once the operator has agreed to it
 STEPS = {RIGHT: 2.0, UP: 2.0, LEFT: -2.0, DOWN: -2.0, "L": 10.0, "K": 10.0, "H": -10.0, "J": -10.0}
@@ -63,7 +63,7 @@ class SoftLimitsStep(AxisStep):
         ends = []
         for end in ENDS[self.name]:
             place = yield from self._driven(end, sign)
-            ends.append(round(sign * around(place - middle), 1))
+            ends.append(round(sign * half_turn(place - middle), 1))
         low, high = sorted(ends)
         bench.back_speed, before = SPEED, bench.back_speed
         try:
@@ -102,14 +102,13 @@ class SoftLimitsStep(AxisStep):
             while bench.now < end:
                 move(bench, index, step / seconds, 0.1)
                 yield from wait(bench, 0.05)
-            while (after := bench.rest.release(bench.now)) is not None:
-                yield from wait(bench, after - bench.now)
+            yield from let_go(bench)
             yield from rest(bench, 0.2)
-            return around(bench.mean(0.1)[index] - before)
+            return half_turn(bench.mean(0.1)[index] - before)
         sequence = bench.increment(index, bench.position_signs[index] * step, round(seconds, 1))
         yield from wait(bench, seconds, f"{self.name} goes on")
         yield from rest(bench, 0.2)
-        way, code = around(bench.mean(0.1)[index] - before), bench.code(sequence)
+        way, code = half_turn(bench.mean(0.1)[index] - before), bench.code(sequence)
         if abs(way) < BLOCKED * abs(step):
             found = f"is refused, with {code:#04x}" if code else "ends at the stop"
             self._beyond = self.beyond.found(found, f"sent {step:+.0f} deg, went {way:+.1f}")

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from teleop.commission.findings import Fact, Findings, Subject
-from teleop.commission.gimbal.base import AxisStep, direction_question
+from teleop.commission.gimbal.base import AxisStep, answered, direction_question
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, Pause, cruise, home, lapse, less, let_go, pulse, rest, wait
+from teleop.commission.gimbal.motion import FURTHEST, cruise, home, lapse, less, let_go, pulse, rest, wait
 from teleop.commission.gimbal.places import gone
 from teleop.commission.gimbal.signs import seen_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.gimbal.swings import Swings
-from teleop.commission.step import Script
+from teleop.commission.step import Pause, Script
 from teleop.core.response import Response
 
 PROBE, FAST = 1.0, 4.0  # deg/s
@@ -49,8 +49,7 @@ class SpeedStep(AxisStep):
         moved, code = yield from self._probe()
         main = seen_angle(bench, moved, index, 0.2 + bench.noise)
         if main is None:
-            how = "not answered" if code is None else f"return code {code:#04x}"
-            return [self.obeyed.found(False, f"{how}, and it did not move at {PROBE:g} deg/s")]
+            return [self.obeyed.found(False, f"{answered(code)}, and it did not move at {PROBE:g} deg/s")]
         facts = settle_order(bench, self.signs.order, index, main)
         way = moved[main]  # the angle of that name from now on, if roll and pitch were exchanged
         sign = bench.speed_signs[index] = 1 if way > 0 else -1

@@ -8,8 +8,8 @@ from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import FURTHEST, home, lapse, less, pulse
 from teleop.commission.gimbal.signs import seen_angle, settle_order, sign_facts, sign_subjects
 from teleop.commission.step import Script
+from teleop.dji.gimbal.joystick import FULL_DEFLECTION as FULL
 
-FULL = 15000
 FIRST, BRIEF = 1, 0.1  # the smallest push, and s
 SEEN = 0.2  # deg in that time that are no more noise
 SPEED = 3.0  # deg/s of the push that is measured

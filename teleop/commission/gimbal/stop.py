@@ -7,10 +7,10 @@ import math
 from teleop.commission.findings import Findings, Subject
 from teleop.commission.gimbal.base import AxisStep, GimbalStep
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import FURTHEST, home, moving_part, rest
-from teleop.commission.gimbal.places import around
+from teleop.commission.gimbal.motion import FURTHEST, home, moving_part, rest, sender
 from teleop.commission.page import STOP
 from teleop.commission.step import Question, Script, Wait
+from teleop.config.wiring import half_turn
 from teleop.core.errors import DeviceError
 from teleop.monitors.delay_estimate import estimate
 
@@ -62,9 +62,9 @@ class StopStep(GimbalStep):
         track = moving_part(bench.since(pressed), index)
         end = bench.mean()[index]
         rests = next((time for time, place in track if abs(place - track[-1][1]) < 0.15), bench.now)
-        way = abs(around(end - at))
+        way = abs(half_turn(end - at))
         yield from rest(bench)
-        drifted = abs(around(bench.mean()[index] - end)) > 0.3 + bench.noise
+        drifted = abs(half_turn(bench.mean()[index] - end)) > 0.3 + bench.noise
         yield from home(bench)
         return [
             STOPPED.found(not drifted, "it rested, and stayed there"),
@@ -77,7 +77,7 @@ class StopStep(GimbalStep):
         bench, begin, side = self.bench, self.bench.now, 1.0
         start = bench.mean()[index]
         while bench.now < begin + LONGEST:
-            off = around(bench.mean(0.06)[index] - start)
+            off = half_turn(bench.mean(0.06)[index] - start)
             side = -side if off * side > REACH - 0.4 else side
             move(bench, index, side * SPEED, 0.1)
             if (yield Question(f"{self._name} moves: press space", {STOP: "STOP"}, seconds=0.1)) == STOP:
@@ -146,7 +146,5 @@ def move(bench: GimbalBench, index: int, speed: float, seconds: float) -> None:
     """On at `speed` (deg/s, in the sign of readings) for a moment, by what the axis was found to obey."""
     if bench.obeys_position[index]:
         bench.increment(index, bench.position_signs[index] * speed * seconds, seconds)
-    elif sign := bench.speed_signs[index]:
-        bench.speed(index, sign * speed)
     else:
-        bench.push(index, round(15000 * speed / bench.full_stick[index]))
+        sender(bench, index, by_speed=bool(bench.speed_signs[index]))(speed)

@@ -6,9 +6,10 @@ import math
 from collections.abc import Generator
 
 from teleop.commission.gimbal.bench import GimbalBench
-from teleop.commission.gimbal.motion import Pause, home, let_go, rest
-from teleop.commission.gimbal.places import around, gone
-from teleop.commission.step import Question, Wait
+from teleop.commission.gimbal.motion import home, let_go, rest
+from teleop.commission.gimbal.places import gone
+from teleop.commission.step import Pause, Question, Wait
+from teleop.config.wiring import half_turn
 from teleop.core.axes import Reading
 from teleop.core.response import Response
 from teleop.identification.candidates import Start
@@ -51,13 +52,13 @@ class Swings:
         while (elapsed := bench.now - began) < seconds:
             for each in bench.since(self._read):
                 self._read = each.time
-                place = before[index] + around(each.angles[index] - before[index])
+                place = before[index] + half_turn(each.angles[index] - before[index])
                 self._estimator.read(Reading(place, each.time))
             here = bench.mean(0.06)
             ways = [abs(way) for each, way in enumerate(gone(before, here)) if each != index]
             if max(ways) > STRAY:
                 return
-            speed = round(self._speed(elapsed, around(here[index] - before[index])), 1)
+            speed = round(self._speed(elapsed, half_turn(here[index] - before[index])), 1)
             bench.speed(index, self._sign * speed)
             self._estimator.sent(bench.now, speed)
             yield Wait(PACE, f"{bench.name(index)} swings, {seconds - elapsed:.0f} s left")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from teleop.commission.findings import Findings, Subject
-from teleop.commission.gimbal.base import AxisStep
+from teleop.commission.gimbal.base import AxisStep, answered
 from teleop.commission.gimbal.bench import GimbalBench
 from teleop.commission.gimbal.motion import FURTHEST, cruise, home, let_go, rest
 from teleop.commission.gimbal.places import gone
@@ -44,6 +44,5 @@ class UnderSpeedStep(AxisStep):
         yield from let_go(bench)
         yield from home(bench)
         obeys = abs(moved) > 0.5
-        answered = "not answered" if code is None else f"return code {code:#04x}"
         found = "is obeyed" if obeys else "is refused" if code else "is answered and ignored"
-        return [UNDER_SPEED.found(found, f"{answered}, moved {abs(moved):.1f} deg")]
+        return [UNDER_SPEED.found(found, f"{answered(code)}, moved {abs(moved):.1f} deg")]

@@ -17,7 +17,7 @@ from collections import Counter, defaultdict
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import replace
 from itertools import count
-from operator import itemgetter
+from operator import attrgetter, itemgetter
 
 from teleop.dji.frame import Frame, FrameReader
 from teleop.dji.gimbal import messages as gimbal
@@ -116,7 +116,7 @@ class ReplayedGimbal:
         if not fitting:
             return None
         if isinstance(message, gimbal.Angles):  # asked at any rate: what counts is the time
-            index = bisect.bisect_right([each.time for each in fitting], self._captured_time(now)) - 1
+            index = bisect.bisect_right(fitting, self._captured_time(now), key=attrgetter("time")) - 1
             return fitting[max(0, index)]
         self._answered[key] += 1
         return fitting[min(self._answered[key], len(fitting)) - 1]
@@ -144,9 +144,9 @@ def form(data: bytes) -> Hashable:
     message = R_SDK.decode(Frame(data)).message
     if isinstance(message, Opaque):
         return data
-    words = {name: value for name, value in message.fields().items() if not isinstance(value, float | int)}
-    flags = {name: value for name, value in message.fields().items() if isinstance(value, bool)}
-    return type(message), repr({**words, **flags})
+    fields = message.fields().items()
+    kept = {name: value for name, value in fields if isinstance(value, bool) or not isinstance(value, float | int)}
+    return type(message), repr(kept)
 
 
 def angles_at(track: Sequence[Sample], time: float) -> tuple[float, float, float]:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from made_findings import FOUND, UPDATED
 
-from teleop.app.commission.results import Results, change_lines, default_folder, read_report
+from teleop.app.commission.results import LARGEST, Results, change_lines, default_folder, read_report
 from teleop.captures.captured import FROM_DEVICE, TO_DEVICE
 from teleop.captures.reader import read
 from teleop.core.clock import VirtualClock
@@ -108,6 +108,12 @@ def test_a_file_that_is_no_report_is_refused_in_a_line(tmp_path: Path, text: str
     assert str(refused.value).startswith(f"{file}: not a report of teleop commission: ")
     with pytest.raises(UsageError, match="cannot be read: No such file"):
         read_report(tmp_path / "none.json")
+    file.write_bytes(b"\xff")
+    with pytest.raises(UsageError, match="cannot be read: 'utf-8' codec"):
+        read_report(file)
+    file.write_text(" " * (LARGEST + 1))
+    with pytest.raises(UsageError, match="is larger than 4 MB"):
+        read_report(file)
 
 
 def test_changes_as_lines() -> None:
