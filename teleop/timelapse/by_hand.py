@@ -16,7 +16,7 @@ from teleop.core.events import ShutterResult, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input
 from teleop.core.setpoints import Demand, StateTarget
-from teleop.core.timing import SAME_TIME
+from teleop.core.timing import SAME_TIME, whole_ticks
 from teleop.timelapse.compile import Timelapse
 from teleop.timelapse.frame_cycle import RETRY
 from teleop.timelapse.frame_log import FrameBook, FrameLog
@@ -26,7 +26,6 @@ from teleop.timelapse.movers import Mover
 from teleop.timelapse.progress import Progress
 
 KEYS_PERIOD = 0.05  # s between two looks at the keys while nothing else happens
-_GRID = 100  # Hz
 
 
 class Step(Enum):
@@ -183,7 +182,7 @@ class ByHandSource:
             self._give_up()
             self.step, self.progress.problem = Step.READY, "the journal could not be written: press Enter again"
         elif self._shutter.ready(now):
-            self._slot = math.ceil((now + self._mover.ramp) * _GRID - SAME_TIME) / _GRID
+            self._slot = whole_ticks(now + self._mover.ramp)
             self._mover.begin(self._slot, self._timelapse.slots.at(self.frame))
             self.step = Step.RUN
 
