@@ -12,6 +12,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from types import MappingProxyType
 
+from teleop.config.credentials import app_cipher
 from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import (
@@ -24,7 +25,7 @@ from teleop.core.errors import LinkError, TeleopError
 from teleop.core.interfaces import Clock, Observer, Sink, Source
 from teleop.core.response import Response
 from teleop.core.timing import LoopTiming
-from teleop.devices.builders import BUILDERS, Device, app_cipher, gimbal_device
+from teleop.devices.builders import BUILDERS, Device, gimbal_device
 from teleop.devices.camera import CameraSink
 from teleop.devices.connection import Connection
 from teleop.devices.drone.sink import DroneSink

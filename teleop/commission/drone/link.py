@@ -6,11 +6,11 @@ import contextlib
 import secrets
 from collections.abc import Callable
 
+from teleop.config.credentials import app_cipher
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import FlightSection, VirtualRcSection
 from teleop.core.errors import LinkError, UsageError
 from teleop.core.interfaces import Clock, Link
-from teleop.devices.builders import app_cipher
 from teleop.devices.connection import Connection
 from teleop.dji.drone.onboard_sdk import M100
 from teleop.dji.drone.session import OnboardSession
