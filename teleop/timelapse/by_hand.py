@@ -18,10 +18,9 @@ from teleop.core.operator_input import Command, Input
 from teleop.core.setpoints import Demand, StateTarget
 from teleop.core.timing import SAME_TIME, whole_ticks
 from teleop.timelapse.compile import Timelapse
-from teleop.timelapse.frame_cycle import RETRY
 from teleop.timelapse.frame_log import FrameBook, FrameLog
 from teleop.timelapse.frame_shutter import FrameShutter
-from teleop.timelapse.journal import FrameState, Note
+from teleop.timelapse.journal import FrameState
 from teleop.timelapse.movers import Mover
 from teleop.timelapse.progress import Progress
 
@@ -68,7 +67,6 @@ class ByHandSource:
         self.frame = self._wanted = first
         self.step, self._slot, self._ended = Step.MOVE, math.inf, -math.inf
         self._halted = False
-        self._end_note: Note | None = None
         self._on_due: Mapping[Step, Callable[[float], None]] = {
             Step.MOVE: self._move,
             Step.READY: self._ready,
@@ -221,10 +219,7 @@ class ByHandSource:
             self._book.note(self.frame, FrameState.DONE)
 
     def _finish(self, now: float) -> None:
-        if self._end_note is None or (self._end_note.failed and now >= self._ended + RETRY - SAME_TIME):
-            self._end_note, self._ended = self._log.finish(), now
-        self._log.check_end()
-        if self._end_note.safe:
+        if self._log.finished(now):
             self.step = Step.OVER
 
     def _check_keys(self, now: float) -> None:
