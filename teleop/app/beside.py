@@ -73,6 +73,11 @@ class BesideRun(Protocol):
         ...
 
 
+def heard(notify: Callable[[str], object], beside: BesideRun | None) -> Callable[[str], object]:
+    """Lines for the operator are for those beside the run too."""
+    return notify if beside is None else both(notify, beside.line)
+
+
 def both(first: Callable[..., object], second: Callable[..., object]) -> Callable[..., object]:
     """Calls one after the other."""
 

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from teleop.app.beside import BesideRun, Running, both
+from teleop.app.beside import BesideRun, Running, heard
 from teleop.app.drone_flight import Aboard, is_flown
 from teleop.app.kept_responses import KeptResponses
 from teleop.app.operator_inputs import open_devices
@@ -104,7 +104,7 @@ class SequenceRun:
             if recorder and played:
                 recorder.status = played
             repeatability = Repeatability(source.place, planned) if source.cycle.compared else None
-            observers, sinks = commands(rig, axes, self._heard(self.notify))
+            observers, sinks = commands(rig, axes, heard(self.notify, self.beside))
             keys = None if self.keys is None else stack.enter_context(self.keys)
             observers += [each for each in (keys, trim, repeatability, self._observed(rig), played) if each is not None]
             status_of = partial(run_status, source) if controls is None else controls.status
@@ -115,7 +115,7 @@ class SequenceRun:
                 observers.append(self.beside.attach(stack, running))
             aboard.board(rig, axes, screen.notify, by_script=True)
             if guard:
-                guard.notify = self._heard(screen.notify)
+                guard.notify = heard(screen.notify, self.beside)
             tracking = TrackingErrorMonitor(lambda: source.begin, planned)
             stopped = lambda: guard.reason if guard else ""  # noqa: E731 - one of several arguments
             if self.learner:
@@ -126,10 +126,6 @@ class SequenceRun:
                 self.learner.notify = self.notify  # the screen is gone
                 self.learner.finish()
             return SequenceReport(report, trim, repeatability)
-
-    def _heard(self, notify: Callable[[str], object]) -> Callable[[str], object]:
-        """Lines for the operator are for those beside the run too."""
-        return notify if self.beside is None else both(notify, self.beside.line)
 
     def _observed(self, rig: Rig) -> PassObserver | None:
         """What sees the passes for the learner."""

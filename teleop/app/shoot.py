@@ -7,7 +7,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
-from teleop.app.beside import BesideRun, Running, both
+from teleop.app.beside import BesideRun, Running, heard
 from teleop.app.run import Screen, Signals, undisturbed
 from teleop.app.shoot_runner import LOOK, Ended, InDoubt, Shooting, camera_link
 from teleop.app.stop_inputs import open_stop_inputs
@@ -70,12 +70,8 @@ class ShootRun:
             beside = self.beside
             if beside is not None:
                 beside.open(stack, self.profile, timelapse.limits, self.clock)
-            told = (
-                (lambda line: screen.notify(line))
-                if beside is None
-                else both(lambda line: screen.notify(line), beside.line)
-            )
-            shooting = self._shooting(stack, journal, observers, told, warn)
+            notify = heard(lambda line: screen.notify(line), beside)  # the screen is made with what it shows
+            shooting = self._shooting(stack, journal, observers, notify, warn)
             screen = make_screen(shooting, path, recorder)
             if beside is not None:
                 running = Running(timelapse.title, lambda: shooting.guard, screen.notify, progress=shooting.progress)

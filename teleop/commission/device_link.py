@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from teleop.core.errors import LinkError
 from teleop.core.interfaces import Clock, Link
-from teleop.links import ClosableLink, open_link
+from teleop.links import OpenLink, open_link
 from teleop.links.url import LinkAddress, parse
 
 
@@ -18,7 +18,7 @@ class DeviceLink:
         self.url = url
         self.tap: Callable[[Link], Link] = lambda link: link
         self._clock = clock
-        self._link: ClosableLink | None = None
+        self._link: OpenLink | None = None
 
     @property
     def address(self) -> LinkAddress:
@@ -30,7 +30,7 @@ class DeviceLink:
                 self._link.close()
             self._link = None
 
-    def _open_real(self) -> ClosableLink:
+    def _open_real(self) -> OpenLink:
         """The real link, open until `close`. Raises LinkError."""
         self._link = link = open_link(self.address, now=self._clock.now)
         return link

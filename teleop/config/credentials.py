@@ -66,6 +66,16 @@ def load_credentials(file: Path | None = None) -> Credentials:
     return Credentials(str(home), _environment_id(kept.app_id), _environment_key(kept.key))
 
 
+def app_cipher(encrypted: bool) -> Cipher | None:
+    """What encrypts, by the app's key; raises DocumentError where there is none."""
+    if not encrypted:
+        return None
+    credentials = load_credentials()
+    if credentials.cipher is None:
+        raise DocumentError([f"encrypted: true needs the app's key: in {APP_KEY}, or key in {credentials.place}"])
+    return credentials.cipher
+
+
 def _environment_id(otherwise: int | None) -> int | None:
     text = os.environ.get(APP_ID, "").strip()
     if not text:

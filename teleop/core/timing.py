@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 RATE = 100  # Hz, of ticks
@@ -26,3 +27,8 @@ class LoopTiming:
 
 
 DEFAULTS = LoopTiming()
+
+
+def whole_ticks(seconds: float) -> float:
+    """At least as long, and so many ticks of the usual rate: a time so rounded up is one of the loop's."""
+    return math.ceil(seconds * RATE - SAME_TIME) / RATE

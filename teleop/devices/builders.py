@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from teleop.config.credentials import APP_KEY, load_credentials
-from teleop.config.documents.document import DocumentError
+from teleop.config.credentials import app_cipher, load_credentials
 from teleop.config.flight_modes import FLIGHT_MODES, combination_of
 from teleop.config.sinks_section import (
     MOVES,
@@ -38,7 +37,6 @@ from teleop.devices.gimbal.position_watch import PositionWatch
 from teleop.devices.gimbal.speed import SpeedSink
 from teleop.devices.gimbal.speed_control import SpeedControl
 from teleop.devices.gimbal.stick import StickSink
-from teleop.dji.drone.encryption import Cipher
 from teleop.dji.drone.messages import Activate
 from teleop.monitors.direction import DirectionGuard
 from teleop.monitors.exchanged_axes import ExchangedAxesGuard
@@ -135,16 +133,6 @@ def _drone(section: VirtualRcSection | FlightSection, mode: ControlMode, connect
     telemetry = Telemetry(connection, activation, app_cipher(section.encrypted))
     sink = DroneSink(mode, telemetry, connection.opened, section.low_battery)
     return Device(MOVES[section.type], sink, sink, follow=None)
-
-
-def app_cipher(encrypted: bool) -> Cipher | None:
-    """What encrypts, by the app's key; raises DocumentError where there is none."""
-    if not encrypted:
-        return None
-    credentials = load_credentials()
-    if credentials.cipher is None:
-        raise DocumentError([f"encrypted: true needs the app's key: in {APP_KEY}, or key in {credentials.place}"])
-    return credentials.cipher
 
 
 BUILDERS: Mapping[str, Callable[..., Device]] = {

@@ -12,6 +12,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from types import MappingProxyType
 
+from teleop.config.credentials import app_cipher
 from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import (
@@ -24,13 +25,14 @@ from teleop.core.errors import LinkError, TeleopError
 from teleop.core.interfaces import Clock, Observer, Sink, Source
 from teleop.core.response import Response
 from teleop.core.timing import LoopTiming
-from teleop.devices.builders import BUILDERS, Device, app_cipher, gimbal_device
+from teleop.devices.builders import BUILDERS, Device, gimbal_device
 from teleop.devices.camera import CameraSink
 from teleop.devices.connection import Connection
 from teleop.devices.drone.sink import DroneSink
 from teleop.devices.gimbal.guard_notes import GuardNotes
 from teleop.devices.gimbal.outlook import Foreseen
 from teleop.devices.gimbal.simulated import simulated_gimbal, simulated_wire
+from teleop.devices.gimbal.speed_control import SpeedControl
 from teleop.dji.drone.session import OnboardSession
 from teleop.dji.gimbal.session import Session
 from teleop.links import open_link, parse
@@ -82,6 +84,11 @@ class Rig:
         """The camera that the profile names."""
         return next((device.sink for device in self._devices if isinstance(device.sink, CameraSink)), None)
 
+    @property
+    def _controls(self) -> Sequence[SpeedControl]:
+        """Of the devices that are sent speeds."""
+        return [device.control for device in self._devices if device.control is not None]
+
     def _used(self, axes: Sequence[Axis]) -> Sequence[Device]:
         return [device for device in self._devices if not device.moves or set(device.moves) & set(axes)]
 
@@ -89,26 +96,23 @@ class Rig:
     def responses(self) -> Mapping[Axis, Response]:
         """How each axis answers that a gimbal moves, and that has moved enough to be sure of it."""
         seen = [each for device in self._devices for each in (device.control, device.watch) if each is not None]
-        found = [each.responses for each in seen]
-        return {axis: response for of_device in found for axis, response in of_device.items()}
+        return {axis: response for each in seen for axis, response in each.responses.items()}
 
     @property
     def relied_on(self) -> Mapping[Axis, Response]:
         """Those of the responses by which speeds are corrected: none where the profile's delay counts."""
-        found = [device.control.relied_on for device in self._devices if device.control is not None]
-        return {axis: response for of_device in found for axis, response in of_device.items()}
+        return {axis: response for control in self._controls for axis, response in control.relied_on.items()}
 
     @property
     def changed(self) -> Collection[Axis]:
         """The axes that have answered otherwise than was known of them before."""
-        return {axis for device in self._devices if device.control is not None for axis in device.control.changed}
+        return {axis for control in self._controls for axis in control.changed}
 
     def suppose(self, priors: Mapping[Axis, Response | None]) -> None:
         """Take other priors for these axes, which are identified anew from them; None is no prior."""
-        for device in self._devices:
-            estimators = {} if device.control is None else device.control.estimators
-            for axis in estimators.keys() & priors.keys():
-                estimators[axis].suppose(priors[axis])
+        for control in self._controls:
+            for axis in control.estimators.keys() & priors.keys():
+                control.estimators[axis].suppose(priors[axis])
 
     def _obeys(self, axis: Axis, since: float) -> bool | None:
         controls = [device.control for device in self._devices if device.control and axis in device.moves]
@@ -119,14 +123,12 @@ class Rig:
 
         None ends that.
         """
-        for device in self._devices:
-            if device.control is not None:
-                device.control.foresee(foreseen)
+        for control in self._controls:
+            control.foresee(foreseen)
 
     def rest_needed(self, axes: Collection[Axis]) -> float:
         """How long (s) the axes should rest before a move at least, by what is known of how they answer."""
-        controls = [device.control for device in self._devices if device.control is not None]
-        return max((control.rest_needed(axes) for control in controls), default=0.0)
+        return max((control.rest_needed(axes) for control in self._controls), default=0.0)
 
     def notes(self, notify: Callable[[str], object]) -> GuardNotes:
         """An observer that says when a soft limit holds an axis back, and when one answers otherwise than before."""

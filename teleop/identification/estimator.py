@@ -46,10 +46,9 @@ class ResponseEstimator:
         self._start = start
         self.changed = False  # set when what was found no longer holds; whoever says so resets it
         self._travel = Travel(LAGS)
-        dead_times, lags = (each.ravel() for each in np.meshgrid(DEAD_TIMES, LAGS, indexing="ij"))
-        self._candidates = Candidates(dead_times, lags, _prior(prior, dead_times, lags), _start(prior, start))
+        self._candidates = _candidates(prior, start)
         self._reading: Reading | None = None
-        self._then = np.zeros(len(lags))
+        self._then = np.zeros(len(DEAD_TIMES) * len(LAGS))
         self._track: deque[tuple[Reading, Floats]] = deque(maxlen=TRACK)
         self._prior, self._known = prior, False
 
@@ -79,10 +78,7 @@ class ResponseEstimator:
 
     def suppose(self, prior: Response | None) -> None:
         """Begin anew, from another prior or from none."""
-        of = self._candidates
-        self._candidates = Candidates(
-            of.dead_times, of.lags, _prior(prior, of.dead_times, of.lags), _start(prior, self._start)
-        )
+        self._candidates = _candidates(prior, self._start)
         if self._reading is not None:
             self._candidates.reset(self._reading.position)
         self._prior, self._known = prior, False
@@ -158,6 +154,12 @@ class ResponseEstimator:
         late = now - self._reading.time + of.dead_times[plausible] + of.lags[plausible]
         rests = self._reading.position + gains * to_come + of.drifts[plausible] * late
         return rests, of.gains[plausible] + 1.5 * of.gain_doubts[plausible]
+
+
+def _candidates(prior: Response | None, start: Start) -> Candidates:
+    """One for each dead time and lag."""
+    dead_times, lags = (each.ravel() for each in np.meshgrid(DEAD_TIMES, LAGS, indexing="ij"))
+    return Candidates(dead_times, lags, _prior(prior, dead_times, lags), _start(prior, start))
 
 
 def _prior(prior: Response | None, dead_times: Floats, lags: Floats) -> Floats:

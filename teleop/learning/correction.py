@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from teleop.core.axes import Axis, Limits
 from teleop.learning.room import fits
@@ -58,7 +58,7 @@ class Correction:
             axis: added(track, self.offsets[axis]) if axis in self.offsets else track
             for axis, track in move.tracks.items()
         }
-        return Move(tracks, move.overshoots, move.long_ramps, move.standstills)
+        return replace(move, tracks=tracks)
 
     def exceeds(self, move: Move, limits: Mapping[Axis, Limits]) -> list[Axis]:
         """The axes that it would take beyond their limits."""

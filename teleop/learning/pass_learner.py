@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from teleop.core.axes import Axis, Limits
 from teleop.learning.axis_learner import AxisLearner
@@ -137,7 +137,7 @@ class PassLearner:
             axis: added(track, offsets[axis]) if axis in offsets else self.move.tracks[axis]
             for axis, track in plan.tracks.items()
         }
-        return Move(tracks, plan.overshoots, plan.long_ramps, plan.standstills)
+        return replace(plan, tracks=tracks)
 
     def _learner(self, axis: Axis) -> AxisLearner:
         if axis not in self._learners:

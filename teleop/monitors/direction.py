@@ -21,9 +21,9 @@ from typing import NamedTuple
 from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
+from teleop.monitors.sent_travel import SentTravel
 
 LAGS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.25)  # s by which a gimbal may be late, beyond the delay that is known
-HOLDS = 0.5  # s that a speed is obeyed: R SDK V2.5, section 2.3.4.2
 HISTORY = 100  # ticks of what was sent
 KEPT = 64  # readings; of older ones every second is kept
 GAP = 2.5  # s without a reading, after which it begins anew
@@ -60,39 +60,29 @@ class DirectionGuard:
         self.found: set[Axis] = set()
         self._line, self._delay, self._speeds = line, delay, speeds
         self._proved: set[Axis] = set()
-        self._speed: Mapping[Axis, float] = {}
-        self._sent_at = self._last = -math.inf
-        self._travel: dict[Axis, float] = {}
+        self._sent = SentTravel()
         self._history: dict[Axis, deque[tuple[float, float]]] = {}
         self._seen: dict[Axis, list[Seen]] = {}
 
     def sent(self, now: float, speeds: Mapping[Axis, float]) -> None:
         """These speeds (deg/s, the operator's signs) are sent now."""
-        self._advance(now)
-        self._speed, self._sent_at = dict(speeds), now
+        self._sent.sent(now, speeds)
 
     def observe(self, tick: Tick) -> None:
         """Raises DeviceError for an axis that goes the other way, once."""
         if self._speeds:
-            self._advance(tick.time)
+            self._sent.advance(tick.time)
         for axis, state in tick.motion.items():
             reading = tick.reported.get(axis)
             if axis in self._proved or axis in self.found or reading is None:
                 continue
             history = self._history.setdefault(axis, deque(maxlen=HISTORY))
-            history.append((tick.time, self._travel.get(axis, 0.0) if self._speeds else state.position))
+            history.append((tick.time, self._sent.travel.get(axis, 0.0) if self._speeds else state.position))
             seen = self._seen.setdefault(axis, [])
             if seen and (abs(state.position - seen[-1].planned) > JUMP or reading.time - seen[-1].time > GAP):
                 seen.clear()
             if not seen or reading.time > seen[-1].time:
                 self._add(axis, Seen(reading.time, reading.position, state.position, self._before(axis, reading.time)))
-
-    def _advance(self, now: float) -> None:
-        until = min(now, self._sent_at + HOLDS)
-        if until > self._last and self._last > -math.inf:
-            for axis, speed in self._speed.items():
-                self._travel[axis] = self._travel.get(axis, 0.0) + speed * (until - self._last)
-        self._last = now
 
     def _before(self, axis: Axis, time: float) -> Sequence[float]:
         return [_at(self._history[axis], time - self._delay - lag) for lag in LAGS]

@@ -18,10 +18,10 @@ from typing import NamedTuple
 from teleop.core.axes import Axis
 from teleop.core.errors import DeviceError
 from teleop.core.events import Tick
+from teleop.monitors.sent_travel import SentTravel
 
 LAGS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4)  # s by which a gimbal may be late, beyond the delay that is known
 BETWEEN_LAGS = 0.015  # s, of the root mean square between the two nearest
-HOLDS = 0.5  # s that a speed is obeyed: R SDK V2.5, section 2.3.4.2
 HISTORY = 100  # ticks of what was sent
 KEPT = 32  # readings; of older ones every second is kept
 GAP = 2.5  # s without a reading, after which it begins anew
@@ -62,27 +62,24 @@ class ExchangedAxesGuard:
         self._found, self._over = found, False
         self._moves = [False, False]
         self._way = 0.0  # deg between what the two axes were sent since the first reading
-        self._speed: Mapping[Axis, float] = {}
-        self._sent_at = self._last = -math.inf
-        self._travel: Pair = 0.0, 0.0
+        self._sent = SentTravel()
         self._history: deque[tuple[float, Pair]] = deque(maxlen=HISTORY)
         self._seen: list[Seen] = []
 
     def sent(self, now: float, speeds: Mapping[Axis, float]) -> None:
         """These speeds (deg/s, the operator's signs) are sent now."""
-        self._advance(now)
-        self._speed, self._sent_at = dict(speeds), now
+        self._sent.sent(now, speeds)
 
     def observe(self, tick: Tick) -> None:
         """Raises DeviceError when the axes are exchanged, once."""
         if self._speeds:
-            self._advance(tick.time)
+            self._sent.advance(tick.time)
         readings = [tick.reported.get(axis) for axis in self._pair]
         first, second = readings
         self._moves = [axis in tick.motion for axis in self._pair]
         if self._over or first is None or second is None or not any(self._moves):
             return
-        sent = self._travel if self._speeds else self._planned(tick, (first.position, second.position))
+        sent = self._traveled() if self._speeds else self._planned(tick, (first.position, second.position))
         if self._history and max(abs(now - then) for now, then in zip(sent, self._history[-1][1], strict=True)) > JUMP:
             self._seen.clear()
         self._history.append((tick.time, sent))
@@ -102,15 +99,9 @@ class ExchangedAxesGuard:
         first, second = places
         return first, second
 
-    def _advance(self, now: float) -> None:
-        until = min(now, self._sent_at + HOLDS)
-        if until > self._last and self._last > -math.inf:
-            first, second = (
-                at + self._speed.get(axis, 0.0) * (until - self._last)
-                for at, axis in zip(self._travel, self._pair, strict=True)
-            )
-            self._travel = first, second
-        self._last = now
+    def _traveled(self) -> Pair:
+        first, second = (self._sent.travel.get(axis, 0.0) for axis in self._pair)
+        return first, second
 
     def _before(self, time: float) -> Sequence[Pair]:
         """What had been sent by each of LAGS before `time`, to the tick; the oldest that is known at most."""

@@ -9,13 +9,13 @@ search takes milliseconds, so it happens outside the tick: ask for a moment a li
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from teleop.core.axes import Axis, Limits, State
+from teleop.core.timing import whole_ticks
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.trajectory import Move
 
@@ -135,7 +135,7 @@ def run_up(move: Move, limits: Mapping[Axis, Limits], time: float, rate: float) 
         return steady(time, rate, 0.0)
 
     def attempt(duration: float) -> TimeScaling:
-        duration = math.ceil(duration * 100 - 1e-6) / 100
+        duration = whole_ticks(duration)
         begin = time - rate * duration / 2
         return TimeScaling(0.0, duration, (begin, 0.0, 0.0, rate / duration**2, -rate / (2 * duration**3)), rate)
 

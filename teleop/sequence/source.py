@@ -17,7 +17,7 @@ from teleop.core.errors import DeviceError
 from teleop.core.events import TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, StateTarget
-from teleop.core.timing import KEEP_ALIVE, SAME_TIME
+from teleop.core.timing import KEEP_ALIVE, SAME_TIME, whole_ticks
 from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
 from teleop.sequence.compile import CompiledSequence
@@ -290,8 +290,3 @@ class SequenceSource:
         if self.cycle.corrector is None:
             return start
         return self._origin + RHYTHM * math.ceil((start - self._origin) / RHYTHM - SAME_TIME)
-
-
-def whole_ticks(seconds: float) -> float:
-    """At least as long, and so many hundredths."""
-    return math.ceil(seconds * 100 - SAME_TIME) / 100

@@ -16,17 +16,15 @@ from teleop.core.events import ShutterResult, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input
 from teleop.core.setpoints import Demand, StateTarget
-from teleop.core.timing import SAME_TIME
+from teleop.core.timing import SAME_TIME, whole_ticks
 from teleop.timelapse.compile import Timelapse
-from teleop.timelapse.frame_cycle import RETRY
 from teleop.timelapse.frame_log import FrameBook, FrameLog
 from teleop.timelapse.frame_shutter import FrameShutter
-from teleop.timelapse.journal import FrameState, Note
+from teleop.timelapse.journal import FrameState
 from teleop.timelapse.movers import Mover
 from teleop.timelapse.progress import Progress
 
 KEYS_PERIOD = 0.05  # s between two looks at the keys while nothing else happens
-_GRID = 100  # Hz
 
 
 class Step(Enum):
@@ -69,7 +67,6 @@ class ByHandSource:
         self.frame = self._wanted = first
         self.step, self._slot, self._ended = Step.MOVE, math.inf, -math.inf
         self._halted = False
-        self._end_note: Note | None = None
         self._on_due: Mapping[Step, Callable[[float], None]] = {
             Step.MOVE: self._move,
             Step.READY: self._ready,
@@ -183,7 +180,7 @@ class ByHandSource:
             self._give_up()
             self.step, self.progress.problem = Step.READY, "the journal could not be written: press Enter again"
         elif self._shutter.ready(now):
-            self._slot = math.ceil((now + self._mover.ramp) * _GRID - SAME_TIME) / _GRID
+            self._slot = whole_ticks(now + self._mover.ramp)
             self._mover.begin(self._slot, self._timelapse.slots.at(self.frame))
             self.step = Step.RUN
 
@@ -222,10 +219,7 @@ class ByHandSource:
             self._book.note(self.frame, FrameState.DONE)
 
     def _finish(self, now: float) -> None:
-        if self._end_note is None or (self._end_note.failed and now >= self._ended + RETRY - SAME_TIME):
-            self._end_note, self._ended = self._log.finish(), now
-        self._log.check_end()
-        if self._end_note.safe:
+        if self._log.finished(now):
             self.step = Step.OVER
 
     def _check_keys(self, now: float) -> None:

@@ -12,16 +12,14 @@ from collections.abc import Callable, Mapping
 
 from teleop.core.timing import PERIOD, SAME_TIME
 from teleop.timelapse.compile import Timelapse
-from teleop.timelapse.frame_log import FrameBook, FrameLog
+from teleop.timelapse.frame_log import RETRY, FrameBook, FrameLog
 from teleop.timelapse.frame_shutter import FrameShutter
-from teleop.timelapse.journal import Note
 from teleop.timelapse.movers import Mover
 from teleop.timelapse.phases import TRANSITIONS, PhaseEvent, TimelapsePhase
 from teleop.timelapse.progress import Progress
 from teleop.timelapse.settle_detector import SettleDetector
 
 LEAD = 0.1  # s before a shutter at which its frame is written down: a commit takes half a millisecond, a slow one 50
-RETRY = 1.0  # s after which a journal that could not be written is tried again
 LATE_SHARE = 0.2  # of an interval, by which a frame may be late before its slot is missed
 
 
@@ -42,7 +40,6 @@ class FrameCycle:
         self.lead = max(self._focus_lead, LEAD + mover.ramp)
         self.asked_to_pause = progress.pausing  # an earlier run may have been paused
         self.halted = False
-        self._end_note: Note | None = None
         self._on_due: Mapping[TimelapsePhase, Callable[[float], None]] = {
             TimelapsePhase.APPROACH: self._travel,
             TimelapsePhase.MOVE: self._travel,
@@ -167,10 +164,7 @@ class FrameCycle:
         self.handle(PhaseEvent.STEP if stepped else PhaseEvent.STAY, now)
 
     def _finish(self, now: float) -> None:
-        if self._end_note is None or (self._end_note.failed and now >= self.since + RETRY - SAME_TIME):
-            self._end_note, self.since = self.log.finish(), now
-        self.log.check_end()
-        if self._end_note.safe:
+        if self.log.finished(now):
             self.handle(PhaseEvent.WRITTEN, now)
 
     def _was_last(self, now: float) -> bool:

@@ -6,13 +6,16 @@ that run never presses it again. Whether either of them ends the shoot is the fi
 
 from __future__ import annotations
 
+import math
 from typing import Protocol
 
 from teleop.core.errors import DeviceError, TeleopError
 from teleop.core.events import ShutterResult
+from teleop.core.timing import SAME_TIME
 from teleop.timelapse.journal import FrameState, Note
 from teleop.timelapse.progress import Progress
 
+RETRY = 1.0  # s after which a journal that could not be written is tried again
 MOST_FAILURES = 10  # frames in a row without a picture, after which to continue is pointless
 
 
@@ -32,6 +35,8 @@ class FrameLog:
     def __init__(self, book: FrameBook, progress: Progress, go_on: bool) -> None:
         self._book, self._progress, self._go_on = book, progress, go_on
         self._in_a_row = 0  # frames without a picture
+        self._end: Note | None = None
+        self._end_asked = -math.inf  # s: when it was last to be written
 
     def begin(self, frame: int) -> Note:
         """Its shutter is due. Raises TeleopError as `check` does."""
@@ -77,9 +82,15 @@ class FrameLog:
         if self._book.trouble:
             raise TeleopError(f"{self._book.trouble}; frame {frame} was not shot")
 
-    def finish(self) -> Note:
-        """The last frame is behind."""
-        return self._book.finish()
+    def finished(self, now: float) -> bool:
+        """Whether it is written down that the last frame is behind: ask until it is; what fails is tried again.
+
+        Raises TeleopError as `check_end` does.
+        """
+        if self._end is None or (self._end.failed and now >= self._end_asked + RETRY - SAME_TIME):
+            self._end, self._end_asked = self._book.finish(), now
+        self.check_end()
+        return self._end.safe
 
     def check_end(self) -> None:
         """Raises TeleopError when the end could not be written down."""

@@ -80,18 +80,14 @@ class GoMotionMover:
         return self._base + time
 
     def skip(self, now: float, seconds: float) -> int:
-        if self._is_running(now):
-            self._way = self._run_out(now)
-            self._go_to_start(0.0)
+        self._turn_back(now)
         ready = self._way.arrival + self._settle + RAMP
         slots = max(1, math.ceil((ready - self._pressed) / seconds - SAME_TIME))
         self._base += slots * seconds
         return slots
 
     def pause(self, now: float) -> None:
-        if self._is_running(now):
-            self._way = self._run_out(now)
-            self._go_to_start(0.0)
+        self._turn_back(now)
         self._held, self._base = self._base, math.inf
 
     def resume(self, now: float, time: float, lead: float) -> None:
@@ -120,6 +116,12 @@ class GoMotionMover:
         if self._is_running(now) and now < self._pressed + self._run.duration:
             way.along(self._pressed, self._run)
         return way
+
+    def _turn_back(self, now: float) -> None:
+        """Where the run has begun, to its end and then to where it begins."""
+        if self._is_running(now):
+            self._way = self._run_out(now)
+            self._go_to_start(0.0)
 
     def _go_to_start(self, spare: float) -> None:
         """From the end of the way so far to where the run begins, in `spare` s if that can be."""

@@ -14,7 +14,7 @@ from teleop.core.events import ShutterResult, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input
 from teleop.core.setpoints import Demand, StateTarget
-from teleop.core.timing import SAME_TIME
+from teleop.core.timing import SAME_TIME, whole_ticks
 from teleop.timelapse.compile import Timelapse
 from teleop.timelapse.frame_cycle import FrameCycle
 from teleop.timelapse.frame_log import FrameBook
@@ -24,7 +24,6 @@ from teleop.timelapse.progress import Progress
 
 KEYS_PERIOD = 0.2  # s between two checks of the keys while nothing else happens
 EXPOSING = (TimelapsePhase.EXPOSE, TimelapsePhase.POST, TimelapsePhase.FINISH)
-_GRID = 100  # Hz
 
 
 class TimelapseSource:
@@ -137,7 +136,7 @@ class TimelapseSource:
         mover.approach(now, motion, cycle.frame)
         ready = mover.arrival + self._timelapse.phases.settle + cycle.lead + mover.run_up
         if self.slot == -math.inf:
-            self.slot = math.ceil(max(ready, now + later) * _GRID - SAME_TIME) / _GRID
+            self.slot = whole_ticks(max(ready, now + later))
         interval = self._schedule.interval(cycle.frame)
         missed = max(0, math.ceil((ready - self.slot) / interval - SAME_TIME))
         self.progress.missed += missed

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 
 from teleop.core.axes import Axis, Limits, Motion, State
-from teleop.core.timing import SAME_TIME
+from teleop.core.timing import whole_ticks
 from teleop.planner.polynomial import Array
 from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
@@ -14,7 +14,6 @@ from teleop.planner.trajectory import Move
 GENTLE = 0.5  # of velocity, acceleration and jerk, where there is time
 BACKLASH = {Axis.FOCUS: 0.02}  # units, how far before its place an axis is approached from
 BACKLASH_ANGLE = 1.0  # deg
-_GRID = 100  # Hz: what begins and ends on the loop's ticks
 
 
 class Way:
@@ -35,7 +34,7 @@ class Way:
         move = rest_to_rest(self.end, target, limits, share, least)
         self._legs.append((self.arrival, move))
         self.end = {axis: State(position) for axis, position in target.items()}
-        self.arrival += math.ceil(move.duration * _GRID - SAME_TIME) / _GRID
+        self.arrival += whole_ticks(move.duration)
 
     def at(self, now: float) -> Motion:
         for begin, move in self._legs:

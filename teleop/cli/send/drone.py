@@ -14,7 +14,7 @@ from typing import Final
 from teleop.cli.codec.format_message import in_units
 from teleop.cli.options import Options
 from teleop.cli.send.one_shot import opened, tell
-from teleop.config.credentials import APP_KEY, load_credentials
+from teleop.config.credentials import app_cipher, load_credentials
 from teleop.config.documents.document import DocumentError
 from teleop.config.profile import Profile
 from teleop.core.clock import SystemClock
@@ -61,7 +61,7 @@ def send_drone(words: Sequence[str], options: Options, understood: bool) -> int:
     message = asked_for(words, understood or simulated)
     if isinstance(message, drone.Activate) and not simulated:
         message = load_credentials().activation()
-    cipher = _cipher(profile)
+    cipher = app_cipher(bool(profile.encrypted))
     clock = SystemClock()
     with opened(url, clock, lambda: _simulated(clock, cipher)) as link:
         exchange = Exchange(link, url, clock, cipher)
@@ -86,16 +86,6 @@ def asked_for(words: Sequence[str], understood: bool) -> Message:
     if (reason := hazard(message)) and not understood:
         raise DocumentError([f"{message.name}: {reason}; to send it all the same, give --i-understand"])
     return message
-
-
-def _cipher(profile: Profile) -> Cipher | None:
-    """What encrypts, where the profile has it so. Raises DocumentError without a key."""
-    if not profile.encrypted:
-        return None
-    credentials = load_credentials()
-    if credentials.cipher is None:
-        raise DocumentError([f"encrypted: true needs the app's key: in {APP_KEY}, or key in {credentials.place}"])
-    return credentials.cipher
 
 
 def url_of(profile: Profile) -> str:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import secrets
 
 from teleop.commission.device_link import DeviceLink
+from teleop.config.credentials import app_cipher
 from teleop.config.profile import Profile
 from teleop.config.sinks_section import FlightSection, VirtualRcSection
 from teleop.core.errors import UsageError
 from teleop.core.interfaces import Clock
-from teleop.devices.builders import app_cipher
 from teleop.devices.connection import Connection
 from teleop.dji.drone.onboard_sdk import M100
 from teleop.dji.drone.session import OnboardSession

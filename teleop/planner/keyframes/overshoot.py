@@ -18,7 +18,7 @@ from teleop.planner.keyframes.qp_solver import minimize
 from teleop.planner.keyframes.segment import Segment
 from teleop.planner.keyframes.sparse import zero
 from teleop.planner.keyframes.tension import Tension
-from teleop.planner.keyframes.windows import NEARLY, TIGHT, WHOLE, around, graded, tightness
+from teleop.planner.keyframes.windows import NEARLY, TIGHT, WHOLE, around, graded, spread, tightness
 from teleop.planner.polynomial import Array
 
 SHARE = 0.01  # of the range between two keys: an overshoot tolerated where the file does not say
@@ -106,8 +106,7 @@ def with_overshoot(segment: Segment, limits: Limits, least: Array, tension: Tens
         rule = replace(rule, pieces=graded(tightness(segment, limits)))
     flat = segment.steps == 0
     beyond = (least > NONE * weight) | flat
-    around = beyond | np.concatenate([beyond[1:], [False]]) | np.concatenate([[False], beyond[:-1]])
-    for bent in (beyond, around, np.ones_like(beyond)):
+    for bent in (beyond, spread(beyond), np.ones_like(beyond)):
         bounded = replace(segment, stray=np.where(bent, strays, 0.0))
         solved = solve(bounded, limits, rule)
         if solved is not None:

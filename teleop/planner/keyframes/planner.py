@@ -6,8 +6,9 @@ a minimum-jerk program, tried with a `ladder` of rules; if none has a solution, 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -62,19 +63,15 @@ def plan(keys: Mapping[Axis, Sequence[Key]], limits: Mapping[Axis, Limits], tens
         from teleop.planner.keyframes.infeasibility import infeasibilities, with_overshoots  # with all that it searches
         from teleop.planner.keyframes.possible import Possible
 
-        def easy(axis: Axis, points: Points) -> bool:
+        def by(judge: Callable[[Segment, Limits, Tension], bool], axis: Axis, points: Points) -> bool:
             segment = _segment_of(axis, points, limits[axis])
-            return segment is not None and is_easy(segment, limits[axis], _evenness(points, tension))
-
-        def tolerable(axis: Axis, points: Points) -> bool:
-            segment = _segment_of(axis, points, limits[axis])
-            return segment is not None and is_tolerable(segment, limits[axis], _evenness(points, tension))
+            return segment is not None and judge(segment, limits[axis], _evenness(points, tension))
 
         def planned(axis: Axis, points: Points) -> bool:
             return _plan_leg(axis, points, limits[axis], tension, False, _Outcome()) is not None
 
         within = {axis: keys[axis] for axis in outcomes}
-        possible = Possible(limits, easy, tolerable, planned, refused)
+        possible = Possible(limits, partial(by, is_easy), partial(by, is_tolerable), planned, refused)
         found = infeasibilities(within, limits, refused, possible) if refused else []
         overshot = [leg for outcome in outcomes.values() for leg in outcome.overshot]
         outside = [finding for of_axis in beyond.values() for finding in of_axis]

@@ -44,7 +44,7 @@ def graded(tight: Array) -> Indices:
     """Pieces (n,) of the intervals of a long leg: more where they are tight, and beside those."""
     pieces = np.full(len(tight), COARSE)
     for least, fine in GRADES:
-        pieces[_spread(tight > least, 1)] = fine
+        pieces[spread(tight > least)] = fine
     return pieces
 
 
@@ -59,6 +59,6 @@ def around(suspect: NDArray[np.bool_]) -> list[tuple[int, int]]:
     return found
 
 
-def _spread(marked: NDArray[np.bool_], beside: int) -> NDArray[np.bool_]:
-    """Those marked, and as many beside each."""
-    return np.convolve(marked, np.ones(2 * beside + 1), "same") > 0
+def spread(marked: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Those marked, and the one on either side of each."""
+    return marked | np.concatenate([marked[1:], [False]]) | np.concatenate([[False], marked[:-1]])
