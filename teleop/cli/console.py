@@ -43,7 +43,7 @@ def console(
     def view(parts: LiveParts) -> ConsoleView:
         return ConsoleView(lambda: parts.operator.status)
 
-    with reached.gateway(bind, options.rig, options.json) as gateway, realtime(in_real_time, complain):
+    with reached.gateway(bind, options, profile) as gateway, realtime(in_real_time, complain):
         hands = RemoteHands(reached.moves, gateway)
         run = LiveRun(profile, profile.name, SystemClock(), None, presets=presets, take=take, beside=hands)
         return print_report(run.by_hand(view, signals_to), options.json)

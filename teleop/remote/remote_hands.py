@@ -76,7 +76,8 @@ class RemoteHands:
         if self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, rig.clock, operator.notify)
             self._works.start()
-            operator.notify(self._gateway.greeting)
+            for line in self._gateway.greetings:
+                operator.notify(line)
         return self, self
 
     # --- what becomes of commands

@@ -62,7 +62,8 @@ class RunHands:
         self._publisher = self.door.publisher(stack, parts, self._clock)
         if self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, self._clock, self.line)
-            running.show(self._gateway.greeting)
+            for line in self._gateway.greetings:
+                running.show(line)
         return self
 
     def line(self, text: str) -> None:
