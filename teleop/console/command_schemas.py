@@ -42,6 +42,10 @@ PLAYED = {
     "speed": {"type": "number", "description": "share of the written speed"},
     "preroll": SECONDS,
 }
+SHOT = {
+    "resume": {"type": "boolean", "description": "true: go on with the shoot that its journal knows"},
+    "restart": {"type": "boolean", "description": "true: begin anew, whatever the journal says"},
+}
 COMMANDS: Mapping[str, CommandSchema] = {
     "take_control": CommandSchema("Take control; `ask` where another holds it", {}, {"ask": TRUTH}),
     "release_control": CommandSchema("Give control up"),
@@ -75,7 +79,7 @@ COMMANDS: Mapping[str, CommandSchema] = {
         "Move the focus", {"to": {"type": "number", "minimum": 0, "maximum": 1}}, {"seconds": SECONDS}
     ),
     "range": CommandSchema("Choose the speed range of sticks", {"number": WHOLE}),
-    "shoot": CommandSchema("Shoot a timelapse", {"move": MOVE}),
+    "shoot": CommandSchema("Shoot a timelapse", {"move": MOVE}, SHOT),
     "message": CommandSchema("Send a message of the R SDK", {"name": TEXT}, {"fields": {"type": "object"}}),
     "plan": CommandSchema(
         "Plan a move; answered by the gateway",

@@ -89,7 +89,7 @@ SHAPES: Mapping[str, Shape] = {
     "follow": Shape({"mode": text(24, r"[a-z][a-z0-9-]*")}),
     "focus": Shape({"to": number(0.0, 1.0)}, {"seconds": SECONDS}),
     "range": Shape({"number": NUMBER}),
-    "shoot": Shape({"move": text(120, FILE_NAME)}),
+    "shoot": Shape({"move": text(120, FILE_NAME)}, {"resume": truth, "restart": truth}),
     "message": Shape({"name": text(60, r"[a-z][a-z0-9 _-]*")}, {"fields": plain_fields}),
     "alive": Shape(optional={"seen": _ages}),
     "closed": Shape(),

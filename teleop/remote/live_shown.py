@@ -12,6 +12,7 @@ from teleop.manual.status import OperatorStatus
 from teleop.remote.jobs import JobSource
 from teleop.remote.keys import HandKeys
 from teleop.remote.play_job import PlayJob
+from teleop.remote.shoot_job import ShootJob
 
 
 class LiveShown:
@@ -47,7 +48,7 @@ class LiveShown:
 
     def drivers(self) -> Mapping[Axis, str]:
         job = self._jobs.job
-        if job is None or (isinstance(job, PlayJob) and job.paused):
+        if job is None or (isinstance(job, PlayJob | ShootJob) and job.paused):
             return {}
         return dict.fromkeys(job.axes, job.title)
 
@@ -55,5 +56,6 @@ class LiveShown:
         job = self._jobs.job
         return job.state(now) if isinstance(job, PlayJob) else None
 
-    def shoot(self, now: float) -> Mapping[str, Any] | None:  # noqa: ARG002 - a shoot is a run of its own
-        return None
+    def shoot(self, now: float) -> Mapping[str, Any] | None:
+        job = self._jobs.job
+        return job.state(now) if isinstance(job, ShootJob) else None

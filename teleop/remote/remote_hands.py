@@ -11,11 +11,13 @@ from typing import Any
 from teleop.config.operator_settings import EXPO
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile
+from teleop.config.sinks_section import CameraSection
 from teleop.core.axes import Axis, Limits
-from teleop.core.events import Action, DeviceCommand, Tick
+from teleop.core.events import Action, DeviceCommand, ShutterResult, Tick
 from teleop.core.interfaces import Observer, Sink, Source
 from teleop.core.operator_input import Held, Input
 from teleop.devices.rig import Rig
+from teleop.devices.shutter import ShutterSink
 from teleop.inputs.stick_shaping import shape
 from teleop.manual.operator import Operator
 from teleop.remote.actions import LiveActions
@@ -24,6 +26,7 @@ from teleop.remote.gateway_child import Gateway
 from teleop.remote.jobs import JobSource
 from teleop.remote.keys import HandKeys
 from teleop.remote.live_shown import LiveShown
+from teleop.remote.made_jobs import JobMaker
 from teleop.remote.open_door import OpenDoor
 from teleop.remote.state import Parts
 from teleop.remote.stick import RemoteStick
@@ -50,10 +53,11 @@ class RemoteHands:
         expo = EXPO if profile.sticks.expo is None else profile.sticks.expo
         moved = [axis for axis in limits if not axis.is_stick]
         stick = RemoteStick(moved, lambda value: shape(value, 0.0, expo))
-        self._works = Works(profile, limits, self._folder)
-        stack.callback(self._works.close)
+        self._works, maker = Works(profile), JobMaker(limits, self._folder)
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
-        self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, self.told)
+        self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, maker, self.told)
+        stack.callback(self._actions.shoots.close)
+        stack.callback(self._works.close)
         self.desk = Desk(self.door.socket, stick, self._notify, self._actions)
         self._actions.desk = self._actions.devices.desk = self.desk
 
@@ -70,6 +74,9 @@ class RemoteHands:
         """To the operator of an open rig; from now on the gateway runs. What sees each tick, and the release."""
         self._operator = self._actions.operator = operator
         self._actions.presets, self._actions.devices.has_camera = presets, rig.camera is not None
+        self._shutter = self._shutter_of(rig)
+        self._actions.shoots.has_camera = self._shutter is not None
+        self._jobs.foresee = rig.foresee
         shown = LiveShown(operator, presets, self._jobs, self._keys)
         parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None)
         self._publisher = self.door.publisher(stack, parts, rig.clock)
@@ -101,13 +108,27 @@ class RemoteHands:
         self._publisher.publish(run, tick.time, tick)
         self.desk.flush()
 
-    def write(self, tick: Tick) -> None: ...
+    def write(self, tick: Tick) -> None:
+        if self._shutter is None:
+            return
+        self._shutter.write(tick)
+        if self._shutter.holds and self._actions.shoots.job is None:  # one that was ended before its end
+            self._shutter.release(tick.time)
 
     def release(self, now: float) -> float | None:
         self._jobs.end("the run has ended")
         self._publisher.publish("releasing", now)
         self.desk.flush()
-        return None
+        return None if self._shutter is None else self._shutter.release(now)
+
+    def _shutter_of(self, rig: Rig) -> ShutterSink | None:
+        """Of the camera that the profile names, for shoots."""
+        links = [section.link for section in rig.profile.sinks if isinstance(section, CameraSection)]
+        return ShutterSink(rig.connections[links[0]], self._shot) if links else None
+
+    def _shot(self, result: ShutterResult) -> None:
+        if (job := self._actions.shoots.job) is not None:
+            job.on_result(result)
 
     def _mark(self) -> None:
         self._read = True

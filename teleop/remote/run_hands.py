@@ -9,7 +9,6 @@ from typing import Any
 from teleop.app.beside import Running
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, Motion
-from teleop.core.clock import date
 from teleop.core.events import Action, Tick
 from teleop.core.interfaces import Clock, Observer
 from teleop.core.operator_input import Command, Input
@@ -19,6 +18,7 @@ from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway
 from teleop.remote.move_state import move_state
 from teleop.remote.open_door import OpenDoor
+from teleop.remote.shoot_state import shoot_state
 from teleop.remote.state import Parts
 from teleop.remote.stick import RemoteStick
 
@@ -113,19 +113,7 @@ class RunHands:
         running = self._running
         if running is None or running.progress is None:
             return None
-        progress = running.progress
-        left = 0.0 if progress.by_hand else progress.left(now)
-        return {
-            "title": running.title,
-            "frames_done": progress.shot,
-            "frames": progress.slots.frames,
-            "eta": None if progress.by_hand or left == float("inf") else round(date() + left, 1),
-            "missed": progress.missed,
-            "paused": progress.pausing or bool(self._halted(running)),
-            "phase": progress.phase,
-            "clip_s": progress.clip,
-            "why": progress.problem,
-        }
+        return shoot_state(running.title, running.progress, now, self._halted(running))
 
     def _halted(self, running: Running) -> str:
         guard = running.guard()

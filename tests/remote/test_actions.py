@@ -2,78 +2,14 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
-from remote_bench import ANNA, BOB, RemoteBench, remote_bench
+from remote_asks import done, ended, planned_or_not, played, until
+from remote_bench import BOB, RemoteBench
 
 from teleop.dji.gimbal import messages as gimbal
-from teleop.remote import works
 from teleop.remote.desk import MOST
-
-PATIENCE = 5.0  # s of the loop's time
-MOVE = """
-title: There and back
-keyframes:
-  - {at: 0, pan: 0, tilt: 0}
-  - {at: 2s, pan: 20, tilt: 5}
-  - {at: 4s, pan: 0, tilt: 0}
-"""
-
-
-def done(bench: RemoteBench, do: str, **fields: Any) -> dict[str, Any]:
-    """How it ended, once it has."""
-    number = bench.say(do, **fields)
-    end = bench.now + PATIENCE
-    while number not in bench.ends and bench.now < end:
-        bench.tick()
-        if "error" in bench.answers.get(number, {}):
-            return bench.answers[number]
-    return bench.ends[number]
-
-
-def played(bench: RemoteBench, **fields: Any) -> int:
-    """A move that is planned in this process, and has begun."""
-    number = bench.say("play", **fields)
-    planned_or_not(bench, number)
-    assert bench.answers[number].get("ok"), bench.answers[number]
-    return number
-
-
-def planned_or_not(bench: RemoteBench, number: int) -> None:
-    """The plan is made in a thread: real time too has to go by."""
-    until(bench, lambda: bench.answers.get(number, {"planning": True}).get("planning") is None)
-
-
-@pytest.fixture
-def planned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Plans in this process: the other one takes a second to start."""
-    from teleop.app.planning import plan_content, plan_file
-
-    class Here:
-        def __init__(self, profile: Any) -> None:
-            self._profile = profile
-
-        def plan(self, what: Any) -> Any:
-            plan = plan_file(what, self._profile) if isinstance(what, str) else plan_content(what, self._profile)
-            return plan.sequence
-
-        def close(self) -> None: ...
-
-    monkeypatch.setattr(works, "PlanningProcess", Here)
-    (tmp_path / "there.yaml").write_text(MOVE)
-
-
-@pytest.fixture
-def stage(tmp_path: Path, planned: None) -> Iterator[RemoteBench]:
-    with remote_bench(tmp_path) as bench:
-        bench.ask("take_control")
-        bench.seen = {ANNA: 0.0}
-        yield bench
-
 
 # --- ways
 
@@ -337,21 +273,5 @@ def test_a_fault_in_a_command_ends_no_run(held: RemoteBench, monkeypatch: pytest
     assert held.state["run"] == "running"
 
 
-def ended(bench: RemoteBench, do: str, **fields: Any) -> None:
-    number = bench.say(do, **fields)
-    until(bench, lambda: number in bench.ends or "error" in bench.answers.get(number, {}))
-    assert bench.ends[number].get("ok"), (bench.answers[number], bench.ends.get(number))
-
-
 def paused(bench: RemoteBench) -> None:
     until(bench, lambda: bench.state["move"]["phase"] == "paused" and bench.rests)
-
-
-def until(bench: RemoteBench, holds: Callable[[], object]) -> None:
-    """A change of speed is searched for in a thread: real time too has to go by."""
-    for _ in range(2000):
-        if holds():
-            return
-        bench.tick()
-        time.sleep(0.0005)
-    raise AssertionError(bench.state["move"])
