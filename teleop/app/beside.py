@@ -13,6 +13,7 @@ from teleop.core.axes import Axis, Limits
 from teleop.core.events import Action, DeviceCommand
 from teleop.core.interfaces import Clock, Observer, Sink, Source
 from teleop.core.operator_input import Input
+from teleop.devices.drone.state import DroneState
 from teleop.devices.rig import Rig
 from teleop.manual.operator import Operator
 from teleop.manual.stop_guard import StopGuard
@@ -44,13 +45,17 @@ class BesideLive(Protocol):
 
 @dataclass(frozen=True)
 class Running:
-    """A run that moves by itself, for those beside it; `guard` is None until it begins, `show` is its screen's."""
+    """A run that moves by itself, for those beside it; `guard` is None until it begins, `show` is its screen's.
+
+    `drone` has what is known of the drone, None in a run without one.
+    """
 
     title: str
     guard: Callable[[], StopGuard | None]
     show: Callable[[str], object]
     source: SequenceSource | None = None
     progress: Progress | None = None
+    drone: Callable[[], DroneState | None] = lambda: None
 
 
 class BesideRun(Protocol):

@@ -22,6 +22,7 @@ from teleop.remote.jobs import JobSource, WayJob
 from teleop.remote.keys import MOST as MOST_KEYS
 from teleop.remote.keys import HandKeys
 from teleop.remote.made_jobs import JobMaker
+from teleop.remote.pass_errors import ShownPasses
 from teleop.remote.play_job import NotNowError, PlayJob
 from teleop.remote.shoot_actions import ShootActions
 from teleop.remote.shoot_job import ShootJob
@@ -51,6 +52,7 @@ class LiveActions:
         self.operator: Operator
         self.presets: Presets
         self.desk: Desk
+        self.passes = ShownPasses()
         self._motion: Motion = {}
         self._due = DueList()
         has_gimbal = any(sink.type == "gimbal" for sink in profile.sinks)
@@ -121,7 +123,10 @@ class LiveActions:
 
     def observe(self, tick: Tick) -> None:
         self._motion = tick.motion
+        self.passes.observe(tick)
         self._jobs.observe(tick)
+        if not isinstance(self._jobs.job, PlayJob):
+            self.passes.end()
 
     def _take_stop(self, now: float) -> None:
         stopped = self.operator.status.stopped
@@ -272,6 +277,8 @@ class LiveActions:
             return False
         asked.accept()
         self._jobs.begin(job)
+        if isinstance(job, PlayJob):
+            self.passes.watch(job.title, job.source, job.axes, lambda: job.halted)
         return True
 
     def _transport(self, asked: Asked, now: float, does: Callable[[PlayJob], object]) -> None:

@@ -77,7 +77,9 @@ class RemoteHands:
         self._shutter = self._shutter_of(rig)
         self._actions.shoots.has_camera = self._shutter is not None
         self._jobs.foresee = rig.foresee
-        shown = LiveShown(operator, presets, self._jobs, self._keys)
+        drone = rig.drone(list(self._limits))
+        state = lambda: None if drone is None else drone.state(rig.clock.now())  # noqa: E731
+        shown = LiveShown(operator, presets, self._jobs, self._keys, self._actions.passes, state)
         parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None)
         self._publisher = self.door.publisher(stack, parts, rig.clock)
         if self._gateway is not None:

@@ -16,8 +16,10 @@ from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway
+from teleop.remote.live_shown import battery
 from teleop.remote.move_state import move_state
 from teleop.remote.open_door import OpenDoor
+from teleop.remote.pass_errors import ShownPasses
 from teleop.remote.shoot_state import shoot_state
 from teleop.remote.state import Parts
 from teleop.remote.stick import RemoteStick
@@ -43,6 +45,7 @@ class RunHands:
         self._motion: Motion = {}
         self._recording = False
         self._running: Running | None = None
+        self._passes = ShownPasses()
 
     def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits], clock: Clock) -> None:
         """Open the door, until the stack is left."""
@@ -60,6 +63,8 @@ class RunHands:
         camera = any(sink.type == "camera" for sink in self._profile.sinks)
         parts = Parts(self._profile.name, self._limits, self, {}, self.desk, camera)
         self._publisher = self.door.publisher(stack, parts, self._clock)
+        if running.source is not None:
+            self._passes.watch(running.title, running.source, list(self._limits), lambda: self._halted(running))
         if self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, self._clock, self.line)
             for line in self._gateway.greetings:
@@ -74,6 +79,7 @@ class RunHands:
         for action in tick.actions:
             if action in (Action.RECORD, Action.STOP):
                 self._recording = action is Action.RECORD
+        self._passes.observe(tick)
         self.door.look(self.desk, tick.time)
         self._publisher.publish("running", tick.time, tick)
         self.desk.flush()
@@ -86,6 +92,14 @@ class RunHands:
     @property
     def presets(self) -> Mapping[str, Mapping[str, Any]]:
         return {}
+
+    @property
+    def errors(self) -> Mapping[str, Any] | None:
+        return self._passes.shown
+
+    @property
+    def battery(self) -> float | None:
+        return battery(self._running.drone()) if self._running else None
 
     @property
     def stopped_by(self) -> str:

@@ -110,7 +110,8 @@ def report(job: ShootJob, why: str) -> Sequence[str]:
     clip = f", {progress.clip:.2f} s of clip" if progress.clip is not None else ""
     title = f"{job.title}: {why}: " if why else f"{job.title}: "
     lines = [f"{title}{progress.shot} of {progress.slots.frames} frames shot{clip}", *troubles(progress)]
-    errors = (f"{axis} {score.rms:.3f}, {score.peak:.3f} at most" for axis, score in job.tracking.scores.items())
+    scores = {axis: score for axis, score in job.tracking.scores.items() if axis in job.axes}
+    errors = (f"{axis} {score.rms:.3f}, {score.peak:.3f} at most" for axis, score in scores.items())
     if found := "; ".join(errors):
         lines.append(f"errors on the way (rms): {found}")
     if why:

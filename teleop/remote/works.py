@@ -16,7 +16,7 @@ LEAVING = 1.0  # s to wait for the thread at the end
 
 
 class Work(NamedTuple):
-    """What `make` makes in a thread is taken by `begin` in the control thread, or by `drop` in a thread where it is late.
+    """What `make` makes in a thread is taken by `begin` in the control thread; what comes too late is given to `drop`.
 
     `make` may raise TeleopError with the reason.
     """
