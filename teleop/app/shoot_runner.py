@@ -91,7 +91,8 @@ class Shooting:
     ) -> None:
         self._look = look
         self._timelapse, self._profile, self._clock, self._journal = timelapse, profile, clock, journal
-        self._notify, self._observers, self._in_doubt = notify, observers, in_doubt
+        self._notify, self._observers = notify, observers
+        self._in_doubt: InDoubt = in_doubt
         self._executor = executor
         self._inputs = [*([] if keys is None else [keys]), *inputs]
         self.guard: StopGuard | None = None

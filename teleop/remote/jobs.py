@@ -43,7 +43,7 @@ class RemoteJob(Protocol):
         """A STOP, or control on its way to another one: whether it is over with that."""
         ...
 
-    def outranked(self, now: float, by: str) -> bool:
+    def outranked(self, now: float, why: str) -> bool:
         """An input of the operator has taken an axis of it: whether it is over with that."""
         ...
 

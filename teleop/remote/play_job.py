@@ -63,7 +63,7 @@ class PlayJob:
         self.halted, self._going = why, False
         return False
 
-    def outranked(self, now: float, by: str) -> bool:  # noqa: ARG002 - it goes on beneath the hand
+    def outranked(self, now: float, why: str) -> bool:  # noqa: ARG002 - it goes on beneath the hand
         return False
 
     def foreseen(self, time: float) -> Motion:

@@ -102,10 +102,10 @@ class ShootJob:
         self.halted, self._going = why, False
         return False
 
-    def outranked(self, now: float, by: str) -> bool:
+    def outranked(self, now: float, why: str) -> bool:
         if not self.halted:
-            self.halt(now, by)
-            self.lines.append(f"{self.title} pauses: {by}; resume it")
+            self.halt(now, why)
+            self.lines.append(f"{self.title} pauses: {why}; resume it")
         return False
 
     def on_result(self, result: ShutterResult) -> None:
