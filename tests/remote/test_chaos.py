@@ -16,10 +16,6 @@ from waiting import wait_until
 
 from teleop.dji.gimbal import messages as gimbal
 
-# A computer that stalls ends a run in real time, as it has to; what else was to be seen is then seen in another try.
-pytestmark = pytest.mark.flaky(reruns=2, only_rerun="the computer stalled")
-
-
 def assert_at_rest_in_time(bench: ChaosBench) -> None:
     assert bench.overruns() <= 0
     assert bench.door.counts.faults == 0
