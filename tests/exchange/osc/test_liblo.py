@@ -1,4 +1,4 @@
-"""OSC as liblo speaks and reads it: `oscsend`, `oscdump`, a real run with its gateway, the gimbal on a simulated wire."""
+"""OSC as liblo speaks and reads it: `oscsend`, `oscdump`, and a real run with its gateway and a simulated gimbal."""
 
 from __future__ import annotations
 
