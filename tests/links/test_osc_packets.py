@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import struct
 from contextlib import suppress
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -20,7 +21,7 @@ TEXTS = st.text(st.characters(min_codepoint=1, codec="utf-8"), max_size=12)
 ARGUMENTS = st.lists(st.integers(-(2**31), 2**31 - 1) | FLOATS | TEXTS | st.booleans(), max_size=6)
 
 
-def built(address: str, *arguments: object, tags: str = "") -> bytes:
+def built(address: str, *arguments: Any, tags: str = "") -> bytes:
     builder = OscMessageBuilder(address)
     for number, argument in enumerate(arguments):
         builder.add_arg(argument, tags[number] if tags else None)
@@ -44,9 +45,9 @@ def test_every_type_is_read():
 
 
 def test_a_bundle_is_its_messages_at_once_whatever_its_time():
-    inner = OscBundleBuilder(2e9)
+    inner = OscBundleBuilder(2_000_000_000)
     inner.add_content(OscMessageBuilder("/b").build())
-    outer = OscBundleBuilder(1.0)
+    outer = OscBundleBuilder(1)
     outer.add_content(OscMessageBuilder("/a").build())
     outer.add_content(inner.build())
     assert [message.address for message in messages(outer.build().dgram)] == ["/a", "/b"]

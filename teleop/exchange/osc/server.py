@@ -19,7 +19,7 @@ from teleop.exchange.served import Served
 from teleop.links.osc_packets import OscError, messages, packet
 
 LOOK = 0.01  # s between two looks at the state
-FADERS = ("speed",)  # of these only the newest counts
+FADERS = (f"{ROOT}speed", f"{ROOT}goto/")  # of these only the newest counts
 LONGEST = 160  # characters of an error
 
 
@@ -102,15 +102,15 @@ class Inlet(asyncio.DatagramProtocol):
             if message.address == f"{ROOT}state":
                 self._outlet.again()
             if asked is not None:
-                _give(peer, asked)
+                _give(peer, message.address, asked)
 
     def error_received(self, exc: Exception) -> None: ...  # some systems report here what was sent to nobody
 
 
-def _give(peer: Client, asked: Any) -> None:
+def _give(peer: Client, to: str, asked: Any) -> None:
     if asked is STOP:
         peer.stop()
-    elif asked["do"] in FADERS:
-        peer.newest(asked)
+    elif to.startswith(FADERS):
+        peer.newest(asked, to)
     else:
         peer.post(asked)
