@@ -15,6 +15,7 @@ from teleop.manual.recall import at_rest, reachable
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.device_actions import DeviceActions, Due, DueList
+from teleop.remote.go_motion_job import GoMotionJob, exposure_run
 from teleop.remote.jobs import JobSource, WayJob
 from teleop.remote.keys import MOST as MOST_KEYS
 from teleop.remote.keys import HandKeys
@@ -50,6 +51,7 @@ class LiveActions:
         self._halted = False
         self._do: Mapping[str, Callable[[Asked, float], None]] = {
             "goto": lambda asked, _now: self._go("goto", asked, dict(asked["axes"]), asked.get("seconds")),
+            "go_motion": self._go_motion,
             "jog": self._jog,
             "focus": lambda asked, _now: self._go("focus", asked, {Axis.FOCUS: asked["to"]}, asked.get("seconds")),
             "recenter": self._recenter,
@@ -140,8 +142,27 @@ class LiveActions:
         where = {axis: self._place(axis, to) for axis, to in targets.items()}
         if not where:
             raise Refusal(f"{title} has no axis of this rig")
+        speeds = asked.get("speeds")
+        if speeds and seconds:
+            raise Refusal(f"{title}: give seconds or speeds, not both")
         asked.accept()
-        self._jobs.begin(WayJob(title, asked.command.session, where, seconds, asked.end))
+        self._jobs.begin(WayJob(title, asked.command.session, where, seconds, asked.end, speeds))
+
+    def _go_motion(self, asked: Asked, now: float) -> None:  # noqa: ARG002
+        self._may_begin()
+        before, places, after = asked["before"], asked["axes"], asked["after"]
+        if not before.keys() == places.keys() == after.keys():
+            raise Refusal("go-motion: axes, before and after must name the same axes")
+        for axis, place in places.items():
+            self._place(axis, place)
+        shape = asked["blur"], asked["exposure"]
+        runs = {
+            axis: exposure_run(before[axis], places[axis], after[axis], *shape, self._limits[axis]) for axis in places
+        }
+        job = GoMotionJob(asked.command.session, runs, asked.end)
+        job.check_start(self._motion)
+        asked.accept()
+        self._jobs.begin(job)
 
     def _place(self, axis: Axis, to: float) -> float:
         """Where an axis goes that is sent to `to`; raises Refusal for one that cannot."""
