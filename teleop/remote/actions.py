@@ -12,10 +12,11 @@ from teleop.core.events import Action, Tick
 from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
+from teleop.planner.go_motion import ExposureRuns
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.device_actions import DeviceActions, Due, DueList
-from teleop.remote.go_motion_job import GoMotionJob, exposure_run
+from teleop.remote.go_motion_job import GoMotionJob
 from teleop.remote.jobs import JobSource, WayJob
 from teleop.remote.keys import MOST as MOST_KEYS
 from teleop.remote.keys import HandKeys
@@ -157,7 +158,8 @@ class LiveActions:
             self._place(axis, place)
         shape = asked["blur"], asked["exposure"]
         runs = {
-            axis: exposure_run(before[axis], places[axis], after[axis], *shape, self._limits[axis]) for axis in places
+            axis: ExposureRuns.once(before[axis], places[axis], after[axis], *shape, self._limits[axis])
+            for axis in places
         }
         job = GoMotionJob(asked.command.session, runs, asked.end)
         job.check_start(self._motion)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-import numpy as np
-
-from teleop.core.axes import Axis, Limits, Motion
+from teleop.core.axes import Axis, Motion
 from teleop.core.errors import TeleopError
 from teleop.core.events import Tick, TickEvent
 from teleop.core.interfaces import Feedback
@@ -16,7 +14,6 @@ from teleop.planner.trajectory import Move
 from teleop.remote.jobs import Ended
 
 NEAR = 1e-4  # units from where the run begins
-MOST = 1 + 1e-9  # of a limit, for rounding
 
 
 class GoMotionJob:
@@ -30,8 +27,8 @@ class GoMotionJob:
         self._starts = {axis: float(run.starts[0]) for axis, run in runs.items()}
         self._pressed = 0.0
         for axis, run in runs.items():
-            if over := [name for name, share in run.shares().items() if not share[0] <= MOST]:
-                raise TeleopError(f"go-motion: {axis} would exceed its {over[0]} limit")
+            if over := run.over():
+                raise TeleopError(f"go-motion: {axis} would exceed its {over} limit")
 
     @property
     def axes(self) -> Collection[Axis]:
@@ -56,10 +53,3 @@ class GoMotionJob:
 
     def halt(self, now: float, why: str) -> bool:  # noqa: ARG002 - it cannot be resumed
         return True
-
-
-def exposure_run(
-    before: float, place: float, after: float, blur: float, exposure: float, limits: Limits
-) -> ExposureRuns:
-    """The run of one axis through one frame: the places of the frame before, of its own, and of the next, in units."""
-    return ExposureRuns(np.array([before]), np.array([place]), np.array([after]), blur, exposure, limits)
