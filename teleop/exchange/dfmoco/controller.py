@@ -189,6 +189,8 @@ class Controller:
         """Go to where the exposure begins; a run that the limits do not allow, or that may not begin, is -1."""
         if any(map(self.is_moving, self.motors)) or len(numbers) < 6 or (len(numbers) - 2) % 4:
             return PARSE_ERROR
+        if not client.allowed:
+            return self._refused(client, "its address is not in allow of the rig's profile")
         self._exposure = None
         exposure = exposure_of(numbers, self.motors)
         if exposure is None:

@@ -35,8 +35,9 @@ def parsed(line: bytes) -> Line | None:
         return Line(name)
     if name not in WITH_NUMBERS:
         return None
-    words = rest.split()
-    if (rest and not rest[0].isspace()) or len(words) > MOST_NUMBERS or not all(map(_NUMBER.fullmatch, words)):
+    words = rest.replace("\t", " ").split(" ")
+    first, words = words[0], [word for word in words if word]
+    if first or len(words) > MOST_NUMBERS or not all(map(_NUMBER.fullmatch, words)):
         return Line(name, None)
     numbers = tuple(int(word) for word in words)
     return Line(name, numbers if all(-GREATEST <= each <= GREATEST for each in numbers) else None)

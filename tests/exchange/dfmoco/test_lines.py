@@ -23,6 +23,7 @@ from teleop.exchange.dfmoco.lines import LONGEST, Line, LineReader, parsed
         (b"mm 1 6x0", Line("mm", None)),
         (b"mm 1 6.0", Line("mm", None)),
         (b"mm1 600", Line("mm", None)),
+        (b"mm\x1e1 600", Line("mm", None)),
         (b"mm 1 99999999999", Line("mm", None)),
         (b"mm 1 3000000000", Line("mm", None)),
         (b"bf" + b" 1" * 40, Line("bf", None)),
