@@ -15,9 +15,11 @@ from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
 from teleop.planner.shortest import shortest_seconds
+from teleop.planner.go_motion import ExposureRuns
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.device_actions import DeviceActions, Due, DueList
+from teleop.remote.go_motion_job import GoMotionJob
 from teleop.remote.jobs import JobSource, WayJob
 from teleop.remote.keys import MOST as MOST_KEYS
 from teleop.remote.keys import HandKeys
@@ -61,6 +63,7 @@ class LiveActions:
         self._halted = False
         self._do: Mapping[str, Callable[[Asked, float], None]] = {
             "goto": lambda asked, _now: self._go("goto", asked, dict(asked["axes"]), asked.get("seconds")),
+            "go_motion": self._go_motion,
             "jog": self._jog,
             "focus": lambda asked, _now: self._go("focus", asked, {Axis.FOCUS: asked["to"]}, asked.get("seconds")),
             "recenter": self._recenter,
@@ -169,8 +172,28 @@ class LiveActions:
             raise Refusal(f"{title} has no axis of this rig")
         if asked.get("seconds"):
             self._refuse_haste(title, where, asked["seconds"])
+        speeds = asked.get("speeds")
+        if speeds and seconds:
+            raise Refusal(f"{title}: give seconds or speeds, not both")
         asked.accept()
-        self._jobs.begin(WayJob(title, asked.command.session, where, seconds, asked.end))
+        self._jobs.begin(WayJob(title, asked.command.session, where, seconds, asked.end, speeds))
+
+    def _go_motion(self, asked: Asked, now: float) -> None:  # noqa: ARG002
+        self._may_begin()
+        before, places, after = asked["before"], asked["axes"], asked["after"]
+        if not before.keys() == places.keys() == after.keys():
+            raise Refusal("go-motion: axes, before and after must name the same axes")
+        for axis, place in places.items():
+            self._place(axis, place)
+        shape = asked["blur"], asked["exposure"]
+        runs = {
+            axis: ExposureRuns.once(before[axis], places[axis], after[axis], *shape, self._limits[axis])
+            for axis in places
+        }
+        job = GoMotionJob(asked.command.session, runs, asked.end)
+        job.check_start(self._motion)
+        asked.accept()
+        self._jobs.begin(job)
 
     def _refuse_haste(self, title: str, where: Mapping[Axis, float], seconds: float) -> None:
         """Raises Refusal where the limits do not allow it in the time that was asked for."""

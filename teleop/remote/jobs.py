@@ -56,10 +56,16 @@ class WayJob:
     """Every axis to its target and at rest there, in `seconds` or as soon as the limits allow."""
 
     def __init__(
-        self, title: str, owner: str, targets: Mapping[Axis, float], seconds: float | None, ended: Ended
+        self,
+        title: str,
+        owner: str,
+        targets: Mapping[Axis, float],
+        seconds: float | None,
+        ended: Ended,
+        speeds: Mapping[Axis, float] | None = None,
     ) -> None:
         self.title, self.owner, self.targets, self.ended = title, owner, targets, ended
-        self._job = MoveJob(targets, seconds or None)
+        self._job = MoveJob(targets, seconds or None, speeds)
         self.start = self._job.start
         self.read = self._job.read
         self.done = self._job.done
