@@ -14,8 +14,8 @@ from teleop.core.events import Action, Tick
 from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
-from teleop.planner.shortest import shortest_seconds
 from teleop.planner.go_motion import ExposureRuns
+from teleop.planner.shortest import shortest_seconds
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.device_actions import DeviceActions, Due, DueList

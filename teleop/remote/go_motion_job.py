@@ -53,3 +53,8 @@ class GoMotionJob:
 
     def halt(self, now: float, why: str) -> bool:  # noqa: ARG002 - it cannot be resumed
         return True
+
+    outranked = halt
+
+    def foreseen(self, time: float) -> Motion:
+        return self._move.at(time - self._pressed)
