@@ -103,6 +103,28 @@ class Desk:
             if person is not None:
                 self._close(person.session, now)
 
+    def idle(self, now: float, why: str) -> str:
+        """While no run of the rig goes on: a STOP is for the next one; why all was given up, "" as long as it was not.
+
+        All else is refused with `why`.
+        """
+        given_up = ""
+        for datagram in self._socket.receive(MOST):
+            with suppress(CommandError):
+                command = checked(unpacked(datagram.data))
+                asked = Asked(command, datagram.address, self)
+                if command.do in INTERNAL:
+                    self._internal(command, now)
+                elif command.do == "stop":
+                    self._do(asked, now)
+                elif command.do == "abort" and (self.control.holder is None or self.control.holds(command.session)):
+                    given_up = f"aborted by {command.name}"
+                    asked.end()
+                elif command.do != "stick":
+                    asked.refuse(Refusal(why))
+        self.flush()
+        return given_up
+
     # --- one datagram
 
     def take(self, datagram: Datagram, now: float) -> None:

@@ -102,6 +102,10 @@ class JobSource:
         self.end(f"replaced by {job.title}")
         self.job, self._fresh = job, True
 
+    def again(self) -> None:
+        """Another run of the rig begins, with the job that is in hand."""
+        self._fresh, self.events = self.job is not None, []
+
     def end(self, why: str) -> None:
         """End the job in hand, if there is one."""
         job, self.job = self.job, None

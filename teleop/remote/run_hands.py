@@ -62,7 +62,8 @@ class RunHands:
         self._running = running
         camera = any(sink.type == "camera" for sink in self._profile.sinks)
         parts = Parts(self._profile.name, self._limits, self, {}, self.desk, camera)
-        self._publisher = self.door.publisher(stack, parts, self._clock)
+        publisher = self._publisher = self.door.publisher(parts, self._clock)
+        stack.callback(lambda: publisher.publish("over", self._clock.now()))
         if running.source is not None:
             self._passes.watch(running.title, running.source, list(self._limits), lambda: self._halted(running))
         if self._gateway is not None:

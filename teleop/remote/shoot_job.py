@@ -85,6 +85,11 @@ class ShootJob:
             self.halted = self.halted or self._failure
             return {}, ()
 
+    @property
+    def reached(self) -> float:
+        """When the first frame of this run of the rig is due; inf as long as that is not known."""
+        return self._source.begin
+
     def foreseen(self, time: float) -> Motion:
         return {} if self.halted else self._mover.foreseen(time)
 
@@ -115,6 +120,7 @@ class ShootJob:
     def leave(self, now: float) -> None:
         """The run of the rig is over: what was begun and not pressed is known not to be shot."""
         self._source.leave()
+        self.journal.catch_up()
         if self._source.begin < math.inf:
             self._slot = -math.inf if self.halted else self._source.due_at(self.journal.next, now)
 

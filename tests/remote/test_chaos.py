@@ -33,7 +33,7 @@ def assert_at_rest_in_time(bench: ChaosBench) -> None:
 def test_a_gateway_that_stops_or_dies_while_a_hand_holds_a_stick(tmp_path: Path, what: signal.Signals) -> None:
     with chaos_bench(tmp_path, fifo=True) as bench:
         client = bench.client("hold")
-        bench.until_full_speed()
+        bench.until_full_speed(client)
         os.kill(client.pid, what)
         bench.until_rest()
         assert_at_rest_in_time(bench)
@@ -47,16 +47,16 @@ def test_a_gateway_that_stops_or_dies_while_a_hand_holds_a_stick(tmp_path: Path,
 
 def test_a_page_whose_script_hangs_while_its_connection_lives(tmp_path: Path) -> None:
     with chaos_bench(tmp_path, fifo=True) as bench:
-        bench.client("hang")
-        bench.until_full_speed()
+        client = bench.client("hang")
+        bench.until_full_speed(client)
         bench.until_rest()
         assert_at_rest_in_time(bench)
 
 
 def test_a_network_that_gives_out_in_bursts(tmp_path: Path) -> None:
     with chaos_bench(tmp_path, fifo=True) as bench:
-        bench.client("stretch")
-        bench.until_full_speed()
+        client = bench.client("stretch")
+        bench.until_full_speed(client)
         count = len(bench.ticks)
         wait_until(lambda: len(bench.ticks) > count + 130)
         assert bench.overruns() <= 0
@@ -65,8 +65,8 @@ def test_a_network_that_gives_out_in_bursts(tmp_path: Path) -> None:
 
 def test_a_flood_of_what_is_no_command_does_not_keep_a_hand_or_a_stop_from_the_loop(tmp_path: Path) -> None:
     with chaos_bench(tmp_path, fifo=True) as bench:
-        bench.client("flood", 3000)
-        bench.until_full_speed()
+        client = bench.client("flood", 3000)
+        bench.until_full_speed(client)
         wait_until(lambda: bench.door.counts.malformed > 500)
         watcher = bench.client("stops", 1)
         assert watcher.stdout is not None
@@ -124,5 +124,5 @@ def test_a_move_that_is_not_attended_goes_on_as_planned_through_the_trouble_of_i
         trouble(bench, starter, lambda part: bench.ticks[-1][0] > begin + 0.4 * part)
         yaws = bench.wire.of(gimbal.Position)
         assert max(message.yaw for _, message in yaws) == pytest.approx(20, abs=0.3)  # it aims ahead, in tenths
-        moved = [at for (at, message), (_, before) in zip(yaws[1:], yaws, strict=False) if message.yaw != before.yaw]
+        moved = [at for at, speed in bench.ticks if speed]
         assert moved[-1] - moved[0] == pytest.approx(4, abs=0.1 + 2 * bench.late)

@@ -60,8 +60,11 @@ class ChaosBench:
         assert process.stdout.readline() == "holding\n"
         return process
 
-    def until_full_speed(self) -> None:
-        wait_until(lambda: self.ticks and self.ticks[-1][1] > 59.9, "full speed")
+    def until_full_speed(self, client: subprocess.Popen[str]) -> None:
+        """And until its client has seen it, which from then on does not take control again by itself."""
+        wait_until(lambda: any(speed > 59.9 for _, speed in self.ticks), "full speed")
+        assert client.stdout is not None
+        assert client.stdout.readline() == "moved\n"
 
     def until_rest(self) -> None:
         """Then one rest follows that lasts: 0.3 s of ticks."""

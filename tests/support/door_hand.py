@@ -43,7 +43,9 @@ async def hold(door: DoorClient, what: str) -> None:
         now = monotonic()
         door.seen(ANNA)
         state = door.state()
-        moved = moved or state["axes"]["pan"]["speed"] > NEARLY
+        if not moved and state["axes"]["pan"]["speed"] > NEARLY:
+            moved = True
+            say("moved")
         if not moved and "again" in state["sticks"]["waits_for"]:  # a machine under load: nothing has been tested yet
             await door.command({"do": "take_control"}, ANNA, "Anna")
             begin, zeros = now, seq + 3
