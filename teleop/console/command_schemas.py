@@ -31,6 +31,7 @@ class CommandSchema(NamedTuple):
     optional: Mapping[str, Schema] = {}
 
 
+SHARE = {"type": "number", "minimum": 0, "maximum": 1}
 STICK = {
     "seq": {"type": "integer", "minimum": 0},
     "axes": {"type": "object", "additionalProperties": {"type": "number", "minimum": -1, "maximum": 1}},
@@ -54,7 +55,11 @@ COMMANDS: Mapping[str, CommandSchema] = {
     "clear": CommandSchema("Clear a STOP"),
     "stick": CommandSchema("One message of a stream, 50 a second", STICK, {"hold": TRUTH}),
     "jog": CommandSchema("Move an axis by so many units", {"axis": AXIS, "by": NUMBER}, {"within": SECONDS}),
-    "goto": CommandSchema("Go to positions", {"axes": POSITIONS}, {"seconds": SECONDS}),
+    "goto": CommandSchema("Go to positions", {"axes": POSITIONS}, {"seconds": SECONDS, "speeds": POSITIONS}),
+    "go_motion": CommandSchema(
+        "Move through one exposure, from where its run begins",
+        {"axes": POSITIONS, "before": POSITIONS, "after": POSITIONS, "exposure": SECONDS, "blur": SHARE},
+    ),
     "preset_recall": CommandSchema("Go to a preset", {"number": PRESET}, {"seconds": SECONDS}),
     "preset_store": CommandSchema("Keep the positions as a preset", {"number": PRESET}, {"name": TEXT}),
     "preset_delete": CommandSchema("Delete a preset", {"number": PRESET}),
