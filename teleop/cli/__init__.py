@@ -37,6 +37,8 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "preview": ("teleop.cli.preview:preview", "Draw a sequence as a page, a picture or a table."),
     "list": ("teleop.cli.shipped_files:list_shipped", "List the shipped moves, rigs and pads."),
     "copy": ("teleop.cli.shipped_files:copy", "Copy a shipped move, rig or pad to a file of yours."),
+    "export": ("teleop.cli.export:export", "Write a move or a take for another program."),
+    "import": ("teleop.cli.import_:import_", "Make a sequence of another program's file."),
     "take": ("teleop.cli.take.commands:app", "List, report, export and repair recorded runs."),
     "commission": ("teleop.cli.commission:commission", "Find out what a gimbal does, and write its profile."),
     "calibrate": ("teleop.cli.calibration.delay:app", "Measure how the axes of a gimbal answer, or its signs."),

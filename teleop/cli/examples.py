@@ -32,6 +32,16 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
     ],
     "list": ["teleop list", "teleop list moves", "teleop list rigs --json"],
     "copy": ["teleop copy reveal mine.yaml", "teleop copy rs2 my-rig.yaml"],
+    "export": [
+        "teleop export reveal -o reveal.chan --rate 24000/1001",
+        "teleop export run.mcap -o run.csv",
+        "teleop export reveal -o reveal.py --first-frame 1001",
+    ],
+    "import": [
+        "teleop import shot.chan -o shot.yaml --rate 24 --rotation-order ZXY",
+        "teleop import move.txt -o move.yaml --format raw --rate 25 --columns pan,tilt",
+        "teleop import camera.usdc -o camera.yaml --rig rs3-pro",
+    ],
     "take": ["teleop take list", "teleop take report run.mcap -o run.html"],
     "take list": ["teleop take list", "teleop take list shots/"],
     "take info": ["teleop take info run.mcap"],

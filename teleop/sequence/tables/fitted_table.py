@@ -189,16 +189,22 @@ def _placed(axis: Axis, values: Array, column: ColumnSection, limits: Limits) ->
     positions = values * column.scale + column.offset
     if not axis.is_angle:
         return positions
-    positions = np.unwrap(positions, period=360.0)
+    return within_turns(np.unwrap(positions, period=360.0), limits)
+
+
+def within_turns(positions: Array, limits: Limits) -> Array:
+    """Angles moved by whole turns into the soft limits, where that brings all of them there; NaN is no angle."""
     if limits.continuous:
         return positions
-    middle = (float(positions.min() + positions.max()) - limits.minimum - limits.maximum) / 2
+    least, most = float(np.nanmin(positions)), float(np.nanmax(positions))
+    middle = (least + most - limits.minimum - limits.maximum) / 2
     turned = positions - 360.0 * round(middle / 360.0)
     return turned if _within(turned, limits) and not _within(positions, limits) else positions
 
 
 def _within(positions: Array, limits: Limits) -> bool:
-    return bool(positions.min() >= limits.minimum - SHIFT and positions.max() <= limits.maximum + SHIFT)
+    least, most = np.nanmin(positions), np.nanmax(positions)
+    return bool(least >= limits.minimum - SHIFT and most <= limits.maximum + SHIFT)
 
 
 def _too_fast(error: TooFastError, rig: str, rate: float, first: int) -> str:

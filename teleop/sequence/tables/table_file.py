@@ -105,13 +105,19 @@ class Table:
 def read_table(file: Path, name: str) -> Table:
     """The table in `file`. Raises DocumentError where it cannot be read, or has no numbers."""
     raw = read_bytes(file, name, MAX_BYTES)
+    return parse_table(decoded(raw, name), name, chan=file.suffix.lower() == ".chan")
+
+
+def decoded(raw: bytes, name: str) -> str:
+    """The text of a table's bytes, UTF-8 or UTF-16. Raises DocumentError for what is no text."""
     text = raw.decode("utf-16" if raw[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig", "replace")
     if "\0" in text:
         raise DocumentError([f"{name}:1:1: is not text; save the table as CSV"])
-    return _parsed(text, name, chan=file.suffix.lower() == ".chan")
+    return text
 
 
-def _parsed(text: str, name: str, *, chan: bool) -> Table:
+def parse_table(text: str, name: str, *, chan: bool = False) -> Table:
+    """The table in a text; one of `chan` that has no names has those of the format. Raises DocumentError."""
     lines = [(number, line) for number, line in enumerate(re.split(r"\r\n|\r|\n", text), 1) if line.strip()]
     separator = _separator([line for _, line in lines if not _COMMENT.match(line)])
     kept = [(number, line) for number, line in lines if not _is_comment(line, separator)]

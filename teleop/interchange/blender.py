@@ -1,0 +1,130 @@
+"""A script for Blender that makes a camera: quaternions baked by the frame, in Blender's world.
+
+A Blender camera cannot have pan, tilt and roll as Euler channels: its z axis points backwards, and so its roll comes
+before the 90 degrees that put it upright. Quaternions say the same attitude in every program. In Blender z is up; the
+camera of this script looks along +y where pan is 0. glTF would do too, but its animations are 32-bit floats, which are
+1e-5 degrees off. Blender's own F-curves are 32-bit as well; the numbers in the script are not, and are what is read
+back. Sources: Blender's Python API (Object.rotation_quaternion, keyframe_insert) and manual (camera, orientation);
+glTF 2.0, "Animations".
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+
+from teleop.config.documents.document import DocumentError
+from teleop.interchange.companion import MARK, facts, file_rate
+from teleop.interchange.motion import CAMERA, MOST_FRAMES, Motion
+from teleop.interchange.rotation import head_angles, head_matrices, quaternion_matrices, quaternions, y_up, z_up
+from teleop.interchange.table import Hints, WriteOptions
+
+BEGIN, END = "DATA = json.loads(r'''", "''')"
+
+SCRIPT = """\
+# A camera for Blender 2.80 and later, made by teleop. Run it: Scripting, Open, Run Script; or blender -P FILE.
+# Quaternions are w, x, y, z for each frame, in Blender's world: z is up, and pan 0 looks along +y.
+import json
+
+import bpy
+
+{begin}
+{data}
+{end}
+
+
+def make(data):
+    scene = bpy.context.scene
+    rate = data["blender_fps"]
+    scene.render.fps, scene.render.fps_base = rate[0], rate[1]
+    scene.frame_start, scene.frame_end = data["frames_from"], data["frames_to"]
+    camera = bpy.data.objects.new(data["title"][:60] or "teleop", bpy.data.cameras.new("teleop"))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    camera.rotation_mode = "QUATERNION"
+    if data["vfov"]:
+        camera.data.sensor_fit = "VERTICAL"
+        camera.data.angle_y = data["vfov"] * 3.141592653589793 / 180
+    edit = bpy.context.preferences.edit
+    before, edit.keyframe_new_interpolation_type = edit.keyframe_new_interpolation_type, "LINEAR"
+    for frame, *quaternion in data["quaternions"]:
+        camera.rotation_quaternion = quaternion
+        camera.keyframe_insert("rotation_quaternion", frame=frame)
+    edit.keyframe_new_interpolation_type = before
+    return camera
+
+
+make(DATA)
+"""
+
+
+def write(motion: Motion, options: WriteOptions) -> bytes:
+    """The frames may have fractions: Blender has keys between frames."""
+    matrices = z_up(head_matrices(*(motion.column(axis) for axis in CAMERA)))
+    rows = np.column_stack([motion.frames, quaternions(matrices)])
+    rate = motion.known_rate
+    whole = math.ceil(rate)
+    known = {
+        **facts(motion, options.axes, ()),
+        "units": "quaternions w, x, y, z by frame; z is up, pan 0 looks along +y; angles in degrees",
+        "vfov": options.vfov,
+        "blender_fps": [whole, float(whole / rate)],
+        "frames_from": int(motion.frames[0]),
+        "frames_to": math.ceil(motion.frames[-1]),
+        "begins_at": [float(motion.column(axis)[0]) for axis in CAMERA],
+    }
+    lines = [json.dumps(known, ensure_ascii=True)[:-1] + ', "quaternions": [']
+    lines.append(",\n".join(json.dumps([round(each, 15) for each in row]) for row in rows.tolist()))
+    data = "\n".join([*lines, "]}"]).replace("'", "\\u0027")
+    return SCRIPT.format(begin=BEGIN, data=data, end=END).encode()
+
+
+def read(raw: bytes, name: str, hints: Hints) -> Motion:
+    """What `write` has put into a script; the script itself is not run."""
+    text = raw.decode("utf-8-sig", "replace")
+    begin = text.find(BEGIN)
+    end = text.find(END, begin)
+    if begin < 0 or end < 0:
+        text = "is not a script that teleop wrote; export the camera from Blender as USD, and import that"
+        raise DocumentError([f"{name}: {text}"])
+    try:
+        data = json.loads(text[begin + len(BEGIN) : end])
+    except (ValueError, RecursionError):
+        raise DocumentError(
+            [f"{name}:{text[:begin].count(chr(10)) + 1}: its data was changed and is not JSON"]
+        ) from None
+    return _motion(data, name, hints)
+
+
+def _motion(data: Any, name: str, hints: Hints) -> Motion:
+    if not isinstance(data, dict) or MARK not in str(data.get("made_by")):
+        raise DocumentError([f"{name}: its data was not written by teleop"])
+    rate = hints.rate or file_rate(data.get("frame_rate"), name)
+    rows = number_rows(data.get("quaternions"), 5, name, "quaternions")
+    frames = rows[:, 0]
+    begins = number_rows([data.get("begins_at", [0, 0, 0])], 3, name, "begins_at")[0].tolist()
+    try:
+        matrices = y_up(quaternion_matrices(rows[:, 1:]))
+    except ValueError as error:
+        raise DocumentError([f"{name}: {error}"]) from None
+    found = dict(zip(CAMERA, head_angles(matrices, (begins[0], begins[1], begins[2])), strict=True))
+    axes = [axis for axis in CAMERA if axis.value in map(str, data.get("axes") or ())] or CAMERA
+    title = str(data.get("title", ""))[:200]
+    positions = {axis: found[axis] for axis in axes}
+    return Motion(title, (frames - frames[0]) / float(rate), positions, rate, int(frames[0]))
+
+
+def number_rows(rows: Any, width: int, name: str, what: str) -> np.ndarray:
+    """Rows (n, width) of finite numbers whose first is a frame, or a time, later from row to row. Raises DocumentError."""
+    try:
+        found = np.array(rows, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        found = np.empty(0)
+    if found.ndim != 2 or found.shape[1] != width or not 0 < len(found) <= MOST_FRAMES:
+        raise DocumentError([f"{name}: {what} must be 1 to {MOST_FRAMES} rows of {width} numbers"])
+    if not (np.abs(found) < 1e9).all() or (np.diff(found[:, 0]) <= 0).any():
+        raise DocumentError([f"{name}: {what} must be numbers, each row later than the one before"])
+    return found

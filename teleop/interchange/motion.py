@@ -1,0 +1,91 @@
+"""What every format carries, or a part of it: where the axes are at each frame, and what happens once beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import NamedTuple
+
+import numpy as np
+
+from teleop.config.frame_rates import shown_rate
+from teleop.core.axes import Axis
+from teleop.planner.polynomial import Array
+
+CAMERA = (Axis.PAN, Axis.TILT, Axis.ROLL)
+"""What turns a camera; a format of cameras has these three in every row."""
+MOST_FRAMES = 20_000  # of an import, as of a table in a sequence: 14 minutes at 24 fps
+MOST_DEGREES = 36_000.0  # a hundred turns: more is no camera's path
+EVEN = 1e-6  # s by which frames may be off their grid
+
+
+class TimedCue(NamedTuple):
+    """A cue at a time (s): what a sequence file has of it, as in `{camera: record}`."""
+
+    at: float
+    content: Mapping[str, str]
+
+    @property
+    def name(self) -> str:
+        """As a marker is called: `camera: record`."""
+        return ", ".join(f"{kind}: {value}" for kind, value in self.content.items())
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A path of axes: `positions` (n,) in units at `times` (n,) in s, rising; NaN where a frame is not known.
+
+    Frames are counted from `first` on, `rate` of them a second; None: the file does not say. `lines` are where the
+    frames are in a text file, by index. `origin` says what it was made of, `kind` is planned, measured or commanded.
+    `corners` are indices of frames that were keys in the file. `remarks` are lines for the user.
+    """
+
+    title: str
+    times: Array
+    positions: Mapping[Axis, Array]
+    rate: Fraction | None = None
+    first: int = 1
+    cues: Sequence[TimedCue] = ()
+    origin: str = ""
+    kind: str = "planned"
+    corners: Sequence[int] = ()
+    lines: Sequence[int] = ()
+    remarks: Sequence[str] = field(default_factory=list)
+
+    @property
+    def axes(self) -> Sequence[Axis]:
+        return list(self.positions)
+
+    @property
+    def known_rate(self) -> Fraction:
+        """The rate of a path that is written, which always has one."""
+        assert self.rate is not None
+        return self.rate
+
+    @property
+    def frames(self) -> Array:
+        """The number of each row: whole for frames, with a fraction for readings at times of their own."""
+        numbers = self.first + self.times * float(self.known_rate)
+        whole = np.round(numbers)
+        return np.where(np.abs(numbers - whole) < EVEN, whole, numbers)
+
+    @property
+    def by_frame(self) -> bool:
+        """Whether each row is a frame, and every frame has a row."""
+        frames = self.frames
+        return bool((frames == self.first + np.arange(len(frames))).all())
+
+    def column(self, axis: Axis) -> Array:
+        """The positions of an axis; 0 for one that is not there."""
+        return self.positions.get(axis, np.zeros(len(self.times)))
+
+
+def rate_text(rate: Fraction) -> str:
+    """For files: exact, `24`, `24000/1001`."""
+    return str(rate)
+
+
+def shown(rate: Fraction) -> str:
+    """For people: `24 fps`, `23.976 fps`."""
+    return f"{shown_rate(float(rate))} fps"
