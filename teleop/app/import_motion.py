@@ -221,7 +221,7 @@ class Importer:
 
 
 def _own_grid(times: Array) -> Fraction:
-    """Frames a second for rows that have times and no rate: as near as most of them are, to a thousandth of a second."""
+    """Frames a second for rows that have times and no rate: as near as most are, to a thousandth of a second."""
     if len(times) < 2:
         return Fraction(1)
     step = max(round(float(np.median(np.diff(times))) * SECONDS), math.ceil(SECONDS / FASTEST_GRID))

@@ -79,6 +79,7 @@ def origin_lines(file: Path, form: Format, motion: Motion, hints: Hints, toleran
     order = f", rotation order {hints.rotation_order or HEAD}" if form.order else ""
     yield f"Imported by teleop {version('rs-teleop')} from {plain(file.name)} ({form.title}{rate}{order})."
     if motion.positions:
-        yield f"{len(motion.times)} frames, from frame {motion.first} on; keys are within {tolerance:g} degrees of them."
+        count, first = len(motion.times), motion.first
+        yield f"{count} frames, from frame {first} on; the move is within {tolerance:g} degrees of them."
     for remark in motion.remarks:
         yield f"Left out: {remark}"

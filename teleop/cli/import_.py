@@ -73,7 +73,7 @@ def import_(
 ) -> int:
     """Make a sequence file of a path by the frame, or of an editor's markers: sparse keys within a tolerance.
 
-    Read are .chan, .csv, .arcm, .raw, .asc, .txt (with --format), .usda, .usdc, the Blender script of teleop, and .otio.
+    Read are .chan, .csv, .arcm, .raw, .asc, .txt (with --format), .usda, .usdc, .otio, and teleop's Blender script.
     The sequence is planned for the rig and compared with every frame before it is written.
     """
     if not (math.isfinite(tolerance) and tolerance > 0):

@@ -18,7 +18,7 @@ import numpy as np
 
 from teleop.config.documents.document import DocumentError
 from teleop.interchange.companion import MARK, facts, file_rate
-from teleop.interchange.motion import CAMERA, MOST_FRAMES, Motion
+from teleop.interchange.motion import CAMERA, MOST_FRAMES, Motion, within_reach
 from teleop.interchange.rotation import head_angles, head_matrices, quaternion_matrices, quaternions, y_up, z_up
 from teleop.interchange.table import Hints, WriteOptions
 
@@ -113,12 +113,12 @@ def _motion(data: Any, name: str, hints: Hints) -> Motion:
     found = dict(zip(CAMERA, head_angles(matrices, (begins[0], begins[1], begins[2])), strict=True))
     axes = [axis for axis in CAMERA if axis.value in map(str, data.get("axes") or ())] or CAMERA
     title = str(data.get("title", ""))[:200]
-    positions = {axis: found[axis] for axis in axes}
+    positions = within_reach({axis: found[axis] for axis in axes}, name)
     return Motion(title, (frames - frames[0]) / float(rate), positions, rate, int(frames[0]))
 
 
 def number_rows(rows: Any, width: int, name: str, what: str) -> np.ndarray:
-    """Rows (n, width) of finite numbers whose first is a frame, or a time, later from row to row. Raises DocumentError."""
+    """Rows (n, width) of finite numbers; the first is a time, later from row to row. Raises DocumentError."""
     try:
         found = np.array(rows, dtype=float)
     except (TypeError, ValueError, OverflowError):

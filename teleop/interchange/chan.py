@@ -14,7 +14,7 @@ from teleop.core.axes import Axis
 from teleop.interchange.motion import CAMERA, Motion
 from teleop.interchange.rotation import HEAD, euler_matrices, head_angles
 from teleop.interchange.table import Hints, WriteOptions
-from teleop.interchange.text import bounded, frame_times, needed_rate, number, rows, values
+from teleop.interchange.text import bounded, frame_times, needed_rate, number, numbers, rows, values
 from teleop.planner.polynomial import Array
 from teleop.sequence.tables.table_file import CHAN, Table
 
@@ -51,9 +51,9 @@ def read(raw: bytes, name: str, hints: Hints) -> Motion:
 
 def _left_out(table: Table) -> list[str]:
     found = []
-    if any(_varies(table.values(index)) for index in (1, 2, 3)):
+    if any(_varies(numbers(table, index)) for index in (1, 2, 3)):
         found.append("positions (tx ty tz): the camera travels, and a head only turns")
-    if table.width == 8 and bool(np.any(table.values(7))):
+    if table.width == 8 and bool(np.any(numbers(table, 7))):
         found.append("vfov: a sequence has no field of view")
     return found
 

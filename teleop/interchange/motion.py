@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from teleop.config.documents.document import DocumentError
 from teleop.config.frame_rates import shown_rate
 from teleop.core.axes import Axis
 from teleop.planner.polynomial import Array
@@ -79,6 +80,18 @@ class Motion:
     def column(self, axis: Axis) -> Array:
         """The positions of an axis; 0 for one that is not there."""
         return self.positions.get(axis, np.zeros(len(self.times)))
+
+
+def within_reach(positions: Mapping[Axis, Array], name: str) -> Mapping[Axis, Array]:
+    """The positions, where they are any. Raises DocumentError for a hundred turns, or a share beyond 1."""
+    for axis, column in positions.items():
+        most = MOST_DEGREES if axis.is_angle else 1.0
+        wrong = ~(np.abs(column) <= most * (1 + 1e-9))
+        if wrong.any():
+            reach = f"within {most:g} degrees" if axis.is_angle else "from -1 to 1"
+            row = int(wrong.argmax())
+            raise DocumentError([f"{name}: row {row + 1}: {axis} must be {reach}, not {column[row]:g}"])
+    return positions
 
 
 def rate_text(rate: Fraction) -> str:

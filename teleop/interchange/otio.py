@@ -24,7 +24,7 @@ from teleop.core.plain import plain
 from teleop.interchange.blender import number_rows
 from teleop.interchange.companion import MARK, facts, file_rate
 from teleop.interchange.isolated import read_isolated
-from teleop.interchange.motion import Motion, TimedCue
+from teleop.interchange.motion import Motion, TimedCue, within_reach
 from teleop.interchange.table import Hints, WriteOptions
 from teleop.sequence.cues import KINDS, CueSection, cue_rules
 
@@ -108,7 +108,7 @@ def _with_path(
 ) -> Motion:
     axes = [Axis(str(each)) for each in path.get("axes", []) if str(each) in [*Axis]]
     rows = number_rows(path.get("path"), len(axes) + 1, name, "the path in the clip's metadata")
-    columns = {axis: rows[:, index] for index, axis in enumerate(axes, 1)}
+    columns = within_reach({axis: rows[:, index] for index, axis in enumerate(axes, 1)}, name)
     exact_rate = file_rate(path.get("frame_rate"), name)
     rate = exact_rate if rate is None or abs(float(rate - exact_rate)) < 1e-6 else rate
     title = str(path.get("title", ""))[:200]

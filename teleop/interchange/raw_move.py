@@ -43,5 +43,5 @@ def read(raw: bytes, name: str, hints: Hints) -> Motion:
 
 
 def is_raw_move(raw: bytes) -> bool:
-    """Whether a file is certainly one of these: its first row has columns 16 characters wide, and nothing but numbers."""
+    """Whether a file is certainly one of these: its first row has numbers in columns of 16 characters."""
     return ROW.match(raw) is not None

@@ -47,7 +47,7 @@ def rows(text: str, name: str, *, chan: bool = False) -> Table:
 
 def values(table: Table, index: int, axis: Axis | None = None) -> Array:
     """A column (n,), finite, and of angles no more than a hundred turns. Raises DocumentError."""
-    found = table.values(index)
+    found = numbers(table, index)
     most = MOST_DEGREES if axis is None or axis.is_angle else 1.0
     wrong = ~(np.abs(found) <= most * (1 + 1e-9))
     if axis is not None and wrong.any():
@@ -57,9 +57,17 @@ def values(table: Table, index: int, axis: Axis | None = None) -> Array:
     return found
 
 
+def numbers(table: Table, index: int) -> Array:
+    """A column. Raises DocumentError with the first cell that is no number."""
+    try:
+        return table.values(index)
+    except DocumentError as error:
+        raise DocumentError(error.problems[:1]) from None
+
+
 def rising(table: Table, index: int, what: str) -> Array:
     """A column of times or frames, from row to row later. Raises DocumentError."""
-    found = table.values(index)
+    found = numbers(table, index)
     wrong = ~np.isfinite(found)
     wrong[1:] |= ~(np.diff(found) > 0)
     if wrong.any():

@@ -24,7 +24,7 @@ from teleop.core.axes import Axis
 from teleop.interchange.blender import number_rows
 from teleop.interchange.companion import MARK, facts, file_rate
 from teleop.interchange.isolated import read_isolated
-from teleop.interchange.motion import CAMERA, Motion
+from teleop.interchange.motion import CAMERA, Motion, within_reach
 from teleop.interchange.rotation import head_angles, head_matrices, pure, y_up
 from teleop.interchange.table import Hints, WriteOptions
 
@@ -102,7 +102,7 @@ def motion_of(found: Any, name: str, hints: Hints) -> Motion:
     axes = [axis for axis in positions if not own or axis.value in str(own.get("axes")).split(",")] or CAMERA
     times = (rows[:, 0] - rows[0, 0]) / float(rate)
     remarks = ["positions: the camera travels, and a head only turns"] if np.ptp(rows[:, 13:16], axis=0).any() else []
-    kept = {axis: positions[axis] for axis in axes}
+    kept = within_reach({axis: positions[axis] for axis in axes}, name)
     return Motion(str(own.get("title", ""))[:200], times, kept, rate, round(rows[0, 0]), remarks=remarks)
 
 
