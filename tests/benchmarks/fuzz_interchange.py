@@ -17,14 +17,19 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from interchange_fuzz import READERS, attack
 
+from teleop.interchange.child import limit
+
 BATCH = 500
+LIBRARIES = ("usd", "otio")  # in C++: read with the limits that `isolated` sets, in smaller batches
 
 
-def _child(name: str, seed: int, folder: Path, out: int) -> None:
+def _child(name: str, seed: int, folder: Path, out: int, size: int) -> None:
+    if name in LIBRARIES:
+        limit()
     devnull = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(devnull, 2 if name in ("usd", "otio") else devnull)
+    os.dup2(devnull, 2 if name in LIBRARIES else devnull)
     try:
-        taken = attack(name, BATCH, seed, folder)
+        taken = attack(name, size, seed, folder)
         os.write(out, str(taken).encode())
         os._exit(0)
     except BaseException as error:  # noqa: BLE001 - what no reader may raise, and interrupts
@@ -33,14 +38,15 @@ def _child(name: str, seed: int, folder: Path, out: int) -> None:
 
 
 def hunt(name: str, count: int) -> None:
+    size = BATCH // 25 if name in LIBRARIES else BATCH
     begin, taken, crashes, faults = time.monotonic(), 0, 0, []
     with tempfile.TemporaryDirectory(dir="/dev/shm" if Path("/dev/shm").is_dir() else None) as folder:
         attack(name, 3, 0, Path(folder))  # loads the library once, for all children
-        for seed in range(1, count // BATCH + 1):
+        for seed in range(1, count // size + 1):
             inner, outer = os.pipe()
             child = os.fork()
             if child == 0:
-                _child(name, seed, Path(folder), outer)
+                _child(name, seed, Path(folder), outer, size)
             os.close(outer)
             text = os.read(inner, 1000).decode()
             os.close(inner)

@@ -12,7 +12,7 @@ from made_motions import content, made_motion
 from teleop.core.axes import Axis
 from teleop.core.errors import TeleopError
 from teleop.interchange import companion, otio, usd
-from teleop.interchange.isolated import answer
+from teleop.interchange.child import answer
 from teleop.interchange.motion import MOST_DEGREES, MOST_FRAMES, Motion
 from teleop.interchange.rotation import ORDERS
 from teleop.interchange.table import BY_NAME, Hints, WriteOptions
@@ -27,11 +27,11 @@ WORDS = [
 LONGEST = 40_000  # bytes of a mutation
 
 
-def valid(name: str) -> Sequence[bytes]:
+def valid(name: str, *, binary: bool = True) -> Sequence[bytes]:
     """Files of a format to begin with."""
     few, many = made_motion(5), made_motion(40)
     files = [content(name, few), content(name, many), content(name, made_motion(3, focus=False))]
-    if name == "usd":
+    if name == "usd" and binary:
         files.append(usd.write(few, WriteOptions(None, few.axes), ".usdc"))
     return files
 
@@ -108,18 +108,21 @@ READERS: Mapping[str, Callable[[bytes, Hints, Path], Motion | None]] = {
 }
 
 
-def seeds(name: str) -> Sequence[bytes]:
+def seeds(name: str, *, binary: bool = True) -> Sequence[bytes]:
     """Valid files to change."""
     if name == "companion":
         motion = made_motion(5)
         return [companion.text(motion, BY_NAME["raw"], [Axis.PAN, Axis.TILT], ["focus"]).encode()]
-    return valid(name)
+    return valid(name, binary=binary)
 
 
-def attack(name: str, count: int, seed: int, folder: Path) -> int:
-    """Read so many hostile files; how many of them were taken for valid. Any error but TeleopError passes through."""
+def attack(name: str, count: int, seed: int, folder: Path, *, binary: bool = True) -> int:
+    """Read so many hostile files; how many of them were taken for valid. Any error but TeleopError passes through.
+
+    `binary`: also of a format whose library has unbounded memory, so only in a process that is bounded.
+    """
     chance, taken = random.Random(seed), 0
-    start, read, refusals = seeds(name), READERS[name], list[str]()
+    start, read, refusals = seeds(name, binary=binary), READERS[name], list[str]()
     for _ in range(count):
         raw, given = mutated(chance.choice(start), chance), hints(chance)
         try:
