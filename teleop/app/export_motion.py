@@ -40,7 +40,7 @@ class Exported:
 
 
 def planned_motion(plan: Plan, origin: str, rate: Fraction | None, first: int = 1) -> Motion:
-    """The planned path at every frame, the last one where all has come to rest; a timelapse by its output frames."""
+    """The planned path at every frame, the last ones where all has come to rest; a timelapse by its output frames."""
     sequence = plan.sequence
     own = None if sequence.fps is None else exact(sequence.fps)
     if plan.timelapse is not None and plan.timelapse.fps:
@@ -51,6 +51,7 @@ def planned_motion(plan: Plan, origin: str, rate: Fraction | None, first: int = 
         positions: Mapping[Axis, Array] = plan.timelapse.path.positions(count)
     else:
         count = math.ceil(sequence.move.duration * rate - 1e-6) + 1
+        count += sequence.move.duration > 0  # two frames alike say that it has come to rest
         _check_rows(count, origin)
         times = np.arange(count) / float(rate)
         positions = {axis: rows[0] for axis, rows in sequence.move.sample(times).items()}

@@ -11,16 +11,18 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from teleop.app.imported_keys import SECONDS, ImportedKeys, Way, keys_of_ways, text_of
+from teleop.app.imported_keys import DIGITS, RESTED, SECONDS, ImportedKeys, Way, keys_of_ways, rested_cues, text_of
 from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis, Limits
 from teleop.interchange.motion import MOST_FRAMES, Motion, shown
-from teleop.planner.keyframes.frame_keys import Frames
+from teleop.planner.keyframes.fit import SampledSegment, Style, fit_through, turning_points
+from teleop.planner.keyframes.frame_keys import Frames, Keys
 from teleop.planner.keyframes.frames import FrameFitter, FramesFit, NoRoomError, TooFastError
 from teleop.planner.polynomial import Array
 from teleop.sequence.compile import CompiledSequence, load_sequence
@@ -29,7 +31,6 @@ from teleop.sequence.tables.fitted_table import SHIFT, within_turns
 TIGHTER = (1.0, 0.8, 0.6)  # of the tolerance, for the fit, should the whole file be further off than its parts were
 PER_SHARE = 100.0  # a tolerance in degrees is one in per cent for focus and sticks, whose full way is 1
 STILL = 1e-6  # of the tolerance: what rests does not move by more from frame to frame
-RESTED = 0.2  # s: a shorter rest is a turning point
 ROUNDS = 6  # of a factor by which a path is stretched
 FASTEST_GRID = 60  # frames a second that a path with times of its own is looked at
 
@@ -81,7 +82,7 @@ class Importer:
             raise UnplayableError(problems)
         failures: list[DocumentError] = []
         for keys in self._attempts(motion):
-            text = text_of(keys, motion, about)
+            text = text_of(keys, replace(motion, cues=rested_cues(motion, keys)), about)
             try:
                 found = self._checked(text, motion, keys)
             except DocumentError as error:
@@ -171,9 +172,14 @@ class Importer:
             Frames(axis, column[begin : end + 1], share * self._allowed(axis), self.limits[axis])
             for axis, column in motion.positions.items()
         ]
-        runs = (0.0 if begin > 0 else None, 0.0 if end < len(motion.times) - 1 else None)
+        up: tuple[float | None, ...] = (0.0,) if begin > 0 else (0.0, None)
+        out: tuple[float | None, ...] = (0.0,) if end < len(motion.times) - 1 else (0.0, None)
+        for runs in product(up, out):  # a file that begins at rest does not say so
+            found = FrameFitter(tables, rate, *runs).as_asked()
+            if found is not None:
+                return replace(found, keys={table.axis: _fewer(table, found, rate) for table in tables})
         try:
-            return FrameFitter(tables, rate, *runs).fit(may_stretch=self.may_stretch)
+            return FrameFitter(tables, rate, up[-1], out[-1]).fit(may_stretch=self.may_stretch)
         except TooFastError as error:
             raise UnplayableError([self._too_fast(error, motion, begin)]) from None
         except NoRoomError as error:
@@ -220,6 +226,18 @@ class Importer:
         return replace(found, remarks=[text])
 
 
+def _fewer(table: Frames, found: FramesFit, rate: float) -> Keys:
+    """The keys of an axis on a way, without those between its turns where the planner itself goes by the frames."""
+    keys = found.keys[table.axis]
+    if found.runs.up or found.runs.out or len(keys) < 3 or np.isnan(table.positions).any():
+        return keys
+    digits = DIGITS[table.axis.is_angle]
+    style = Style(table.axis, table.limits, table.tolerance, digits, 0.0, rate, 1, math.inf)
+    turns = turning_points(table.positions, table.tolerance)
+    sparse = fit_through(SampledSegment(0, table.positions, style), list(turns))
+    return sparse.keys if sparse is not None and len(sparse.keys) < len(keys) else keys
+
+
 def _own_grid(times: Array) -> Fraction:
     """Frames a second for rows that have times and no rate: as near as most are, to a thousandth of a second."""
     if len(times) < 2:
@@ -237,7 +255,7 @@ def _ways(motion: Motion, still: Mapping[Axis, float], rate: float) -> Iterator[
     edges = np.flatnonzero(np.diff(np.concatenate([[False], rests, [False]])))
     begin = 0
     for first, end in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
-        if (end - first) / rate < RESTED:
+        if (end - first) / rate < RESTED and first > 0 and end < last:
             continue
         if first > begin:
             yield begin, first
@@ -249,6 +267,9 @@ def _ways(motion: Motion, still: Mapping[Axis, float], rate: float) -> Iterator[
 def _remarks(keys: ImportedKeys, motion: Motion) -> Iterator[str]:
     if keys.begin > 0:
         yield f"it begins {keys.begin:.2f} s before the file's first frame, to be at speed there"
+    for cue, moved in zip(motion.cues, rested_cues(motion, keys), strict=True):
+        if cue.at != moved.at:
+            yield f"cue {cue.name!r} is {moved.at - cue.at:+.3f} s off, to be where all axes rest"
     if keys.factor > 1:
         rate = "" if motion.rate is None else f": its frames go by at {shown(motion.rate / Fraction(keys.factor))}"
         yield f"stretched {keys.factor:.3f} x{rate}"

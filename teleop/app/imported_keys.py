@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -13,13 +14,17 @@ import numpy as np
 
 from teleop.config.frame_rates import shown_rate
 from teleop.core.axes import Axis
+from teleop.core.timing import SAME_TIME
 from teleop.interchange.motion import Motion, TimedCue
 from teleop.planner.keyframes.frames import FramesFit
+from teleop.sequence.cues import CueSection
 
 SECONDS = 1000  # places in a second of a file without a frame rate
 DIGITS = {True: 4, False: 5}  # behind the point, of angles and of shares
 CONSTANT = 1e-9  # units
 SLOW = 0.02  # of the fastest step of an axis: a key with less before and after it is a stop
+RESTED = 0.2  # s: a shorter rest is a turning point, or at the end no hold
+NEAR_REST = 2  # frames by which a cue that needs rest may be off it
 ANY_WAY = 360  # overshoot of keys that are samples of a curve: any
 
 
@@ -111,10 +116,26 @@ def keys_of_ways(ways: Sequence[Way], motion: Motion, grid: Fraction, factor: fl
         found[0] = found.pop(ways[0].begin, {}) | found.get(0, {})
         holds[0] = ways[0].begin
     last = len(motion.times) - 1
-    if ways[-1].end < last:
+    if ways[-1].end < last and last - ways[-1].end >= RESTED * grid:
         holds[up + ways[-1].end] = last - ways[-1].end
     lines = [Line(place, found[place], holds.get(place, 0)) for place in sorted(found)]
     return ImportedKeys(lines, grid, up, factor)
+
+
+def rested_cues(motion: Motion, keys: ImportedKeys) -> Sequence[TimedCue]:
+    """The cues, those that need rest moved to it where it is a frame or two away: it begins on a frame here."""
+    rests = [(line.place, line.place + line.hold) for line in keys.lines if line.hold or line.stop]
+    rests += [(0, 0), (keys.lines[-1].place, math.inf)]
+    found = []
+    for cue in motion.cues:
+        place = keys.up + cue.at * float(keys.grid)
+        edges = [float(min(max(place, begin), end)) for begin, end in rests]
+        nearest = min(edges, key=lambda edge, place=place: abs(edge - place))
+        away = abs(nearest - place)
+        needs = CueSection.model_validate({"at": 0, **cue.content}).needs_rest
+        moves = needs and SAME_TIME < away <= NEAR_REST
+        found.append(cue._replace(at=(nearest - keys.up) / float(keys.grid)) if moves else cue)
+    return found
 
 
 def text_of(keys: ImportedKeys, motion: Motion, about: Sequence[str]) -> str:

@@ -116,7 +116,7 @@ REFUSED = [
         KNOWN,
         "file: has 2 cameras: give --camera, one of /a, /b",
     ),
-    ("otio", b"{}", KNOWN, "file: is not OpenTimelineIO"),
+    ("otio", b"{}", KNOWN, "file: has no timeline"),
     ("otio", b"{" * 100_000, KNOWN, "file: is not OpenTimelineIO"),
 ]
 

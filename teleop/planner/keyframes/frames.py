@@ -80,6 +80,10 @@ class FrameFitter:
             raise self._too_fast(slower.factor if slower else None)
         return slower
 
+    def as_asked(self) -> FramesFit | None:
+        """The keys at the table's own speed, None where the limits do not allow them."""
+        return self._at(1.0)
+
     def _at(self, factor: float) -> FramesFit | None:
         """The keys at so many times the duration, None where the limits do not allow them."""
         step = factor / self.rate
