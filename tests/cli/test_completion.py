@@ -27,6 +27,8 @@ ROWS = {
     "teleop copy dual": "dualsense dualshock4",
     "teleop list ''": "moves rigs pads",
     "teleop take rep": "report",
+    "teleop import sh": "shot.chan shot.txt",
+    "teleop export re": "reveal",
 }
 
 
@@ -47,7 +49,7 @@ def test_in_bash_the_tab_key_knows_commands_moves_rigs_files_and_options(
     assert done.returncode == 0, done.stderr
     work = home / "work"
     (work / "moves").mkdir(parents=True)
-    for name in ("mine.yaml", "moves/deep.yaml", "notes.txt"):
+    for name in ("mine.yaml", "moves/deep.yaml", "notes.txt", "shot.chan", "shot.txt", "shot.jpg"):
         (work / name).touch()
     script = ASK + "".join(f"tab {line}\n" for line in ROWS)
     bash = ["bash", "--norc", "-c", script]
