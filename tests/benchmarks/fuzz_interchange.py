@@ -58,6 +58,8 @@ def hunt(name: str, count: int) -> None:
                 faults.append(f"seed {seed}: {text}")
             else:
                 taken += int(text)
+            if name in LIBRARIES and seed % (5000 // size) == 0:
+                print(f"  {name}: {seed * size}, {time.monotonic() - begin:.0f} s", flush=True)
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024
     print(
         f"{name}: {count} files, {taken} taken, {crashes} crashes, {time.monotonic() - begin:.0f} s, {memory} MB",
