@@ -1,7 +1,7 @@
 """Ten minutes of a move, by the frame, are written and read in a fraction of the time that they take to play.
 
-Measured: written in 0.1 s (text) to 1 s (USD, OpenTimelineIO, Blender), read in 0.1 to 0.6 s; the child that reads USD and
-OpenTimelineIO takes as long again. Nothing of this runs in the control process.
+Measured: written in 0.1 s (text) to 1 s (USD, OpenTimelineIO, Blender), read in 0.1 to 0.6 s; the child that reads USD
+and OpenTimelineIO takes as long again. Nothing of this runs in the control process.
 """
 
 from __future__ import annotations
