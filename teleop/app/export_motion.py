@@ -39,13 +39,16 @@ class Exported:
     motion: Motion
 
 
+def own_rate(plan: Plan) -> Fraction | None:
+    """The frames a second that the file of a move gives, of a timelapse those of its clip."""
+    fps = plan.sequence.fps if plan.timelapse is None else plan.timelapse.fps
+    return exact(fps) if fps else None
+
+
 def planned_motion(plan: Plan, origin: str, rate: Fraction | None, first: int = 1) -> Motion:
     """The planned path at every frame, the last ones where all has come to rest; a timelapse by its output frames."""
     sequence = plan.sequence
-    own = None if sequence.fps is None else exact(sequence.fps)
-    if plan.timelapse is not None and plan.timelapse.fps:
-        own = exact(plan.timelapse.fps)
-    rate = rate or own or USUAL_RATE
+    rate = rate or own_rate(plan) or USUAL_RATE
     if plan.timelapse is not None:
         count = plan.timelapse.frames
         positions: Mapping[Axis, Array] = plan.timelapse.path.positions(count)

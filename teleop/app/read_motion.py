@@ -75,7 +75,8 @@ def _chosen(motion: Motion, name: str, only: Sequence[Axis] | None, inverted: Se
 
 def origin_lines(file: Path, form: Format, motion: Motion, hints: Hints, tolerance: float) -> Iterator[str]:
     """What the comments of a new sequence file say of where it comes from."""
-    rate = "" if motion.rate is None else f", {shown(motion.rate)} ({motion.rate})"
+    rate = "" if motion.rate is None else f", {shown(motion.rate)}"
+    rate += f" ({motion.rate})" if motion.rate is not None and motion.rate.denominator > 1 else ""
     order = f", rotation order {hints.rotation_order or HEAD}" if form.order else ""
     yield f"Imported by teleop {version('rs-teleop')} from {plain(file.name)} ({form.title}{rate}{order})."
     if motion.positions:

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.app.export_motion import USUAL_RATE, Exported, exported, keys_of, planned_motion, recorded_motion
+from teleop.app.export_motion import USUAL_RATE, Exported, exported, keys_of, own_rate, planned_motion, recorded_motion
 from teleop.app.planning import is_take
 from teleop.cli.exchanged_files import FormatName, Overwrite, certain, check_free, check_vfov, rate_of
 from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json
@@ -76,7 +76,7 @@ def export(
         motion = planned_motion(plan, file, frames, first_frame)
         if not chosen.cues:
             motion = keys_of(plan, motion)
-        if frames is None and plan.sequence.fps is None:
+        if frames is None and own_rate(plan) is None:
             complain(f"{file}: has no fps: written at {shown(motion.known_rate)}; --rate gives another")
     with problems_as_json(options.json):
         done = exported(motion, chosen, output.suffix.lower(), vfov)
@@ -115,7 +115,9 @@ def _report(done: Exported, form: Format, output: Path, side: Path | None, as_js
         return
     for line in done.not_carried:
         complain(f"not carried: {line}")
-    what = "frames" if motion.by_frame else "readings"
-    announce(f"{output}: {form.title}, {len(motion.times)} {what}, {shown(motion.known_rate)}", output)
+    rows = f"{len(motion.times)} frames, {shown(motion.known_rate)}"
+    if not motion.by_frame:
+        rows = f"{len(motion.times)} readings, at the times of the recording"
+    announce(f"{output}: {form.title}, {rows}", output)
     if side is not None:
         announce(f"{side}: its units, axes, rotation order and rate; keep it beside the file", output)

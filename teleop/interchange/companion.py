@@ -51,6 +51,8 @@ def facts(motion: Motion, axes: Sequence[Axis], not_carried: Sequence[str]) -> d
 def text(motion: Motion, form: Format, axes: Sequence[Axis], not_carried: Sequence[str]) -> str:
     """The content of the file beside a file of this format."""
     content = {"format": form.name, **facts(motion, axes, not_carried), **(form.notes or {})}
+    if form.name == "csv" and not motion.by_frame:
+        content["frame_rate"] = content["first_frame"] = None  # its rows have times, and are no frames
     content.setdefault("columns", [axis.value for axis in axes])
     return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
 
@@ -77,7 +79,9 @@ def parsed(raw: bytes, name: str) -> dict[str, Any] | None:
 
 def hints_of(content: dict[str, Any], name: str, given: Hints, form: Format) -> Hints:
     """With what the file beside says, where the user has not said it. Raises DocumentError for nonsense."""
-    rate = given.rate or file_rate(content.get("frame_rate"), name)
+    rate = given.rate
+    if rate is None and content.get("frame_rate") is not None:
+        rate = file_rate(content["frame_rate"], name)
     order = content.get("rotation_order", HEAD)
     if order not in ORDERS:
         raise DocumentError([f"{name}: rotation_order must be one of {', '.join(ORDERS)}"])
