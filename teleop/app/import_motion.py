@@ -17,12 +17,12 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from teleop.app.imported_keys import DIGITS, RESTED, SECONDS, ImportedKeys, Way, keys_of_ways, rested_cues, text_of
+from teleop.app.imported_keys import ImportedKeys, Way, keys_of_ways, rested_cues, text_of
+from teleop.app.imported_ways import fewer, own_grid, ways_of
 from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis, Limits
 from teleop.interchange.motion import MOST_FRAMES, Motion, shown
-from teleop.planner.keyframes.fit import SampledSegment, Style, fit_through, turning_points
-from teleop.planner.keyframes.frame_keys import Frames, Keys
+from teleop.planner.keyframes.frame_keys import Frames
 from teleop.planner.keyframes.frames import FrameFitter, FramesFit, NoRoomError, TooFastError
 from teleop.planner.polynomial import Array
 from teleop.sequence.compile import CompiledSequence, load_sequence
@@ -32,7 +32,6 @@ TIGHTER = (1.0, 0.8, 0.6)  # of the tolerance, for the fit, should the whole fil
 PER_SHARE = 100.0  # a tolerance in degrees is one in per cent for focus and sticks, whose full way is 1
 STILL = 1e-6  # of the tolerance: what rests does not move by more from frame to frame
 ROUNDS = 6  # of a factor by which a path is stretched
-FASTEST_GRID = 60  # frames a second that a path with times of its own is looked at
 
 
 @dataclass(frozen=True)
@@ -113,7 +112,7 @@ class Importer:
 
     def _on_grid(self, motion: Motion) -> Motion:
         """With a frame for each row of an even grid: that of its rate, or of the times of its rows."""
-        rate = motion.rate or _own_grid(motion.times)
+        rate = motion.rate or own_grid(motion.times)
         places = motion.times * float(rate)
         count = math.ceil(float(places[-1]) - 1e-6) + 1
         if count > MOST_FRAMES:
@@ -142,7 +141,7 @@ class Importer:
         return f"{self.name}{line}: frame {motion.first + worst}: {axis} must be within {reach}, not {column[worst]:g}"
 
     def _attempts(self, motion: Motion) -> Iterator[ImportedKeys]:
-        grid = motion.rate or _own_grid(motion.times)
+        grid = motion.rate or own_grid(motion.times)
         if len(motion.times) == 1:
             yield ImportedKeys.at_places(motion, [0], grid)
             return
@@ -154,7 +153,7 @@ class Importer:
     def _fitted(self, motion: Motion, grid: Fraction, share: float) -> ImportedKeys:
         """Way by way, from rest to rest; all of them as much slower as the slowest has to be."""
         still = {axis: STILL * self._allowed(axis) for axis in motion.axes}
-        spans = list(_ways(motion, still, float(grid)))
+        spans = list(ways_of(motion, still, float(grid)))
         if not spans:
             return ImportedKeys.at_rest(motion, grid)
         factor = 1.0
@@ -177,7 +176,7 @@ class Importer:
         for runs in product(up, out):  # a file that begins at rest does not say so
             found = FrameFitter(tables, rate, *runs).as_asked()
             if found is not None:
-                return replace(found, keys={table.axis: _fewer(table, found, rate) for table in tables})
+                return replace(found, keys={table.axis: fewer(table, found, rate) for table in tables})
         try:
             return FrameFitter(tables, rate, up[-1], out[-1]).fit(may_stretch=self.may_stretch)
         except TooFastError as error:
@@ -224,44 +223,6 @@ class Importer:
         keys = ImportedKeys.at_places(motion, [0], Fraction(1))
         found = self._checked(text_of(keys, motion, [*about, text]), motion, keys)
         return replace(found, remarks=[text])
-
-
-def _fewer(table: Frames, found: FramesFit, rate: float) -> Keys:
-    """The keys of an axis on a way, without those between its turns where the planner itself goes by the frames."""
-    keys = found.keys[table.axis]
-    if found.runs.up or found.runs.out or len(keys) < 3 or np.isnan(table.positions).any():
-        return keys
-    digits = DIGITS[table.axis.is_angle]
-    style = Style(table.axis, table.limits, table.tolerance, digits, 0.0, rate, 1, math.inf)
-    turns = turning_points(table.positions, table.tolerance)
-    sparse = fit_through(SampledSegment(0, table.positions, style), list(turns))
-    return sparse.keys if sparse is not None and len(sparse.keys) < len(keys) else keys
-
-
-def _own_grid(times: Array) -> Fraction:
-    """Frames a second for rows that have times and no rate: as near as most are, to a thousandth of a second."""
-    if len(times) < 2:
-        return Fraction(1)
-    step = max(round(float(np.median(np.diff(times))) * SECONDS), math.ceil(SECONDS / FASTEST_GRID))
-    return Fraction(SECONDS, step)
-
-
-def _ways(motion: Motion, still: Mapping[Axis, float], rate: float) -> Iterator[tuple[int, int]]:
-    """From which frame to which something moves; between them all axes rest for a while."""
-    last = len(motion.times) - 1
-    rests = np.ones(last, dtype=bool)
-    for axis, column in motion.positions.items():
-        rests &= np.abs(np.diff(column)) <= still[axis]  # of nan and a number: it is not known to rest
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], rests, [False]])))
-    begin = 0
-    for first, end in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
-        if (end - first) / rate < RESTED and first > 0 and end < last:
-            continue
-        if first > begin:
-            yield begin, first
-        begin = end
-    if begin < last or last == 0:
-        yield begin, last
 
 
 def _remarks(keys: ImportedKeys, motion: Motion) -> Iterator[str]:

@@ -23,6 +23,7 @@ import numpy as np
 
 from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis
+from teleop.interchange.bezier import Point, curve
 from teleop.interchange.motion import MOST_DEGREES, MOST_FRAMES, Motion
 from teleop.interchange.table import Hints, WriteOptions
 from teleop.interchange.text import axis_named, needed_rate, number
@@ -31,9 +32,6 @@ from teleop.planner.polynomial import Array
 SCENE = "http://caliri.com/motion/scene"
 DEEPEST, MOST_AXES = 16, 64
 MOST_ELEMENTS = 2 * MOST_AXES * MOST_FRAMES
-HALVINGS = 60
-
-Point = tuple[float, float]  # frame, position
 
 
 def write(motion: Motion, options: WriteOptions) -> bytes:
@@ -95,7 +93,7 @@ def read(raw: bytes, name: str, hints: Hints) -> Motion:
     frames = begin + np.arange(math.floor(end - begin + 1e-9) + 1)
     if frames[-1] < end - 1e-9:
         frames = np.append(frames, end)
-    positions = {axis: _curve(element, frames) for axis, element in chosen.items()}
+    positions = {axis: curve(element.points, element.handles, frames) for axis, element in chosen.items()}
     corners = {round(x - begin) for element in chosen.values() for x, _ in element.points}
     remarks = [f"axes that a head does not have: {', '.join(strangers)}"] if strangers else []
     times = (frames - begin) / float(rate)
@@ -142,49 +140,6 @@ def _check(element: _AxisElement, axis: Axis, name: str) -> None:
     if any(abs(y) > most * (1 + 1e-9) for _, y in element.points):
         reach = f"within {most:g} degrees" if axis.is_angle else "from 0 to 1"
         raise DocumentError([f"{here} must be {reach}"])
-
-
-def _curve(element: _AxisElement, frames: Array) -> Array:
-    """The position at each frame, at rest before the first point and after the last one."""
-    points = np.array(element.points)
-    if len(points) == 1:
-        return np.full(len(frames), points[0, 1])
-    handles = np.array(element.handles or _straight(element.points)).reshape(-1, 2, 2)
-    place = np.clip(np.searchsorted(points[:, 0], frames, side="right") - 1, 0, len(points) - 2)
-    first, last = points[place], points[place + 1]
-    one, two = _shortened(first, handles[place, 0], handles[place, 1], last)
-    at = np.clip(frames, points[0, 0], points[-1, 0])
-    low, high = np.zeros(len(frames)), np.ones(len(frames))
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        before = _bezier(middle, first[:, 0], one[:, 0], two[:, 0], last[:, 0]) <= at
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    found = _bezier(low, first[:, 1], one[:, 1], two[:, 1], last[:, 1])
-    found = np.where(at == first[:, 0], first[:, 1], found)
-    return np.where(at >= last[:, 0], last[:, 1], found)
-
-
-def _straight(points: Sequence[Point]) -> list[Point]:
-    return [
-        (x + (after[0] - before[0]) * share, y + (after[1] - before[1]) * share)
-        for before, after in pairwise(points)
-        for (x, y), share in ((before, 1 / 3), (after, -1 / 3))
-    ]
-
-
-def _shortened(first: Array, one: Array, two: Array, last: Array) -> tuple[Array, Array]:
-    """Handles so short that no frame comes twice, as Blender does it: both by the same factor."""
-    width = last[:, 0] - first[:, 0]
-    reach = np.abs(one[:, 0] - first[:, 0]) + np.abs(last[:, 0] - two[:, 0])
-    factor = np.where(reach > width, width / np.maximum(reach, 1e-300), 1.0)[:, None]
-    ahead = np.where((one[:, :1] < first[:, :1]), 0.0, factor)
-    back = np.where((two[:, :1] > last[:, :1]), 0.0, factor)
-    return first + (one - first) * ahead, last + (two - last) * back
-
-
-def _bezier(t: Array, a: Array, b: Array, c: Array, d: Array) -> Array:
-    s = 1 - t
-    return s * s * s * a + 3 * s * s * t * b + 3 * s * t * t * c + t * t * t * d
 
 
 class _Reader:
