@@ -91,13 +91,19 @@ def _message(data: bytes) -> Message:
     if not tags.startswith(",") or len(tags) > MOST_ARGUMENTS + 1:
         raise OscError("a message without proper type tags")
     arguments: list[Argument] = []
+    depth = 0
     for tag in tags[1:]:
         if tag in "[]":
+            depth += 1 if tag == "[" else -1
+            if depth < 0:
+                break
             continue
         if (read := READERS.get(tag)) is None:
             raise OscError(f"an argument of unknown type {tag!r}")
         value, at = read(data, at)
         arguments.append(value)
+    if depth:
+        raise OscError("an array that does not begin or end")
     if at != len(data):
         raise OscError("a message that is longer than its arguments")
     return Message(address, tuple(arguments))

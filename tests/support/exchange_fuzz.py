@@ -97,7 +97,9 @@ def dfmoco_bytes(chance: Random) -> bytes:
 
 
 def asks_by_osc(data: bytes) -> bool:
-    """Whether python-osc finds a message for us in it."""
+    """Whether python-osc finds a message for us in it, or cannot tell: it does not know the types c, S and I."""
+    if re.search(rb",[^\0]*[cSI]", data):
+        return True
     with suppress(Exception):
         return any(timed.message.address.startswith("/teleop/") for timed in OscPacket(data).messages)
     return False
