@@ -93,7 +93,7 @@ class ConsoleOptions:
             raise UsageError("the console needs its packages: pip install 'rs-teleop[console]'") from None
         from teleop.console.invitation import as_json as reached
         from teleop.console.invitation import greeting, invitation
-        from teleop.console.settings import ConsoleSettings, listen, parse_bind, with_tokens
+        from teleop.console.settings import ConsoleSettings, listen, parse_bind, planned_for, with_tokens
         from teleop.remote.gateway_child import Gateway
 
         if not self.moves.is_dir():
@@ -101,7 +101,7 @@ class ConsoleOptions:
         host, port = parse_bind(bind)
         folder = str(self.moves.resolve())
         tokens = self.token or "", self.watch_token or ""
-        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, rig=options.rig)
+        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, rig=planned_for(profile))
         if self.tls or self.certificate or self.key:
             from teleop.console.certificate import with_tls
 

@@ -100,7 +100,10 @@ def play(
     if plan.timelapse is not None and shooting.rehearse:
         print_warnings(plan.sequence.warnings)
     replaced = "--fast" if fast else ""
-    with reached.beside(console, options, plan.profile, replaced) as gateway, realtime(in_real_time, complain):
+    with (
+        reached.beside(console, options, plan.profile.gentler(trim.left), replaced) as gateway,
+        realtime(in_real_time, complain),
+    ):
         beside = None if gateway is None else _hands(gateway)
         if plan.timelapse is not None and not shooting.rehearse:
             return _shoot(file, plan, ordered, shooting, fast, take, options, beside)

@@ -113,6 +113,19 @@ class Profile(Section):
         sinks = [section for section in self.sinks if section.link in links]
         return self.model_copy(update={"links": links, "sinks": sinks})
 
+    def gentler(self, share: float) -> Profile:
+        """The rig with so much of the velocity, acceleration and jerk of each axis."""
+        if share == 1:
+            return self
+        changes = {axis: section.limits().scaled(share) for axis, section in self.axes.items()}
+        axes = {
+            axis: section.model_copy(
+                update={name: getattr(changes[axis], name) for name in ("velocity", "acceleration", "jerk")}
+            )
+            for axis, section in self.axes.items()
+        }
+        return self.model_copy(update={"axes": axes})
+
     @property
     def encrypted(self) -> frozenset[str]:
         """Those of them over which the app's key encrypts."""

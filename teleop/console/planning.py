@@ -21,6 +21,7 @@ from teleop.config.documents.yaml_loader import parse_document
 from teleop.config.named_files import NAME, NamedFiles
 from teleop.config.profile import Profile, load_profile
 from teleop.config.resources import is_bare
+from teleop.console.settings import given
 from teleop.core.axes import Axis, Limits
 from teleop.core.errors import TeleopError
 from teleop.planner.keyframes.findings import Overshooting, Unsolved
@@ -67,8 +68,8 @@ def plan_text(text: str, name: str, folder: str, rig: str) -> dict[str, Any]:
 
 @lru_cache(maxsize=4)
 def profile_of(rig: str) -> Profile:
-    """The profile of a rig, read once."""
-    return load_profile(rig)
+    """The profile of a rig, read once: one that is given, or has a name, or is a file."""
+    return given(rig) or load_profile(rig)
 
 
 def _foreign(document: Document, folder: Path) -> Iterator[str]:

@@ -6,16 +6,22 @@ when the gateway is started again. Nothing here imports a server.
 
 from __future__ import annotations
 
+import base64
 import ipaddress
 import json
+import pickle
 import secrets
 import socket
 from dataclasses import asdict, dataclass, replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from teleop.console import DEFAULT_BIND
 from teleop.core.errors import DeviceError, UsageError
 
+if TYPE_CHECKING:
+    from teleop.config.profile import Profile
+
+GIVEN = "profile:"  # begins a rig that is the profile itself: no name and no file does
 Role = Literal["operate", "watch"]
 TOKEN_BYTES = 16  # 128 bits: cannot be guessed
 BACKLOG = 64  # connections that wait to be accepted
@@ -28,7 +34,8 @@ class ConsoleSettings:
 
     Who has the `token` operates, who has the `watch_token` only watches and may press STOP. `moves` and `takes` are
     the only folders that are served. `certificate` and `key` are files (PEM) for TLS, "" without. `rig` is what plans
-    are made for: a shipped profile's name, or a file.
+    are made for: a shipped profile's name, a file, or the profile itself as `planned_for` writes it, which is what a
+    run gives: its limits are then those that the rig keeps, whatever has become of the file since.
     """
 
     host: str = "127.0.0.1"
@@ -56,6 +63,16 @@ class ConsoleSettings:
     @classmethod
     def from_json(cls, text: str) -> ConsoleSettings:
         return cls(**json.loads(text))
+
+
+def planned_for(profile: Profile) -> str:
+    """A profile as `rig` of the settings; both ends are ours, so it is pickled."""
+    return GIVEN + base64.b64encode(pickle.dumps(profile)).decode()
+
+
+def given(rig: str) -> Profile | None:
+    """The profile that `planned_for` has written; None for the name of one."""
+    return pickle.loads(base64.b64decode(rig.removeprefix(GIVEN))) if rig.startswith(GIVEN) else None
 
 
 def parse_bind(text: str) -> tuple[str, int]:

@@ -86,9 +86,8 @@ class ClientSocket:
     """
 
     def __init__(self, own: str, commands: str) -> None:
-        self._secret = b""
-        if by_udp():
-            port, self._secret = _read_secret(commands)
+        port, self._secret = _read_secret(commands) if by_udp() else (0, b"")
+        if self._secret:
             self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         else:
             self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Mapping
 from functools import partial
 
-from teleop.config.presets import Presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, Motion, moves
 from teleop.core.errors import TeleopError
@@ -21,10 +20,10 @@ from teleop.remote.desk import Desk
 from teleop.remote.device_actions import DeviceActions, Due, DueList
 from teleop.remote.go_motion_job import GoMotionJob
 from teleop.remote.jobs import JobSource, WayJob
-from teleop.remote.keys import MOST as MOST_KEYS
 from teleop.remote.keys import HandKeys
 from teleop.remote.made_jobs import JobMaker
 from teleop.remote.pass_errors import ShownPasses
+from teleop.remote.place_actions import PlaceActions
 from teleop.remote.play_job import NotNowError, PlayJob
 from teleop.remote.shoot_actions import ShootActions
 from teleop.remote.shoot_job import ShootJob
@@ -52,9 +51,9 @@ class LiveActions:
         self._profile, self._limits, self._jobs, self.keys, self._works = profile, limits, jobs, keys, works
         self._maker = maker
         self.operator: Operator
-        self.presets: Presets
         self.desk: Desk
         self.passes = ShownPasses()
+        self.places = PlaceActions(keys, lambda: self._motion)
         self._motion: Motion = {}
         self._due = DueList()
         has_gimbal = any(sink.type == "gimbal" for sink in profile.sinks)
@@ -68,11 +67,11 @@ class LiveActions:
             "focus": lambda asked, _now: self._go("focus", asked, {Axis.FOCUS: asked["to"]}, asked.get("seconds")),
             "recenter": self._recenter,
             "preset_recall": self._recall,
-            "preset_store": self._store,
-            "preset_delete": self._delete,
-            "set_key": self._set_key,
-            "delete_key": self._delete_key,
-            "clear_keys": self._clear_keys,
+            "preset_store": self.places.store,
+            "preset_delete": self.places.delete,
+            "set_key": self.places.set_key,
+            "delete_key": self.places.delete_key,
+            "clear_keys": self.places.clear_keys,
             "play": self._play,
             "shoot": self._shoot,
             "pause": self._pause,
@@ -232,42 +231,13 @@ class LiveActions:
         targets = {axis: 0.0 for axis in CENTERED if axis in self._limits}
         self._go("recenter", asked, targets, asked.get("seconds", self._profile.presets.recall))
 
-    # --- presets and keys
-
     def _recall(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        preset = self.presets.get(asked["number"])
+        preset = self.places.presets.get(asked["number"])
         if preset is None:
             raise Refusal(f"there is no preset {asked['number']} yet")
         known = {axis: to for axis, to in preset.positions.items() if axis in self._limits and not axis.is_stick}
         cut = {axis: min(max(to, of.minimum), of.maximum) for axis, to in known.items() if (of := self._limits[axis])}
         self._go(f"preset {asked['number']}", asked, cut, asked.get("seconds", self._profile.presets.recall))
-
-    def _store(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        where = {axis: state.position for axis, state in self._motion.items() if not axis.is_stick}
-        self.presets.store(asked["number"], where, asked.get("name"))
-        self.operator.notify(f"preset {asked['number']} stored")
-        asked.end()
-
-    def _delete(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        if not self.presets.delete(asked["number"]):
-            raise Refusal(f"there is no preset {asked['number']}")
-        self.operator.notify(f"preset {asked['number']} deleted")
-        asked.end()
-
-    def _set_key(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        if len(self.keys.keys) >= MOST_KEYS:
-            raise Refusal(f"there are {MOST_KEYS} keys already")
-        self.keys.set(self._motion)
-        asked.end()
-
-    def _delete_key(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        if not self.keys.delete(asked["number"]):
-            raise Refusal(f"there is no key {asked['number']}")
-        asked.end()
-
-    def _clear_keys(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        self.keys.clear()
-        asked.end()
 
     # --- moves
 

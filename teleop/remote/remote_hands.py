@@ -82,7 +82,8 @@ class RemoteHands:
         if again and self._operator.stopped_by:  # a STOP that is not cleared outlasts a run
             self.desk.press(self._operator.stopped_by, Command.STOP)
         self._operator = self._actions.operator = operator
-        self._actions.presets, self._actions.devices.has_camera = presets, rig.camera is not None
+        self._actions.places.presets, self._actions.places.notify = presets, operator.notify
+        self._actions.devices.has_camera = rig.camera is not None
         self._shutter = self._shutter_of(rig)
         self._actions.shoots.has_camera = self._shutter is not None
         self._jobs.foresee = rig.foresee

@@ -6,6 +6,9 @@ import pytest
 from console_bench import LOCKED, OPERATE, WATCHING, ConsoleBench, in_folder
 
 from teleop.config.documents.yaml_loader import parse_document
+from teleop.config.profile import load_profile
+from teleop.console.planning import plan_text
+from teleop.console.settings import planned_for
 
 MOVE = """\
 # Across the room.
@@ -223,3 +226,25 @@ def test_watchers_see_and_do_not_save(folder):
         assert bench.post("/api/plan", json={"move": "across"}, headers=WATCHING).json()["ok"]
         assert bench.put("/api/moves/across", json={"text": MOVE}, headers=WATCHING).status_code == 403
         assert bench.put("/api/moves/across", json={"text": MOVE}, headers=OPERATE).status_code == 200
+
+
+def test_a_plan_keeps_the_limits_that_the_run_leaves_of_the_rig_whatever_its_file_says_now(tmp_path):
+    file = tmp_path / "rig.yaml"
+    file.write_text(RIG)
+    kept = planned_for(load_profile(str(file)).gentler(0.25))
+    file.write_text(RIG.replace("velocity: 60", "velocity: 90"))
+    text = "keyframes: [{at: 0, pan: 0}, {at: 2s, pan: 40}]\n"
+    assert plan_text(text, "a", str(tmp_path), str(file))["axes"]["pan"]["max_velocity"] == 90
+    refused = plan_text(text, "a", str(tmp_path), kept)
+    assert not refused["ok"]
+    assert refused["segments"][0]["axis"] == "pan"
+    slow = plan_text(text.replace("2s", "20s"), "a", str(tmp_path), kept)
+    assert slow["axes"]["pan"]["max_velocity"] == 15
+
+
+RIG = """
+name: Bench
+links: {gimbal: "sim:"}
+axes: {pan: {min: -180, max: 180, velocity: 60, acceleration: 240, jerk: 2400}}
+sinks: [{type: gimbal, link: gimbal, mode: position, rate: 50}]
+"""

@@ -96,7 +96,12 @@ def test_what_follows_upon_a_request_that_still_runs_has_control_too(free: Remot
     assert free.ends[number]["ok"]
     free.tick(3)
     assert free.state["holder"] is None
-    for do, fields in (("jog", {"axis": "pan", "by": 5.0}), ("goto", {"axes": {"pan": 9.0}}), ("recenter", {})):
+    ways: dict[str, dict[str, Any]] = {
+        "jog": {"axis": "pan", "by": 5.0},
+        "goto": {"axes": {"pan": 9.0}},
+        "recenter": {},
+    }
+    for do, fields in ways.items():
         assert "ok" in free.ask(do, **fields, brief=True), do
         free.run(0.1)
     until(free, lambda: free.state["holder"] is None)

@@ -165,14 +165,15 @@ def test_nothing_else_begins_while_it_is_shot_and_a_camera_that_refuses_ends_it_
 ) -> None:
     number = shot(stage)
     until(stage, lambda: stage.state["shoot"]["frames_done"] == 1)
-    for do, fields in (
-        ("goto", {"axes": {"pan": 1.0}}),
-        ("jog", {"axis": "pan", "by": 1.0}),
-        ("play", {"move": "there"}),
-        ("shoot", {"move": "turn"}),
-        ("shutter", {}),
-        ("follow", {"mode": "lock"}),
-    ):
+    others: dict[str, dict[str, Any]] = {
+        "goto": {"axes": {"pan": 1.0}},
+        "jog": {"axis": "pan", "by": 1.0},
+        "play": {"move": "there"},
+        "shoot": {"move": "turn"},
+        "shutter": {},
+        "follow": {"mode": "lock"},
+    }
+    for do, fields in others.items():
         answer = stage.ask(do, **fields)
         assert answer["kind"] == "refused", do
         assert "Slow turn is being shot" in answer["error"], do
