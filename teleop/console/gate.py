@@ -3,9 +3,9 @@
 In this order: Host and Origin, the login, the rate of the client. Outwards the security headers. It is plain ASGI, so
 that pages, data and WebSockets pass the same code.
 
-Who is logged in has a rate of their own, and a right token or cookie always counts: what others at the same address get
-wrong, or too often, keeps nobody from the rig. So a guess is always looked at; what bounds guessing is the length of the
-token, and that each wrong one costs a request, and a connection once there were many.
+Who is logged in has a rate of their own, and a right token or cookie always counts: what others at the same address
+get wrong, or too often, keeps nobody from the rig. So a guess is always looked at; what bounds guessing is the length
+of the token, and that each wrong one costs a request, and a connection once there were many.
 """
 
 from __future__ import annotations

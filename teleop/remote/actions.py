@@ -6,12 +6,10 @@ import math
 from collections.abc import Callable, Mapping
 from functools import partial
 
-from teleop.config.presets import Presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, Motion, moves
 from teleop.core.errors import TeleopError
 from teleop.core.events import Action, Tick
-from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
 from teleop.planner.go_motion import ExposureRuns
@@ -24,6 +22,7 @@ from teleop.remote.jobs import JobSource, WayJob
 from teleop.remote.keys import MOST as MOST_KEYS
 from teleop.remote.keys import HandKeys
 from teleop.remote.made_jobs import JobMaker
+from teleop.remote.operator_actions import OperatorActions
 from teleop.remote.pass_errors import ShownPasses
 from teleop.remote.play_job import NotNowError, PlayJob
 from teleop.remote.shoot_actions import ShootActions
@@ -52,7 +51,6 @@ class LiveActions:
         self._profile, self._limits, self._jobs, self.keys, self._works = profile, limits, jobs, keys, works
         self._maker = maker
         self.operator: Operator
-        self.presets: Presets
         self.desk: Desk
         self.passes = ShownPasses()
         self._motion: Motion = {}
@@ -60,6 +58,7 @@ class LiveActions:
         has_gimbal = any(sink.type == "gimbal" for sink in profile.sinks)
         self.devices = DeviceActions(jobs, told, self._due, lambda: self.rests, has_gimbal)
         self.shoots = ShootActions(jobs, works, maker, self._due, self._begin, lambda text: self.operator.notify(text))
+        self.by_operator = OperatorActions(limits, profile.presets.recall, self._go, lambda: self._motion)
         self._halted = False
         self._do: Mapping[str, Callable[[Asked, float], None]] = {
             "goto": lambda asked, _now: self._go("goto", asked, dict(asked["axes"]), asked.get("seconds")),
@@ -67,9 +66,6 @@ class LiveActions:
             "jog": self._jog,
             "focus": lambda asked, _now: self._go("focus", asked, {Axis.FOCUS: asked["to"]}, asked.get("seconds")),
             "recenter": self._recenter,
-            "preset_recall": self._recall,
-            "preset_store": self._store,
-            "preset_delete": self._delete,
             "set_key": self._set_key,
             "delete_key": self._delete_key,
             "clear_keys": self._clear_keys,
@@ -86,9 +82,9 @@ class LiveActions:
             "record": self._with_no_shoot(partial(self.devices.camera, action=Action.RECORD)),
             "stop_recording": self._with_no_shoot(partial(self.devices.camera, action=Action.STOP)),
             "shutter": self._with_no_shoot(partial(self.devices.camera, action=Action.SHUTTER)),
-            "range": self._range,
             "follow": self._with_no_shoot(self.devices.follow),
             "message": self._with_no_shoot(self.devices.message),
+            **self.by_operator.do,
         }
 
     # --- what the desk asks
@@ -232,27 +228,7 @@ class LiveActions:
         targets = {axis: 0.0 for axis in CENTERED if axis in self._limits}
         self._go("recenter", asked, targets, asked.get("seconds", self._profile.presets.recall))
 
-    # --- presets and keys
-
-    def _recall(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        preset = self.presets.get(asked["number"])
-        if preset is None:
-            raise Refusal(f"there is no preset {asked['number']} yet")
-        known = {axis: to for axis, to in preset.positions.items() if axis in self._limits and not axis.is_stick}
-        cut = {axis: min(max(to, of.minimum), of.maximum) for axis, to in known.items() if (of := self._limits[axis])}
-        self._go(f"preset {asked['number']}", asked, cut, asked.get("seconds", self._profile.presets.recall))
-
-    def _store(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        where = {axis: state.position for axis, state in self._motion.items() if not axis.is_stick}
-        self.presets.store(asked["number"], where, asked.get("name"))
-        self.operator.notify(f"preset {asked['number']} stored")
-        asked.end()
-
-    def _delete(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        if not self.presets.delete(asked["number"]):
-            raise Refusal(f"there is no preset {asked['number']}")
-        self.operator.notify(f"preset {asked['number']} deleted")
-        asked.end()
+    # --- keys
 
     def _set_key(self, asked: Asked, now: float) -> None:  # noqa: ARG002
         if len(self.keys.keys) >= MOST_KEYS:
@@ -337,11 +313,4 @@ class LiveActions:
         if self._jobs.job is None:
             raise Refusal("nothing moves that could be aborted")
         self._jobs.end(f"aborted by {asked.command.name}")
-        asked.end()
-
-    def _range(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        ranges = len(self.operator.status.ranges)
-        if asked["number"] > ranges:
-            raise Refusal(f"there are {ranges} speed ranges")
-        self.desk.press(asked.command.name, Command.RANGE, asked["number"])
         asked.end()

@@ -65,7 +65,8 @@ class RemoteHands:
         stack.callback(self._actions.shoots.close)
         stack.callback(self._works.close)
         self.desk = Desk(self.door.socket, stick, self._notify, self._actions)
-        self._actions.desk = self._actions.devices.desk = self.desk
+        for actions in (self._actions, self._actions.devices, self._actions.by_operator):
+            actions.desk = self.desk
 
     @property
     def inputs(self) -> Sequence[Input]:
@@ -81,8 +82,8 @@ class RemoteHands:
         again, self._clock = self._clock is not None, rig.clock
         if again and self._operator.stopped_by:  # a STOP that is not cleared outlasts a run
             self.desk.press(self._operator.stopped_by, Command.STOP)
-        self._operator = self._actions.operator = operator
-        self._actions.presets, self._actions.devices.has_camera = presets, rig.camera is not None
+        self._operator = self._actions.operator = self._actions.by_operator.operator = operator
+        self._actions.by_operator.presets, self._actions.devices.has_camera = presets, rig.camera is not None
         self._shutter = self._shutter_of(rig)
         self._actions.shoots.has_camera = self._shutter is not None
         self._jobs.foresee = rig.foresee

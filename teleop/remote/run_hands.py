@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from types import MappingProxyType
 from typing import Any
 
 from teleop.app.beside import Running
@@ -89,6 +90,8 @@ class RunHands:
 
     keys: Sequence[Mapping[str, float]] = ()
     changes = 0
+
+    focus_marks: Mapping[str, float] = MappingProxyType({})
 
     @property
     def presets(self) -> Mapping[str, Mapping[str, Any]]:
