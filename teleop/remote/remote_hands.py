@@ -17,6 +17,7 @@ from teleop.core.axes import Axis, Limits
 from teleop.core.errors import LinkError
 from teleop.core.events import Action, DeviceCommand, ShutterResult, Tick
 from teleop.core.interfaces import Clock, Observer, Sink, Source
+from teleop.core.invitation import Invitation
 from teleop.core.operator_input import Command, Held, Input
 from teleop.devices.rig import Rig
 from teleop.devices.shutter import ShutterSink
@@ -48,6 +49,10 @@ class RemoteHands:
         self.desk: Desk
         self._read = False  # in this tick
         self._clock: Clock | None = None  # of the run that goes on, or was the last
+
+    @property
+    def invitation(self) -> Invitation | None:
+        return None if self._gateway is None else self._gateway.invitation
 
     def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits]) -> None:
         """Open the door, until the stack is left."""

@@ -12,6 +12,7 @@ from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.events import Action, Tick
 from teleop.core.interfaces import Clock, Observer
+from teleop.core.invitation import Invitation
 from teleop.core.operator_input import Command, Input
 from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
 from teleop.remote.asked import Asked, Refusal
@@ -47,6 +48,10 @@ class RunHands:
         self._recording = False
         self._running: Running | None = None
         self._passes = ShownPasses()
+
+    @property
+    def invitation(self) -> Invitation | None:
+        return None if self._gateway is None else self._gateway.invitation
 
     def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits], clock: Clock) -> None:
         """Open the door, until the stack is left."""
