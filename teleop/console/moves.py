@@ -52,7 +52,7 @@ class MoveRoutes:
     async def read(self, request: Request) -> Response:
         """The text and the values of a move."""
         name = request.path_params["name"]
-        file, shipped = self._find(name)
+        file, shipped = await self._find(name)
         text = await asyncio.to_thread(_text, file)
         found = await self._worker.do("parse", text, name)
         return answer({"name": name, "shipped": shipped, "version": version(text), "text": text, **found})
@@ -62,8 +62,11 @@ class MoveRoutes:
         require_operator(request)
         name = request.path_params["name"]
         data = await read_object(request, MOST_BODY, MOST_DEPTH)
-        if self._files.find(name) is None and self._files.place(name) is None:
+        own = self._files.find(name)
+        if own is None and self._files.place(name) is None:
             raise Refusal(400, NO_NAME)
+        if own is not None and await self._description(own) is None:
+            raise Refusal(409, f"{name} is the name of a file that is no move: choose another one")
         async with self._saving:
             text = await self._new_text(name, data)
             found = await self._plan(text, name)
@@ -88,7 +91,7 @@ class MoveRoutes:
         if given == ["move"]:
             if not isinstance(value, str):
                 raise Refusal(400, "move: must be the name of a move")
-            return await self._plan(_text(self._find(value)[0]), value)
+            return await self._plan(_text((await self._find(value))[0]), value)
         return await self._plan(_given_text(data) if given == ["text"] else _fresh(_values(value)), name)
 
     async def save_new(self, name: str, text: str) -> None:
@@ -104,9 +107,10 @@ class MoveRoutes:
         if self._files.place(name) is None:
             raise Refusal(400, NO_NAME)
 
-    def _find(self, name: str) -> tuple[Path, bool]:
-        """The file of a move, and whether it is shipped. Raises Refusal (404)."""
-        if (own := self._files.find(name)) is not None:
+    async def _find(self, name: str) -> tuple[Path, bool]:
+        """The file of a move, and whether it is shipped. Raises Refusal (404), also for a file that is no move."""
+        own = self._files.find(name)
+        if own is not None and await self._description(own) is not None:
             return own, False
         if name in described("sequences"):
             return folder("sequences") / f"{name}.yaml", True
@@ -115,7 +119,7 @@ class MoveRoutes:
     async def _new_text(self, name: str, data: Mapping[str, Any]) -> str:
         """What the file will be. Raises Refusal: 409 where it has changed since it was read."""
         try:
-            old = _text(self._find(name)[0])
+            old = _text((await self._find(name))[0])
         except Refusal:
             old = None
         known = data.get("version")
