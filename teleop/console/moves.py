@@ -27,6 +27,7 @@ MOST_DESCRIBED = 3000  # files, of which titles are kept
 MOST_DEPTH = 32  # as in a file
 ENDINGS = (".yaml", ".yml")
 UNNAMED = "move"
+WARMING = "keyframes: [{at: 0, pan: 0}, {at: 4, pan: 1}, {at: 8, pan: 0}]\n"
 NO_NAME = "not a name for a move: use letters, digits, spaces, `.`, `-` and `_`"
 
 
@@ -37,6 +38,10 @@ class MoveRoutes:
         self._files, self._folder, self._rig, self._worker = NamedFiles(moves, ENDINGS), moves, rig, worker
         self._saving = asyncio.Lock()
         self._described: dict[tuple[str, int, int], Mapping[str, Any]] = {}
+
+    async def warm(self) -> None:
+        """Have everything loaded that a plan needs."""
+        await self._plan(WARMING, UNNAMED)
 
     async def list(self, _: Request) -> Response:
         """Every move of the folder and every shipped one that no file of the folder hides."""

@@ -9,7 +9,7 @@ import urllib.request
 from contextlib import ExitStack
 
 import pytest
-from page_bench import PHONE, take_control, until
+from page_bench import PHONE, REFUSED, take_control, until
 from playwright.sync_api import expect
 from real_console import RealConsole
 
@@ -36,6 +36,7 @@ def console(consoles, tmp_path):
 @pytest.fixture
 def visit(browser, console):
     browser.errors.clear()
+    browser.allowed = REFUSED  # the gateway is killed in some of these
     yield lambda *args, **options: browser.open(console.url, *args, **options)
     browser.close()
     assert browser.errors == []
