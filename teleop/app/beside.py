@@ -14,6 +14,7 @@ from teleop.core.axes import Axis, Limits
 from teleop.core.errors import LinkError
 from teleop.core.events import Action, DeviceCommand
 from teleop.core.interfaces import Clock, Observer, Sink, Source
+from teleop.core.invitation import Invitation
 from teleop.core.operator_input import Input
 from teleop.devices.drone.state import DroneState
 from teleop.devices.rig import Rig
@@ -28,6 +29,9 @@ class BesideLive(Protocol):
 
     They outlast a run of the rig that failed, where what they do goes on in another one.
     """
+
+    @property
+    def invitation(self) -> Invitation | None: ...
 
     @property
     def inputs(self) -> Sequence[Input]: ...
@@ -75,6 +79,9 @@ class Running:
 
 class BesideRun(Protocol):
     """Hands beside a run that moves by itself: they stop it, pause it, and see it."""
+
+    @property
+    def invitation(self) -> Invitation | None: ...
 
     @property
     def inputs(self) -> Sequence[Input]: ...

@@ -30,6 +30,9 @@ def console(
     presets: Annotated[
         Path | None, Parameter(metavar="FILE", help="File of the presets; without it, one for each rig.")
     ] = None,
+    targets: Annotated[
+        Path | None, Parameter(metavar="FILE", help="Sequence file for the targets that key t marks; may be new.")
+    ] = None,
     take: Take = None,
     in_real_time: Realtime = False,
     options: Options = DEFAULTS,
@@ -45,5 +48,7 @@ def console(
 
     with reached.gateway(bind, options, profile) as gateway, realtime(in_real_time, complain):
         hands = RemoteHands(reached.moves, gateway)
-        run = LiveRun(profile, profile.name, SystemClock(), None, presets=presets, take=take, beside=hands)
+        run = LiveRun(
+            profile, profile.name, SystemClock(), None, presets=presets, targets=targets, take=take, beside=hands
+        )
         return print_report(run.by_hand(view, signals_to), options.json)

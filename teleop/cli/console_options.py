@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import Options
 from teleop.cli.screens.folded import complain, tell
+from teleop.cli.screens.invitation_sheet import announced
 from teleop.config.profile import Profile
 from teleop.console import DEFAULT_BIND
 from teleop.core.errors import UsageError
@@ -107,16 +109,17 @@ class ConsoleOptions:
 
             asked = with_tls(asked, self.certificate, self.key)
         listener, settings = listen(with_tokens(asked))
+        invited = invitation(settings)
         with listener, opened(profile) as exchange:
             if options.json:
                 print(json.dumps(reached(settings)), flush=True)
             else:
-                for line in invitation(settings):
+                for line in (*invited.lines, *invited.code):
                     tell(line)
             number = listener.fileno()
             console = {"settings": settings.as_json(), "listener": number}
             greetings = [greeting(settings), *([exchange.greeting] if exchange.greeting else [])]
-            yield Gateway({"console": console, **exchange.settings}, (number, *exchange.passed), greetings)
+            yield Gateway({"console": console, **exchange.settings}, (number, *exchange.passed), greetings, invited)
 
     @contextmanager
     def beside(
@@ -129,6 +132,8 @@ class ConsoleOptions:
         """
         if bind is not None:
             with self.gateway(bind, options, profile) as gateway:
+                if key_terminal() is not None and not options.json:
+                    gateway = gateway._replace(greetings=[announced(), *gateway.greetings[1:]])
                 yield gateway
             return
         for name in ("token", "watch_token", "tls", "certificate", "key"):

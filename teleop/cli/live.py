@@ -20,6 +20,7 @@ from teleop.cli.options import DEFAULTS, Options
 from teleop.cli.play import Fast, Take, the_clock
 from teleop.cli.running import print_report
 from teleop.cli.screens.folded import complain, warn
+from teleop.cli.screens.invitation_sheet import sheet
 from teleop.cli.screens.live_view import LiveView
 from teleop.cli.screens.run_view import RunView, timed
 from teleop.cli.screens.take_summary import take_words
@@ -108,10 +109,12 @@ def _hands(moves: Path, gateway: Gateway) -> BesideLive:
 
 
 def _by_hand(run: LiveRun, options: Options) -> int:
+    invited = sheet(None if run.beside is None else run.beside.invitation, run.keyboard)
+
     def view(parts: LiveParts) -> LiveView:
         return LiveView(
             *(run.title, parts.limits, lambda: parts.operator.status, parts.connections, run.keyboard),
-            *(take_words(parts.recorder), options.json, parts.drone),
+            *(take_words(parts.recorder), options.json, parts.drone, invited),
         )
 
     return print_report(run.by_hand(view, signals_to), options.json)

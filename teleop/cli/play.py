@@ -24,6 +24,7 @@ from teleop.cli.learned_options import NOT_LEARNED, LearnedOptions, LearningRepo
 from teleop.cli.options import DEFAULTS, MOVES, Options, print_warnings
 from teleop.cli.running import EXIT_CODES, Extra, print_report
 from teleop.cli.screens.folded import after_the_run, complain, warn
+from teleop.cli.screens.invitation_sheet import sheet
 from teleop.cli.screens.repeatability_table import PassesReport
 from teleop.cli.screens.run_rows import NO_KEYS, RUN_HINTS
 from teleop.cli.screens.run_view import RunView
@@ -260,7 +261,9 @@ def _performed(run: SequenceRun, options: Options, lessons: Lessons | None) -> i
 
     def view(limits: Mapping[Axis, Limits], status: Callable[[float], RunStatus], recorder: Recorder | None) -> RunView:
         hints = NO_KEYS if run.keys is None else RUN_HINTS
-        return RunView(run.sequence.title, limits, status, options.json, take_words(recorder), hints=hints)
+        invited = sheet(None if run.beside is None else run.beside.invitation, run.keys)
+        words = take_words(recorder)
+        return RunView(run.sequence.title, limits, status, options.json, words, hints=hints, sheet=invited)
 
     report = run.perform(view, signals_to)
     extras: list[Extra] = []

@@ -1,7 +1,8 @@
-"""Presets: numbered positions, kept in a file between runs.
+"""Presets: numbered positions, and marks of the focus, kept in a file between runs.
 
     presets:
       1: {pan: 10.0, tilt: -3.2, name: "wide"}
+    focus_marks: {A: 0.25, B: 0.8}
 
 The control thread only changes what is in memory; a thread of their own writes the file, whole and beside the old one,
 which it then replaces. A disk that is full costs the file and not the run, and is reported once for each change.
@@ -16,7 +17,7 @@ from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -29,6 +30,7 @@ from teleop.core.axes import Axis, Limits
 
 DIGITS = 4  # behind the point: finer than any gimbal measures
 WRITE_TIMEOUT = 5.0  # s to wait at the end for a disk that does not answer
+MARKS = ("A", "B", "C")
 _NUMBER = re.compile(r"\d{1,3}")
 
 
@@ -42,6 +44,9 @@ class PresetSection(PositionsSection):
 class PresetsFile(Section):
     presets: dict[str, PresetSection] = Field(default_factory=dict)
     """The presets by their numbers."""
+
+    focus_marks: dict[Literal["A", "B", "C"], Annotated[float, Field(ge=0, le=1)]] = Field(default_factory=dict)
+    """Marks of the focus ring: 0 near to 1 far."""
 
 
 @dataclass(frozen=True)
@@ -57,16 +62,26 @@ def default_file(profile: str) -> Path:
 
 
 class Presets:
-    """The presets of one rig, as they are now; `names` of them by number, "" for one that has none."""
+    """The presets of one rig, as they are now; `names` of them by number, "" for one that has none.
 
-    def __init__(self, file: Path, presets: Mapping[int, Preset] | None = None, messages: Sequence[str] = ()) -> None:
+    `marks` are those of the focus.
+    """
+
+    def __init__(
+        self,
+        file: Path,
+        presets: Mapping[int, Preset] | None = None,
+        messages: Sequence[str] = (),
+        marks: Mapping[str, float] | None = None,
+    ) -> None:
         self._file = file
         self._presets = dict(presets or {})
+        self.marks: Mapping[str, float] = dict(marks or {})
         self.names: Mapping[int, str] = {}
         self.changes = 0
         self._messages = deque(messages)
         self._changed = threading.Condition()
-        self._unsaved: Mapping[int, Preset] | None = None
+        self._unsaved: tuple[Mapping[int, Preset], Mapping[str, float]] | None = None
         self._closing = False
         self._writer: threading.Thread | None = None
         self._name()
@@ -88,6 +103,14 @@ class Presets:
             self._save()
         return known
 
+    def mark(self, name: str, position: float | None) -> None:
+        """A mark of the focus from now on; None deletes it."""
+        kept = {each: at for each, at in self.marks.items() if each != name}
+        if position is not None:
+            kept[name] = round(position, DIGITS) + 0.0
+        self.marks = dict(sorted(kept.items()))
+        self._save()
+
     def new_messages(self) -> Iterator[str]:
         """What the operator has to know since the last time: a file that could not be written."""
         while self._messages:
@@ -105,7 +128,7 @@ class Presets:
         self.changes += 1
         self._name()
         with self._changed:
-            self._unsaved = dict(self._presets)
+            self._unsaved = dict(self._presets), self.marks
             self._changed.notify()
         if self._writer is None:
             self._writer = threading.Thread(target=self._write_changes, name="presets", daemon=True)
@@ -118,11 +141,11 @@ class Presets:
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._unsaved is not None or self._closing)
-                presets, self._unsaved = self._unsaved, None
-            if presets is None:
+                kept, self._unsaved = self._unsaved, None
+            if kept is None:
                 return
             try:
-                write_presets(self._file, presets)
+                write_presets(self._file, *kept)
             except OutputError as error:
                 self._messages.append(f"presets are not saved: {self._file}: {error.reason}")
 
@@ -143,7 +166,7 @@ def read_presets(file: Path, limits: Mapping[Axis, Limits], rig: str) -> Presets
         for axis, position in preset.positions.items()
         if (text := _beyond(axis, position, limits, rig))
     ]
-    return Presets(file, presets, messages)
+    return Presets(file, presets, messages, {str(name): at for name, at in checked.focus_marks.items()})
 
 
 def _rules(data: Any) -> Iterator[Wrong]:
@@ -171,7 +194,7 @@ def _beyond(axis: Axis, position: float, limits: Mapping[Axis, Limits], rig: str
     )
 
 
-def write_presets(file: Path, presets: Mapping[int, Preset]) -> None:
+def write_presets(file: Path, presets: Mapping[int, Preset], marks: Mapping[str, float] | None = None) -> None:
     """Write all of them in place of what was there; raises OutputError, and then the old file is as it was."""
     lines = ["# Positions of a rig, kept by teleop live.\n", "presets:\n" if presets else "presets: {}\n"]
     for key, preset in sorted(presets.items()):
@@ -179,6 +202,8 @@ def write_presets(file: Path, presets: Mapping[int, Preset]) -> None:
         if preset.name:
             parts.append(f"name: {json.dumps(preset.name, ensure_ascii=False)}")
         lines.append(f"  {key}: {{{', '.join(parts)}}}\n")
+    if marks:
+        lines.append(f"focus_marks: {{{', '.join(f'{name}: {at}' for name, at in sorted(marks.items()))}}}\n")
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:

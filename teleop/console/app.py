@@ -82,8 +82,8 @@ class Console:
         ]
 
     async def start(self) -> None:
-        """Have the planner ready before somebody drags a key."""
-        await self._workers[0].start()
+        """Have the planner ready before somebody drags a key: the first plan takes far longer than the next."""
+        await self._moves.warm()
 
     async def close(self) -> None:
         """End the workers."""

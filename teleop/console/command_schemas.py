@@ -20,6 +20,7 @@ POSITIONS: Schema = {
     "additionalProperties": {"type": "number"},
     "description": "by axis: degrees, of focus 0 (near) to 1 (far)",
 }
+MARK: Schema = {"enum": ["A", "B", "C"]}
 MOVE: Schema = {"type": "string", "description": "the name of a move; never a path"}
 
 
@@ -83,7 +84,13 @@ COMMANDS: Mapping[str, CommandSchema] = {
     "focus": CommandSchema(
         "Move the focus", {"to": {"type": "number", "minimum": 0, "maximum": 1}}, {"seconds": SECONDS}
     ),
+    "focus_mark_store": CommandSchema("Keep the focus as a mark", {"name": MARK}),
+    "focus_mark_recall": CommandSchema("Move the focus to a mark", {"name": MARK}, {"seconds": SECONDS}),
+    "focus_mark_delete": CommandSchema("Delete a mark of the focus", {"name": MARK}),
     "range": CommandSchema("Choose the speed range of sticks", {"number": WHOLE}),
+    "manual": CommandSchema("Turn manual control on or off, of inputs without an enable button", {"on": TRUTH}),
+    "drone": CommandSchema("Have the drone do something, as `drone WORD` in a file", {"command": TEXT}),
+    "mark_target": CommandSchema("Mark a target in view: `name,distance` or `name,x,y,z` (m)", {"text": TEXT}),
     "shoot": CommandSchema("Shoot a timelapse", {"move": MOVE}, SHOT),
     "message": CommandSchema("Send a message of the R SDK", {"name": TEXT}, {"fields": {"type": "object"}}),
     "plan": CommandSchema(

@@ -1,7 +1,11 @@
 """What every request passes before a handler sees it, and every answer on its way out.
 
-In this order: Host and Origin, the rate of the client, the login. Outwards the security headers. It is plain ASGI, so
+In this order: Host and Origin, the login, the rate of the client. Outwards the security headers. It is plain ASGI, so
 that pages, data and WebSockets pass the same code.
+
+Who is logged in has a rate of their own, and a right token or cookie always counts: what others at the same address
+get wrong, or too often, keeps nobody from the rig. So a guess is always looked at; what bounds guessing is the length
+of the token, and that each wrong one costs a request, and a connection once there were many.
 """
 
 from __future__ import annotations
@@ -22,10 +26,10 @@ from teleop.console.origin import OriginRules
 from teleop.console.rate_limit import RateLimit
 from teleop.console.settings import ConsoleSettings, Role
 
-REQUEST_RATE, REQUEST_BURST = 200.0, 400.0  # requests/s and at once, of one client; STOP is not counted
+REQUEST_RATE, REQUEST_BURST = 200.0, 400.0  # requests/s and at once, of one client; neither STOP nor a login counts
 WRONG_RATE, WRONG_BURST = 0.1, 10.0  # wrong tokens/s and at once, of one client
 MAPPED = "::ffff:"  # an IPv4 address at a socket that takes both kinds
-STOP_PATH = "/api/stop"
+UNCOUNTED = ("/api/stop", "/api/login")
 PUBLIC = {("GET", "/"), ("HEAD", "/"), ("GET", "/login"), ("HEAD", "/login"), ("POST", "/api/login")}
 """What is answered without a login: the login page. `/` is that page then."""
 
@@ -40,7 +44,7 @@ HEADERS = {
     "referrer-policy": "no-referrer",
     "cross-origin-opener-policy": "same-origin",
     "cross-origin-resource-policy": "same-origin",
-    "permissions-policy": "camera=(), microphone=(), geolocation=(), usb=(), serial=(), bluetooth=()",
+    "permissions-policy": "camera=(), microphone=(), geolocation=(), usb=(), serial=()",
 }
 
 
@@ -60,8 +64,8 @@ class Gate:
     ) -> None:
         self._app, self._logins, self._knows = app, logins, knows
         self._origins = OriginRules(settings)
-        self._requests = RateLimit(REQUEST_RATE, REQUEST_BURST, clock)
-        self.wrong = RateLimit(WRONG_RATE, WRONG_BURST, clock)
+        self._known, self._strangers = (RateLimit(REQUEST_RATE, REQUEST_BURST, clock) for _ in range(2))
+        self._wrong = RateLimit(WRONG_RATE, WRONG_BURST, clock)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in ("http", "websocket"):
@@ -82,9 +86,10 @@ class Gate:
         local = str((scope.get("server") or ("", None))[0]).removeprefix(MAPPED)
         if problem := self._origins.refusal(headers, local, is_page):
             raise Refusal(403, problem)
-        if path != STOP_PATH and not self._requests.take(address):
-            raise Refusal(429, "too many requests", {"retry-after": "1"})
         role = self._role(headers, address)
+        requests = self._known if role else self._strangers
+        if path not in UNCOUNTED and not requests.take(address):
+            raise Refusal(429, "too many requests", {"retry-after": "1"})
         if role is None and (method, path) not in PUBLIC and self._knows(scope):
             raise Refusal(401, "log in first, or send the header `Authorization: Bearer TOKEN`")
         return role
@@ -100,13 +105,12 @@ class Gate:
 
     def role_of_token(self, token: str, address: str) -> Role:
         """The role of a token that a client sent. Raises Refusal: 401 for a wrong one, 429 after many of them."""
-        if self.wrong.is_over(address):
-            raise Refusal(429, "too many wrong tokens: wait 10 s", {"retry-after": "10"})
         role = self._logins.role_of_token(token)
-        if role is None:
-            self.wrong.take(address)
+        if role is not None:
+            return role
+        if self._wrong.take(address):
             raise Refusal(401, "wrong token")
-        return role
+        raise Refusal(429, "wrong token, and too many of them: wait 10 s", {"retry-after": "10", "connection": "close"})
 
 
 def client_address(scope: Scope) -> str:

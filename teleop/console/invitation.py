@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from teleop.console.settings import ConsoleSettings, Role, is_loopback
+from teleop.core.invitation import Invitation
 
 QUIET = 2  # modules around a QR code: enough for every phone on a dark terminal, and 80x24 has room for it
 _HALVES = {(True, True): "█", (True, False): "▀", (False, True): "▄", (False, False): " "}
@@ -47,19 +48,17 @@ def greeting(settings: ConsoleSettings) -> str:
     return f"Console: {url(settings)}"
 
 
-def invitation(settings: ConsoleSettings) -> Sequence[str]:
+def invitation(settings: ConsoleSettings) -> Invitation:
     """Lines for a terminal: the URL; with a token also both roles' tokens, and a QR code where a phone can reach it."""
     lines = [greeting(settings)]
     if settings.is_open:
-        return [*lines, "Only this computer can open it. For a phone: --bind 0.0.0.0:8470"]
+        return Invitation([*lines, "Only this computer can open it. For a phone: give the address 0.0.0.0:8470"])
     lines += [f"Token to operate: {settings.token}", f"Token to watch, with STOP: {settings.watch_token}"]
     if settings.has_tls:
         lines.append(f"Certificate, SHA-256: {fingerprint(settings.certificate)[:47]}... (a browser warns of it once)")
     else:
         lines.append("Without --tls the network can read the tokens, and a phone may sleep.")
-    if not is_loopback(settings.host):
-        lines += qr_lines(url(settings))
-    return lines
+    return Invitation(lines, () if is_loopback(settings.host) else qr_lines(url(settings)))
 
 
 def qr_lines(text: str) -> Sequence[str]:

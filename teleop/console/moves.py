@@ -27,6 +27,7 @@ MOST_DESCRIBED = 3000  # files, of which titles are kept
 MOST_DEPTH = 32  # as in a file
 ENDINGS = (".yaml", ".yml")
 UNNAMED = "move"
+WARMING = "keyframes: [{at: 0, pan: 0}, {at: 4, pan: 1}, {at: 8, pan: 0}]\n"
 NO_NAME = "not a name for a move: use letters, digits, spaces, `.`, `-` and `_`"
 
 
@@ -37,6 +38,10 @@ class MoveRoutes:
         self._files, self._folder, self._rig, self._worker = NamedFiles(moves, ENDINGS), moves, rig, worker
         self._saving = asyncio.Lock()
         self._described: dict[tuple[str, int, int], Mapping[str, Any]] = {}
+
+    async def warm(self) -> None:
+        """Have everything loaded that a plan needs."""
+        await self._plan(WARMING, UNNAMED)
 
     async def list(self, _: Request) -> Response:
         """Every move of the folder and every shipped one that no file of the folder hides."""
@@ -52,7 +57,7 @@ class MoveRoutes:
     async def read(self, request: Request) -> Response:
         """The text and the values of a move."""
         name = request.path_params["name"]
-        file, shipped = self._find(name)
+        file, shipped = await self._find(name)
         text = await asyncio.to_thread(_text, file)
         found = await self._worker.do("parse", text, name)
         return answer({"name": name, "shipped": shipped, "version": version(text), "text": text, **found})
@@ -62,8 +67,11 @@ class MoveRoutes:
         require_operator(request)
         name = request.path_params["name"]
         data = await read_object(request, MOST_BODY, MOST_DEPTH)
-        if self._files.find(name) is None and self._files.place(name) is None:
+        own = self._files.find(name)
+        if own is None and self._files.place(name) is None:
             raise Refusal(400, NO_NAME)
+        if own is not None and await self._description(own) is None:
+            raise Refusal(409, f"{name} is the name of a file that is no move: choose another one")
         async with self._saving:
             text = await self._new_text(name, data)
             found = await self._plan(text, name)
@@ -88,7 +96,7 @@ class MoveRoutes:
         if given == ["move"]:
             if not isinstance(value, str):
                 raise Refusal(400, "move: must be the name of a move")
-            return await self._plan(_text(self._find(value)[0]), value)
+            return await self._plan(_text((await self._find(value))[0]), value)
         return await self._plan(_given_text(data) if given == ["text"] else _fresh(_values(value)), name)
 
     async def save_new(self, name: str, text: str) -> None:
@@ -104,9 +112,10 @@ class MoveRoutes:
         if self._files.place(name) is None:
             raise Refusal(400, NO_NAME)
 
-    def _find(self, name: str) -> tuple[Path, bool]:
-        """The file of a move, and whether it is shipped. Raises Refusal (404)."""
-        if (own := self._files.find(name)) is not None:
+    async def _find(self, name: str) -> tuple[Path, bool]:
+        """The file of a move, and whether it is shipped. Raises Refusal (404), also for a file that is no move."""
+        own = self._files.find(name)
+        if own is not None and await self._description(own) is not None:
             return own, False
         if name in described("sequences"):
             return folder("sequences") / f"{name}.yaml", True
@@ -115,7 +124,7 @@ class MoveRoutes:
     async def _new_text(self, name: str, data: Mapping[str, Any]) -> str:
         """What the file will be. Raises Refusal: 409 where it has changed since it was read."""
         try:
-            old = _text(self._find(name)[0])
+            old = _text((await self._find(name))[0])
         except Refusal:
             old = None
         known = data.get("version")

@@ -28,10 +28,6 @@ class Bucket:
         self.level -= 1
         return True
 
-    def is_empty(self, now: float) -> bool:
-        """Whether `take` would fail; takes nothing."""
-        return self.level + (now - self.at) * self.rate < 1
-
 
 class RateLimit:
     """A bucket for each client, by its address."""
@@ -43,11 +39,6 @@ class RateLimit:
     def take(self, address: str) -> bool:
         """Count one more of this client; False where that is too many."""
         return self._bucket(address).take(self._clock())
-
-    def is_over(self, address: str) -> bool:
-        """Whether the next one would be too many; counts nothing."""
-        bucket = self._buckets.get(client_key(address))
-        return bucket is not None and bucket.is_empty(self._clock())
 
     def _bucket(self, address: str) -> Bucket:
         key = client_key(address)

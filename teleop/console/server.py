@@ -45,6 +45,7 @@ async def serve(settings: ConsoleSettings, door: Door, listener: socket.socket) 
         await task
         raise
     finally:
+        ready.cancel()
         await asyncio.wait([ready])
         await console.close()
 

@@ -24,10 +24,6 @@ FAILED = "the console's worker failed"
 class Worker(Protocol):
     """Does one job at a time."""
 
-    async def start(self) -> None:
-        """Be ready before the first job."""
-        ...
-
     async def do(self, job: str, *arguments: Any) -> Any:
         """The result of a job of `jobs`, as JSON holds it."""
         ...
@@ -38,17 +34,12 @@ class Worker(Protocol):
 
 
 class WorkerProcess:
-    """A worker that is started with its first job, or by `start`, and again after one that it did not survive."""
+    """A worker that is started with its first job, and again after one that it did not survive."""
 
     def __init__(self) -> None:
         self._process: asyncio.subprocess.Process | None = None
         self._killed: set[asyncio.Task[int]] = set()
         self._turn = asyncio.Lock()
-
-    async def start(self) -> None:
-        """Have it ready before the first job: its imports take half a second."""
-        async with self._turn:
-            await self._running()
 
     async def do(self, job: str, *arguments: Any) -> Any:
         """The result, or `{"error": ...}`."""

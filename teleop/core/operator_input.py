@@ -21,7 +21,7 @@ class Command(StrEnum):
 
     STOP = "stop"  # latched
     CLEAR = "clear"  # of the STOP
-    ENABLE = "enable"  # for inputs that cannot be held: on, and off again
+    ENABLE = "enable"  # for inputs that cannot be held: on, and off again; with a number 1 on, 2 off
     SLOWER = "slower"
     FASTER = "faster"
     RANGE = "range"  # the next speed range, after the last the first

@@ -49,6 +49,7 @@ def _ages(value: Any) -> dict[str, float]:
 
 PRESET = whole(0, 999)
 NUMBER = whole(1, 999)
+MARK = text(1, "[ABC]")
 SECONDS = number(0.0, LONGEST)
 SHAPES: Mapping[str, Shape] = {
     "take_control": Shape(optional={"ask": truth}),
@@ -98,7 +99,13 @@ SHAPES: Mapping[str, Shape] = {
     "recenter": Shape(optional={"seconds": SECONDS}),
     "follow": Shape({"mode": text(24, r"[a-z][a-z0-9-]*")}),
     "focus": Shape({"to": number(0.0, 1.0)}, {"seconds": SECONDS}),
+    "focus_mark_store": Shape({"name": MARK}),
+    "focus_mark_recall": Shape({"name": MARK}, {"seconds": SECONDS}),
+    "focus_mark_delete": Shape({"name": MARK}),
     "range": Shape({"number": NUMBER}),
+    "manual": Shape({"on": truth}),
+    "drone": Shape({"command": text(24, r"[a-z][a-z-]*")}),
+    "mark_target": Shape({"text": text(40)}),
     "shoot": Shape({"move": text(120, FILE_NAME)}, {"resume": truth, "restart": truth}),
     "message": Shape({"name": text(60, r"[a-z][a-z0-9 _-]*")}, {"fields": plain_fields}),
     "alive": Shape(optional={"seen": _ages}),

@@ -56,6 +56,7 @@ class KeyInput(Protocol):
 
     question: str
     helping: bool
+    inviting: bool
 
     @property
     def is_waiting(self) -> bool: ...
@@ -90,6 +91,11 @@ class Keyboard:
     @property
     def helping(self) -> bool:
         return self._reader.helping
+
+    @property
+    def inviting(self) -> bool:
+        """Whether the operator wants to see how others open the console."""
+        return self._reader.inviting
 
     def __enter__(self) -> Self:
         import termios

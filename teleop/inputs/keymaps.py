@@ -17,6 +17,8 @@ from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command, Press
 
 STOP = " "
+INVITE = "o"
+"""Shows how others open the console beside a run."""
 ESCAPE = "\x1b"
 
 
@@ -103,6 +105,7 @@ HELP: Sequence[tuple[str, str]] = (
     ("t word", "mark a target"),
     ("d word", "drone: engage, arm"),
     ("b", "release the drone"),
+    (INVITE, "console: QR code"),
     ("q", "quit"),
 )
 
@@ -118,7 +121,7 @@ class KeyReader:
 
     def __init__(self) -> None:
         self.question = ""
-        self.helping = False
+        self.helping = self.inviting = False
         self._answers: Mapping[str, Act] = {}
         self._word: str | None = None  # what has been typed of one
         self._typed_after = ""  # which key
@@ -132,6 +135,7 @@ class KeyReader:
     def settle(self) -> None:
         """The rest never came: it was the escape key, which takes a question back."""
         self._begun = ""
+        self.inviting = False
         self._ask("")
 
     def feed(self, text: str) -> Iterator[Act]:
@@ -161,6 +165,8 @@ class KeyReader:
         self._ask(key if key in PREFIXES and not (asked and key in answers) else "")
         if key == "?":
             self.helping = not self.helping
+        elif key == INVITE and not asked:
+            self.inviting = not self.inviting
         elif asked and key in answers:
             yield answers[key]
         elif not asked and key in TYPED:

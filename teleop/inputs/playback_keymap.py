@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from teleop.core.axes import Axis
 from teleop.core.operator_input import Command, Press
-from teleop.inputs.keymaps import ARROWS, MODIFIED, STOP, Act, JogStep
+from teleop.inputs.keymaps import ARROWS, INVITE, MODIFIED, STOP, Act, JogStep
 from teleop.inputs.keymaps import KEYS as LIVE_KEYS
 
 RIGHT, LEFT = ("\x1b[C", "\x1bOC"), ("\x1b[D", "\x1bOD")
@@ -56,7 +56,7 @@ class PlayKeys:
     """From what a terminal sends to what is asked of a sequence; the shape that `Keyboard` wants of its reader."""
 
     question = ""
-    helping = False
+    helping = inviting = False
 
     def __init__(self, keys: Mapping[str, Act] = KEYS) -> None:
         self._keys = keys
@@ -68,6 +68,7 @@ class PlayKeys:
 
     def settle(self) -> None:
         self._begun = ""
+        self.inviting = False
 
     def feed(self, text: str) -> Iterator[Act]:
         text = self._begun + text
@@ -82,5 +83,8 @@ class PlayKeys:
                 yield act
             text = text[len(key) or 1 :]
 
-    def _other(self, character: str) -> Act | None:  # noqa: ARG002 - for readers that know more than a table
+    def _other(self, character: str) -> Act | None:
+        """What is in no table."""
+        if character == INVITE:
+            self.inviting = not self.inviting
         return None

@@ -139,6 +139,10 @@ class Operator:
         return math.inf if self._done else now
 
     @property
+    def marks_targets(self) -> bool:
+        return self._marks is not None
+
+    @property
     def taken(self) -> Collection[Axis]:
         """The axes that inputs moved in the last tick, or sent somewhere."""
         return self._arbitration.taken
@@ -178,8 +182,11 @@ class Operator:
             self._stopped, self.reason, self.stopped_by = False, "", ""
             self._relock_all()
 
-    def _enable(self, _hand: Interlock, _press: Press) -> None:
-        self._manual_control = not self._manual_control
+    def _enable(self, _hand: Interlock, press: Press) -> None:
+        on = press.number == 1 if press.number else not self._manual_control
+        if on == self._manual_control:
+            return
+        self._manual_control = on
         self.notify(
             "manual control on"
             if self._manual_control

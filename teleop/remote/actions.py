@@ -10,7 +10,6 @@ from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, Motion, moves
 from teleop.core.errors import TeleopError
 from teleop.core.events import Action, Tick
-from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
 from teleop.planner.go_motion import ExposureRuns
@@ -20,10 +19,11 @@ from teleop.remote.desk import Desk
 from teleop.remote.device_actions import DeviceActions, Due, DueList
 from teleop.remote.go_motion_job import GoMotionJob
 from teleop.remote.jobs import JobSource, WayJob
+from teleop.remote.key_actions import KeyActions
 from teleop.remote.keys import HandKeys
 from teleop.remote.made_jobs import JobMaker
+from teleop.remote.operator_actions import OperatorActions
 from teleop.remote.pass_errors import ShownPasses
-from teleop.remote.place_actions import PlaceActions
 from teleop.remote.play_job import NotNowError, PlayJob
 from teleop.remote.shoot_actions import ShootActions
 from teleop.remote.shoot_job import ShootJob
@@ -53,12 +53,12 @@ class LiveActions:
         self.operator: Operator
         self.desk: Desk
         self.passes = ShownPasses()
-        self.places = PlaceActions(keys, lambda: self._motion)
         self._motion: Motion = {}
         self._due = DueList()
         has_gimbal = any(sink.type == "gimbal" for sink in profile.sinks)
         self.devices = DeviceActions(jobs, told, self._due, lambda: self.rests, has_gimbal)
         self.shoots = ShootActions(jobs, works, maker, self._due, self._begin, lambda text: self.operator.notify(text))
+        self.by_operator = OperatorActions(limits, profile.presets.recall, self._go, lambda: self._motion)
         self._halted = False
         self._do: Mapping[str, Callable[[Asked, float], None]] = {
             "goto": lambda asked, _now: self._go("goto", asked, dict(asked["axes"]), asked.get("seconds")),
@@ -66,12 +66,6 @@ class LiveActions:
             "jog": self._jog,
             "focus": lambda asked, _now: self._go("focus", asked, {Axis.FOCUS: asked["to"]}, asked.get("seconds")),
             "recenter": self._recenter,
-            "preset_recall": self._recall,
-            "preset_store": self.places.store,
-            "preset_delete": self.places.delete,
-            "set_key": self.places.set_key,
-            "delete_key": self.places.delete_key,
-            "clear_keys": self.places.clear_keys,
             "play": self._play,
             "shoot": self._shoot,
             "pause": self._pause,
@@ -85,9 +79,10 @@ class LiveActions:
             "record": self._with_no_shoot(partial(self.devices.camera, action=Action.RECORD)),
             "stop_recording": self._with_no_shoot(partial(self.devices.camera, action=Action.STOP)),
             "shutter": self._with_no_shoot(partial(self.devices.camera, action=Action.SHUTTER)),
-            "range": self._range,
             "follow": self._with_no_shoot(self.devices.follow),
             "message": self._with_no_shoot(self.devices.message),
+            **KeyActions(keys, lambda: self._motion).do,
+            **self.by_operator.do,
         }
 
     # --- what the desk asks
@@ -231,14 +226,6 @@ class LiveActions:
         targets = {axis: 0.0 for axis in CENTERED if axis in self._limits}
         self._go("recenter", asked, targets, asked.get("seconds", self._profile.presets.recall))
 
-    def _recall(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        preset = self.places.presets.get(asked["number"])
-        if preset is None:
-            raise Refusal(f"there is no preset {asked['number']} yet")
-        known = {axis: to for axis, to in preset.positions.items() if axis in self._limits and not axis.is_stick}
-        cut = {axis: min(max(to, of.minimum), of.maximum) for axis, to in known.items() if (of := self._limits[axis])}
-        self._go(f"preset {asked['number']}", asked, cut, asked.get("seconds", self._profile.presets.recall))
-
     # --- moves
 
     def _play(self, asked: Asked, now: float) -> None:  # noqa: ARG002
@@ -307,11 +294,4 @@ class LiveActions:
         if self._jobs.job is None:
             raise Refusal("nothing moves that could be aborted")
         self._jobs.end(f"aborted by {asked.command.name}")
-        asked.end()
-
-    def _range(self, asked: Asked, now: float) -> None:  # noqa: ARG002
-        ranges = len(self.operator.status.ranges)
-        if asked["number"] > ranges:
-            raise Refusal(f"there are {ranges} speed ranges")
-        self.desk.press(asked.command.name, Command.RANGE, asked["number"])
         asked.end()

@@ -18,6 +18,8 @@ from contextlib import suppress
 from time import monotonic
 from typing import Any, NamedTuple
 
+from teleop.core.invitation import Invitation
+
 MODULE = "teleop.gateway"
 MOST, WITHIN = 3, 60.0  # starts again, in so many s
 HUNG = 5.0  # s without a word, after which it is ended
@@ -28,11 +30,15 @@ LINES = 20  # of its errors that are passed on, at most
 
 
 class Gateway(NamedTuple):
-    """What the gateway is told when it starts, the descriptors that it inherits, and lines on how it is reached."""
+    """What the gateway is told when it starts, the descriptors that it inherits, and lines on how it is reached.
+
+    `invitation` is for who has a browser, None without a console.
+    """
 
     settings: Mapping[str, Any]
     passed: Sequence[int] = ()
     greetings: Sequence[str] = ()
+    invitation: Invitation | None = None
 
 
 class GatewayChild:

@@ -60,6 +60,10 @@ class LiveShown:
     def presets(self) -> Mapping[str, Mapping[str, Any]]:
         return {str(number): self._preset(number) for number in self._presets.names}
 
+    @property
+    def focus_marks(self) -> Mapping[str, float]:
+        return self._presets.marks
+
     def _preset(self, number: int) -> Mapping[str, Any]:
         preset = self._presets.get(number)
         if preset is None:

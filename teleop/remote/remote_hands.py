@@ -17,6 +17,7 @@ from teleop.core.axes import Axis, Limits
 from teleop.core.errors import LinkError
 from teleop.core.events import Action, DeviceCommand, ShutterResult, Tick
 from teleop.core.interfaces import Clock, Observer, Sink, Source
+from teleop.core.invitation import Invitation
 from teleop.core.operator_input import Command, Held, Input
 from teleop.devices.rig import Rig
 from teleop.devices.shutter import ShutterSink
@@ -49,6 +50,10 @@ class RemoteHands:
         self._read = False  # in this tick
         self._clock: Clock | None = None  # of the run that goes on, or was the last
 
+    @property
+    def invitation(self) -> Invitation | None:
+        return None if self._gateway is None else self._gateway.invitation
+
     def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits]) -> None:
         """Open the door, until the stack is left."""
         self._profile = profile
@@ -65,7 +70,8 @@ class RemoteHands:
         stack.callback(self._actions.shoots.close)
         stack.callback(self._works.close)
         self.desk = Desk(self.door.socket, stick, self._notify, self._actions)
-        self._actions.desk = self._actions.devices.desk = self.desk
+        for actions in (self._actions, self._actions.devices, self._actions.by_operator):
+            actions.desk = self.desk
 
     @property
     def inputs(self) -> Sequence[Input]:
@@ -81,9 +87,8 @@ class RemoteHands:
         again, self._clock = self._clock is not None, rig.clock
         if again and self._operator.stopped_by:  # a STOP that is not cleared outlasts a run
             self.desk.press(self._operator.stopped_by, Command.STOP)
-        self._operator = self._actions.operator = operator
-        self._actions.places.presets, self._actions.places.notify = presets, operator.notify
-        self._actions.devices.has_camera = rig.camera is not None
+        self._operator = self._actions.operator = self._actions.by_operator.operator = operator
+        self._actions.by_operator.presets, self._actions.devices.has_camera = presets, rig.camera is not None
         self._shutter = self._shutter_of(rig)
         self._actions.shoots.has_camera = self._shutter is not None
         self._jobs.foresee = rig.foresee

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from types import MappingProxyType
 from typing import Any
 
 from teleop.app.beside import Running
@@ -11,6 +12,7 @@ from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.events import Action, Tick
 from teleop.core.interfaces import Clock, Observer
+from teleop.core.invitation import Invitation
 from teleop.core.operator_input import Command, Input
 from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
 from teleop.remote.asked import Asked, Refusal
@@ -46,6 +48,10 @@ class RunHands:
         self._recording = False
         self._running: Running | None = None
         self._passes = ShownPasses()
+
+    @property
+    def invitation(self) -> Invitation | None:
+        return None if self._gateway is None else self._gateway.invitation
 
     def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits], clock: Clock) -> None:
         """Open the door, until the stack is left."""
@@ -89,6 +95,8 @@ class RunHands:
 
     keys: Sequence[Mapping[str, float]] = ()
     changes = 0
+
+    focus_marks: Mapping[str, float] = MappingProxyType({})
 
     @property
     def presets(self) -> Mapping[str, Mapping[str, Any]]:

@@ -42,6 +42,9 @@ class Shown(Protocol):
     @property
     def presets(self) -> Mapping[str, Mapping[str, Any]]: ...
 
+    @property
+    def focus_marks(self) -> Mapping[str, float]: ...
+
     def drivers(self) -> Mapping[Axis, str]:
         """What moves an axis that no input does."""
         ...
@@ -149,7 +152,15 @@ class StatePublisher:
     def _seldom_now(self, status: OperatorStatus) -> Mapping[str, Any]:
         parts, shown = self._parts, self._parts.shown
         errors = shown.errors
-        of = (status.messages, status.inputs, status.range, status.follow, shown.changes, id(errors))
+        of = (
+            status.messages,
+            status.inputs,
+            status.range,
+            status.follow,
+            status.manual_control,
+            shown.changes,
+            id(errors),
+        )
         if of == self._of:
             return self._seldom
         self._of = of
@@ -161,7 +172,8 @@ class StatePublisher:
             "range": status.range + 1,
             "ranges": list(status.ranges),
             "follow": status.follow,
-            "focus_marks": {},
+            "focus_marks": dict(shown.focus_marks),
+            "manual": status.manual_control,
             "errors": errors,
             "inputs": [
                 {

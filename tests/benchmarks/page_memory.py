@@ -33,6 +33,7 @@ def main(minutes: float) -> None:
     with tempfile.TemporaryDirectory() as place, PageServer(Path(place)) as server, chrome() as browser:
         threading.Thread(target=sway, args=(server, ended), daemon=True).start()
         page = browser.open("about:blank")
+        page.set_default_timeout(300_000)  # a busy computer is no reason to end after 20 minutes
         page.on("websocket", lambda socket: socket.on("framereceived", lambda text: received.append(len(text))))
         page.goto(server.url)
         take_control(page)

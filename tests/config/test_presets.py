@@ -43,6 +43,20 @@ def test_what_is_stored_is_there_in_the_next_run(tmp_path: Path) -> None:
     assert list(tmp_path.glob("deep/.*")) == []
 
 
+def test_marks_of_the_focus_are_kept_beside_the_presets(tmp_path: Path) -> None:
+    file = tmp_path / "presets.yaml"
+    shelf = read_presets(file, LIMITS, RIG)
+    shelf.mark("B", 0.80001)
+    shelf.mark("A", 0.25)
+    shelf.mark("C", 1)
+    shelf.mark("C", None)
+    shelf.store(1, {Axis.PAN: 1.0})
+    assert shelf.changes == 5
+    shelf.close()
+    assert file.read_text().endswith("  1: {pan: 1.0}\nfocus_marks: {A: 0.25, B: 0.8}\n")
+    assert read_presets(file, LIMITS, RIG).marks == {"A": 0.25, "B": 0.8}
+
+
 def test_a_name_and_an_axis_of_another_rig_survive_a_store(tmp_path: Path) -> None:
     file = tmp_path / "presets.yaml"
     file.write_text('presets:\n  1: {pan: 1, roll: 5, name: "wide \\u00e9"}\n')
@@ -75,6 +89,8 @@ def test_a_preset_beyond_the_soft_limits_is_said(tmp_path: Path) -> None:
         ("presets:\n  1: {pan: far}\n", "presets.yaml:2:12: presets.1.pan must be a number, not 'far'"),
         ("presets:\n  1: {pan: .nan}\n", "presets.yaml:2:12: presets.1.pan must be a finite number, not nan"),
         ("presets:\n  1: {name: x}\n", "presets.yaml:2:6: presets.1 has no axis (pan, tilt, roll, focus)"),
+        ("focus_marks: {D: 0.5}\n", "presets.yaml:1:15: focus_marks.D must be one of A, B, C"),
+        ("focus_marks: {A: 1.5}\n", "presets.yaml:1:18: focus_marks.A must be"),
         ("presets: 3\n", "presets.yaml:1:10: presets must be a mapping, not 3"),
     ],
 )

@@ -124,6 +124,16 @@ def test_a_name_is_never_a_path(bench, folder, name):
     assert sorted(folder.parent.rglob("*")) == before
 
 
+def test_a_file_that_is_no_move_is_neither_read_nor_written(bench, folder):
+    text = "name: My rig\nlinks: {gimbal: 'sim:'}\naxes: {pan: {min: -1, max: 1}}\nsinks: []\n"
+    (folder / "rig.yaml").write_text(text)
+    assert bench.get("/api/moves/rig").status_code == 404
+    answer = bench.put("/api/moves/rig", json={"text": "keyframes: [{at: 0, pan: 0}, {at: 4, pan: 1}]\n"})
+    assert answer.status_code == 409
+    assert "no move: choose another one" in answer.json()["error"]
+    assert (folder / "rig.yaml").read_text() == text
+
+
 def test_a_link_out_of_the_folder_is_neither_read_nor_written(bench, folder):
     (folder / "link.yaml").symlink_to(folder.parent / "secret.yaml")
     (folder / "dangling.yaml").symlink_to(folder.parent / "new.yaml")

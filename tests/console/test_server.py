@@ -122,6 +122,24 @@ def test_connections_that_ask_for_nothing_are_closed_and_few_of_one_computer(mon
     asyncio.run(scenario())
 
 
+@pytest.mark.parametrize("bound", ["MOST_OF_ONE", "MOST"])
+def test_who_holds_connections_open_keeps_nobody_out(monkeypatch, bound):
+    monkeypatch.setattr(connections, bound, 3)
+
+    async def scenario():
+        async with served(token=TOKEN) as (_, settings):
+            silent = [await asyncio.open_connection("127.0.0.1", settings.port) for _ in range(3)]
+            for _, writer in silent:
+                writer.write(b"POST /api/stop HTTP/1.1\r\nHost:")  # slowly
+            async with httpx2.AsyncClient(headers={"Authorization": f"Bearer {TOKEN}"}) as client:
+                assert (await client.post(f"http://127.0.0.1:{settings.port}/api/stop")).json()["stopped"]
+            assert await silent[0][0].read() == b""  # the oldest has gone
+            for _, writer in silent:
+                writer.close()
+
+    asyncio.run(scenario())
+
+
 def test_with_tls_only_https_is_served(tmp_path):
     async def scenario():
         async with served(with_tls(ConsoleSettings(port=0))) as (_, settings):

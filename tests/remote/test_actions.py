@@ -155,6 +155,34 @@ def test_presets_and_keys_are_stored_where_the_axes_are(held: RemoteBench) -> No
     assert (held.state["presets"], held.state["keys"]) == ({}, [])
 
 
+# --- keys of the terminal
+
+
+def test_manual_control_is_turned_on_and_off_by_what_is_wanted_and_not_by_the_other_way_round(
+    held: RemoteBench,
+) -> None:
+    assert held.state["manual"]
+    for on in (False, False, True, True):
+        assert "ok" in held.ask("manual", on=on)
+        held.tick()
+        assert held.state["manual"] is on
+    assert [line for line in held.lines if line.startswith("manual control on")] == ["manual control on"]
+
+
+def test_what_a_rig_has_not_is_refused_and_not_only_noted(held: RemoteBench) -> None:
+    for do, fields, reason in (
+        ("drone", {"command": "arm"}, "this rig has no drone"),
+        ("drone", {"command": "fly"}, "unknown command drone fly; commands: engage, disengage, arm"),
+        ("mark_target", {"text": "door,4.2"}, "start the rig with --targets FILE"),
+        ("focus_mark_store", {"name": "A"}, "this rig has no focus"),
+        ("focus_mark_recall", {"name": "A"}, "there is no focus mark A yet"),
+        ("focus_mark_delete", {"name": "A"}, "there is no focus mark A"),
+    ):
+        answer = held.ask(do, **fields)
+        assert reason in answer["error"]
+        assert answer["kind"] == "refused"
+
+
 # --- devices
 
 

@@ -25,9 +25,6 @@ LOCKED = ConsoleSettings(token=TOKEN, watch_token=WATCH)
 class HereWorker:
     """Does what a worker does in a thread of this process."""
 
-    async def start(self) -> None:
-        jobs()
-
     async def do(self, job: str, *arguments: Any) -> Any:
         line = json.dumps([job, *arguments]).encode()
         return json.loads(json.dumps(await asyncio.to_thread(work, line, jobs()), allow_nan=False))

@@ -124,9 +124,6 @@ def _body(random: Random) -> list[bytes]:
 class QuickWorker:
     """Answers at once that nothing can be planned or read."""
 
-    async def start(self) -> None:
-        pass
-
     async def do(self, job: str, *arguments: Any) -> Any:
         return {"error": f"no {job}", "ok": False, "kind": ""}
 

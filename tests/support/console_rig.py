@@ -38,7 +38,7 @@ class ConsoleRig:
             "stopped": False, "stopped_by": "", "stopped_at": None,
             "recording": False, "recording_s": 0.0, "camera": True,
             "move": None, "shoot": None, "keys": [], "presets": {},
-            "range": 2, "ranges": [0.1, 0.35, 1.0], "follow": "lock", "focus_marks": {}, "inputs": [],
+            "range": 2, "ranges": [0.1, 0.35, 1.0], "follow": "lock", "focus_marks": {}, "manual": True, "inputs": [],
             "sticks": {"missed": 0, "age_ms": None, "armed": False, "waits_for": ""}, "messages": [],
         }  # fmt: skip
         self.frozen: float | None = None  # the loop's time of a rig that stands still for a picture
@@ -146,6 +146,12 @@ class ConsoleRig:
 
     def _focus(self, command: Mapping[str, Any], *_: Any) -> None:
         self.goal["focus"] = (command["to"], 0.5)
+
+    def _focus_mark_store(self, command: Mapping[str, Any], *_: Any) -> None:
+        self.more["focus_marks"][command["name"]] = round(self.at["focus"], 3)
+
+    def _focus_mark_recall(self, command: Mapping[str, Any], *_: Any) -> None:
+        self.goal["focus"] = (self.more["focus_marks"][command["name"]], 0.5)
 
     def _preset_store(self, command: Mapping[str, Any], *_: Any) -> None:
         self.more["presets"][str(command["number"])] = {axis: round(value, 3) for axis, value in self.at.items()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 import shutil
 import threading
 import time
@@ -17,6 +18,7 @@ from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_play
 from teleop.console.server import serve
 from teleop.console.settings import ConsoleSettings, listen
 
+REFUSED = re.compile(r"error: (Failed to load resource|WebSocket connection to)")
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 LAPTOP, PHONE, LANDSCAPE, SMALL, LARGE = (1280, 800), (390, 844), (844, 390), (360, 640), (3840, 2160)
 PATIENCE = 20_000  # ms: a busy machine is slow, and no test asserts on its speed
@@ -64,12 +66,16 @@ class PageServer:
 
 
 class Chrome:
-    """A browser. `errors` are those of all pages since they were last looked at."""
+    """A browser. `errors` are those of all pages since they were last looked at, and all that stands in their consoles.
+
+    `allowed` is a pattern of what a test has to cause: Chromium writes down each request that is refused.
+    """
 
     def __init__(self, browser: Browser) -> None:
         self._browser = browser
         self._contexts: list[BrowserContext] = []
         self.errors: list[str] = []
+        self.allowed: re.Pattern[str] | None = None
 
     def open(self, url: str, size: tuple[int, int] = LAPTOP, touch: bool = False, **options: Any) -> Page:
         """A page of its own, as another person's browser: cookies and storage are not shared."""
@@ -79,9 +85,16 @@ class Chrome:
         context.set_default_timeout(PATIENCE)
         self._contexts.append(context)
         page = context.new_page()
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("pageerror", lambda error: self._note(str(error)))
+        page.on("console", lambda message: self._note(f"{message.type}: {message.text}"))
         page.goto(url)
         return page
+
+    def _note(self, text: str) -> None:
+        if text.endswith("WebSocket is closed before the connection is established."):
+            return  # a computer that is too busy to connect within 1 s: the page tries again
+        if self.allowed is None or not self.allowed.match(text):
+            self.errors.append(text)
 
     def close(self) -> None:
         while self._contexts:

@@ -18,7 +18,7 @@ from rich.text import Text
 from teleop.cli.screens.axis_table import axis_rows
 from teleop.cli.screens.drone_rows import drone_rows, summary
 from teleop.cli.screens.live_rows import Traffic, banner, help_rows, key_rows, message_row, state_rows, title_row
-from teleop.cli.screens.picture import Picture, Rows
+from teleop.cli.screens.picture import Picture, Rows, Sheet
 from teleop.cli.screens.stderr_writer import StderrWriter
 from teleop.core.axes import Axis, Limits
 from teleop.core.events import Tick
@@ -55,6 +55,7 @@ class LiveView:
         take: Callable[[], str] = lambda: "",
         silent: bool = False,
         drone: Callable[[], DroneState | None] = lambda: None,
+        sheet: Sheet | None = None,
     ) -> None:
         self._drone = drone
         self._title, self._limits, self._status = title, limits, status
@@ -62,7 +63,7 @@ class LiveView:
         self._traffic = {name: Traffic(connection) for name, connection in connections.items()}
         self._tick: Tick | None = None
         self._begin = math.nan
-        self._picture = Picture(self._draw)
+        self._picture = Picture(self._draw, sheet=sheet)
         self._on_screen = self._picture.possible and not silent
         self._plain = Plain(title, drone)
         self._stack = ExitStack()

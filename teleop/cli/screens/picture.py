@@ -12,7 +12,7 @@ import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from types import TracebackType
-from typing import Self
+from typing import Protocol, Self
 
 from rich.console import Console
 from rich.control import Control
@@ -67,12 +67,22 @@ Draw = Callable[[int, int], Rows]
 """The rows for a terminal of so many columns and rows."""
 
 
+class Sheet(Protocol):
+    """What may lie over a drawing."""
+
+    def over(self, rows: Rows, width: int, height: int) -> Rows: ...
+
+
 @dataclass
 class Picture:
-    """`draw` on the terminal while it is entered. `possible` is False where there is none that a cursor moves on."""
+    """`draw` on the terminal while it is entered, under the `sheet`.
+
+    `possible` is False where there is none that a cursor moves on.
+    """
 
     draw: Draw
     console: Console = field(default_factory=lambda: Console(stderr=True, highlight=False))
+    sheet: Sheet | None = None
 
     def __post_init__(self) -> None:
         self._over = threading.Event()
@@ -96,7 +106,8 @@ class Picture:
         """The whole screen as it is now; never raises."""
         width, height = max(1, self.console.width), max(1, self.console.height)
         try:
-            rows = self.draw(width, height).fitted(width, height)
+            rows = self.draw(width, height)
+            rows = (rows if self.sheet is None else self.sheet.over(rows, width, height)).fitted(width, height)
         except Exception as error:  # noqa: BLE001 - a broken picture is no reason to stop anything
             rows = Rows(Text(f"cannot draw the view ({type(error).__name__}: {error}); the run continues", "red"))
             rows = rows.fitted(width, height)

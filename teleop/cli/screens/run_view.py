@@ -13,7 +13,7 @@ from dataclasses import replace
 from rich.text import Text
 
 from teleop.cli.screens.axis_table import axis_rows
-from teleop.cli.screens.picture import Rows
+from teleop.cli.screens.picture import Rows, Sheet
 from teleop.cli.screens.run_rows import NO_KEYS, banner, hint_rows, note_rows, state_rows, title_row
 from teleop.cli.screens.screen import Screen
 from teleop.cli.screens.tables import print_table
@@ -42,8 +42,9 @@ class RunView(Screen):
         take: Callable[[], str] = lambda: "",
         command: str = "teleop play",
         hints: Sequence[Hint] = NO_KEYS,
+        sheet: Sheet | None = None,
     ) -> None:
-        super().__init__(title, silent)
+        super().__init__(title, silent, sheet)
         self._limits, self._status, self._take, self._command = limits, status, take, command
         self._hints = hints
         self._latest: tuple[Tick, RunStatus] | None = None

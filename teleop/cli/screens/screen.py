@@ -16,7 +16,7 @@ from typing import Self
 from rich.text import Text
 
 from teleop.cli.screens.folded import folded
-from teleop.cli.screens.picture import Picture, Rows
+from teleop.cli.screens.picture import Picture, Rows, Sheet
 from teleop.cli.screens.stderr_writer import MOST, StderrWriter
 from teleop.core.events import Tick
 
@@ -24,13 +24,13 @@ NOTES = 5  # of the latest messages, shown in the view
 
 
 class Screen(ABC):
-    """A sink that only shows. `silent` is for programs: then only warnings are printed."""
+    """A sink that only shows, under the `sheet`. `silent` is for programs: then only warnings are printed."""
 
-    def __init__(self, title: str, silent: bool) -> None:
+    def __init__(self, title: str, silent: bool, sheet: Sheet | None = None) -> None:
         self._title, self._silent = title, silent
         self._lines = StderrWriter()
         self._said: deque[str] = deque(maxlen=MOST)
-        self._picture = Picture(self._draw)
+        self._picture = Picture(self._draw, sheet=sheet)
         self._on_screen = self._picture.possible and not silent
         self._stack = ExitStack()
 

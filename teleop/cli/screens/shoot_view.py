@@ -12,6 +12,7 @@ from pathlib import Path
 
 from rich.text import Text
 
+from teleop.cli.screens.picture import Sheet
 from teleop.cli.screens.run_rows import labelled
 from teleop.cli.screens.run_view import RunView
 from teleop.cli.shooting.timelapse_summary import clock
@@ -44,11 +45,12 @@ class ShootView(RunView):
         keys: bool,
         take: Callable[[], str] = lambda: "",
         also: Callable[[RunStatus], RunStatus] = lambda status: status,
+        sheet: Sheet | None = None,
     ) -> None:
         def status(now: float) -> RunStatus:
             return also(shoot_status(progress, now, keys))
 
-        super().__init__(title, limits, status, silent, take, "teleop shoot")
+        super().__init__(title, limits, status, silent, take, "teleop shoot", sheet=sheet)
         self._folder, self._progress = folder, progress
         self._reached = -math.inf, -1  # when the last line was written, and at how many hundredths
 

@@ -13,6 +13,7 @@ from teleop.cli.key_terminal import key_terminal
 from teleop.cli.options import Options
 from teleop.cli.running import EXIT_CODES, axes_facts, print_links, print_reasons, print_take
 from teleop.cli.screens.folded import complain, tell, warn
+from teleop.cli.screens.invitation_sheet import sheet
 from teleop.cli.screens.run_view import error_table
 from teleop.cli.screens.shoot_view import ShootView, free
 from teleop.cli.screens.take_summary import take_words
@@ -52,7 +53,9 @@ def shoot(
     def view(shooting: Shooting, journal: Path, recorder: Recorder | None) -> ShootView:
         folder, title = journal.absolute().parent, timelapse.title
         words, keyed = take_words(recorder), keys is not None
-        return ShootView(title, timelapse.limits, folder, shooting.progress, options.json, keyed, words, shooting.shown)
+        invited = sheet(None if beside is None else beside.invitation, keys)
+        shown = shooting.progress, options.json, keyed, words, shooting.shown, invited
+        return ShootView(title, timelapse.limits, folder, *shown)
 
     def begun(journal: Path) -> None:
         if not options.json:

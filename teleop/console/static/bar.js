@@ -3,7 +3,7 @@ import { html, useEffect, useSignal } from "./vendor/preact/preact.min.js";
 import { command, stop, stopping } from "./connection.js";
 import { age, fresh, hello, holder, link, mayOperate, mine, notice, part, roundTrip, state, tab } from "./store.js";
 import { milliseconds, minutes, timeOfDay } from "./format.js";
-import { clear, showHelp } from "./keyboard.js";
+import { clear, showHelp, Word } from "./keyboard.js";
 
 export const TABS = [["live", "Live"], ["move", "Move"], ["shoot", "Shoot"], ["takes", "Takes"]];
 const HANDOVER = 5; // s after which control passes to who asks
@@ -85,13 +85,13 @@ function Tabs() {
 
 /** Lines that need an eye or an answer: STOP, a request for control, a lost connection, what a command met. */
 export function Banners() {
-  return html`<div class="banners" role="status" aria-live="polite">
+  return html`<div class="banners"><${Word} /><div role="status" aria-live="polite">
     ${link.value === "lost" && html`<p class="banner bad"><b>Connection lost</b><span>The rig has stopped what this page moved. Reconnecting as a watcher.</span></p>`}
     ${link.value === "late" && html`<p class="banner bad"><b>The rig does not answer</b><span>The last state is ${milliseconds(state.value?.age_ms ?? null)} old.</span></p>`}
     ${fresh.value && stopped.value && html`<${Stopped} />`}
     ${asking.value && mine.value && html`<${Asked} />`}
     ${notice.value && html`<p class="banner ${notice.value.kind === "error" ? "warn" : ""}"><span>${notice.value.text}</span></p>`}
-  </div>`;
+  </div></div>`;
 }
 
 function Stopped() {

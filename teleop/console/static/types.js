@@ -15,7 +15,7 @@
  *   recording: boolean, recording_s: number, camera: boolean, move: MoveState|null, shoot: ShootState|null,
  *   errors?: PassErrors|null, battery?: number|null,
  *   keys: Object<string, number>[], presets: Object<string, Positions>, range: number, ranges: number[], follow: string,
- *   focus_marks: Object<string, number>, inputs: InputState[], links: Object<string, {age_ms: number|null, ok: boolean}>,
+ *   focus_marks: Object<string, number>, manual: boolean, inputs: InputState[], links: Object<string, {age_ms: number|null, ok: boolean}>,
  *   sticks: {missed: number, age_ms: number|null, armed: boolean, waits_for: string}, messages: {time: number, text: string}[],
  *   fov?: [number, number]}} State
  * @typedef {{ok?: boolean, error?: string, kind?: string, holder?: string}} Answer

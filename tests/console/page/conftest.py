@@ -31,6 +31,7 @@ def rig(server):
 def visit(browser, server, rig):
     """Opens a page on the server; what went wrong in any page fails the test."""
     browser.errors.clear()
+    browser.allowed = None
     yield lambda *args, **options: browser.open(server.url + options.pop("at", ""), *args, **options)
     browser.close()
     assert browser.errors == []

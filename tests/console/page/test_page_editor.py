@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from page_bench import PHONE, take_control, until
+from page_bench import PHONE, REFUSED, take_control, until
 from playwright.sync_api import expect
 
 MOVE = """\
@@ -163,8 +163,9 @@ def test_play_is_for_what_is_saved(editor, rig):
     until(lambda: [each for each in rig.commands if each["do"] == "play" and each["move"] == "across"])
 
 
-def test_someone_elses_later_change_is_not_overwritten(editor, server):
+def test_someone_elses_later_change_is_not_overwritten(editor, server, browser):
     page = editor()
+    browser.allowed = REFUSED
     other = MOVE.replace("pan: 40", "pan: 41")
     (server.moves / "across.yaml").write_text(other)
     cell = page.get_by_label("pan of key 2")

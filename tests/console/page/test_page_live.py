@@ -7,6 +7,9 @@ import re
 from page_bench import PHONE, take_control, until
 from playwright.sync_api import expect
 
+from teleop.inputs.keymaps import HELP, INVITE
+from teleop.inputs.playback_keymap import KEYS, LEFT, RIGHT
+
 
 def commands(rig, name):
     return [each for each in rig.commands if each["do"] == name]
@@ -149,6 +152,9 @@ def test_the_keys_of_the_terminal_work(visit, rig):
         ("z", "recenter", {}),
         ("r", "record", {}),
         (".", "shutter", {}),
+        ("e", "manual", {"on": False}),
+        ("b", "drone", {"command": "disengage"}),
+        ("g", "play", {}),
     ):
         page.keyboard.press(key)
         until(lambda name=name, fields=fields: was_asked(rig, name, fields))
@@ -171,6 +177,95 @@ def test_the_keys_of_the_terminal_work(visit, rig):
     expect(page.get_by_role("dialog")).to_be_visible()
 
 
+def test_words_are_typed_as_in_the_terminal_and_space_is_stop_in_them_too(visit, rig):
+    page = visit()
+    take_control(page)
+    for key, word, name, fields in (
+        ("d", "Home-off", "drone", {"command": "home-off"}),
+        ("t", "door,4.2", "mark_target", {"text": "door,4.2"}),
+    ):
+        page.keyboard.press(key)
+        page.locator(".word").wait_for()
+        page.keyboard.type(word)
+        page.keyboard.press("Enter")
+        until(lambda name=name, fields=fields: was_asked(rig, name, fields))
+        expect(page.locator(".word")).to_have_count(0)
+    page.keyboard.press("d")
+    page.locator(".word").wait_for()
+    page.keyboard.press("Escape")
+    expect(page.locator(".word")).to_have_count(0)
+    page.keyboard.press("d")
+    page.locator(".word").wait_for()
+    page.keyboard.type("ar m")
+    until(lambda: rig.more["stopped"])
+    assert len(commands(rig, "drone")) == 1
+
+
+MOVE = {
+    "title": "reveal",
+    "phase": "playing",
+    "at": 1.0,
+    "duration": 8.0,
+    "speed": 1.0,
+    "max_speed": 1.25,
+    "key": 1,
+    "keys": 5,
+    "pass": 1,
+    "passes": 1,
+}
+SHOOT = {
+    "title": "dusk",
+    "frames_done": 3,
+    "frames": 240,
+    "eta": None,
+    "missed": 0,
+    "paused": True,
+    "phase": "paused",
+    "why": "",
+}
+
+
+def test_the_keys_of_teleop_play_work_while_a_move_plays_and_those_of_a_shoot_in_one(visit, rig):
+    page = visit()
+    take_control(page)
+    rig.more["move"] = MOVE
+    expect(page.get_by_test_id("pause")).to_be_enabled()
+    for key, name, fields in (
+        ("-", "speed", {"share": 0.9}),
+        ("+", "speed", {"share": 1.1}),
+        (">", "next_key", {}),
+        ("ArrowLeft", "previous_key", {}),
+        ("p", "pause", {}),
+        ("g", "resume", {}),
+        ("q", "abort", {}),
+    ):
+        page.keyboard.press(key)
+        until(lambda name=name, fields=fields: was_asked(rig, name, fields))
+    assert not commands(rig, "jog")
+    assert not commands(rig, "range")
+    rig.commands.clear()
+    rig.more.update(move=None, shoot=SHOOT)
+    expect(page.get_by_test_id("pause")).to_be_disabled()
+    for key, name in ((".", "next_key"), (",", "previous_key"), ("p", "resume"), ("q", "abort")):
+        page.keyboard.press(key)
+        until(lambda name=name: commands(rig, name))
+    assert not commands(rig, "shutter")
+
+
+def test_the_list_of_keys_has_every_key_of_the_terminal(visit):
+    page = visit()
+    page.keyboard.press("?")
+    expect(page.get_by_role("dialog")).to_be_visible()
+    shown = {"".join(each.split()) for each in page.locator("dialog dt").all_inner_texts()}
+    own = {"q", INVITE}  # of the terminal alone: its run, and the way to this page
+    assert {"".join(key.split()) for key, _ in HELP} - own <= shown
+    of_moves = "".join(page.locator("dialog dl").nth(1).locator("dt").all_inner_texts())
+    arrows = (*RIGHT, *LEFT)
+    missing = set(KEYS) - {" ", "c", "\n", "\r", "=", *arrows} - set(of_moves)
+    assert missing == set()
+    assert "arrows" in of_moves
+
+
 def test_a_focus_mark_is_set_by_holding_and_reached_by_a_tap(visit, rig):
     page = visit()
     take_control(page)
@@ -181,8 +276,9 @@ def test_a_focus_mark_is_set_by_holding_and_reached_by_a_tap(visit, rig):
     expect(mark).to_contain_text("0.250")
     rig.at["focus"] = 0.9
     mark.click()
-    until(lambda: commands(rig, "focus"))
-    assert commands(rig, "focus")[0]["to"] == 0.25
+    until(lambda: was_asked(rig, "focus_mark_recall", {"name": "B", "seconds": 1}))
+    page.get_by_label("Focus, 0 near").fill("0.254")  # a value that is typed is no drag near the mark
+    until(lambda: was_asked(rig, "focus", {"to": 0.254}))
 
 
 def test_no_state_for_a_second_is_gray_and_says_so_and_the_page_comes_back_as_a_watcher(visit, rig):

@@ -9,7 +9,7 @@ import urllib.request
 from contextlib import ExitStack
 
 import pytest
-from page_bench import PHONE, take_control, until
+from page_bench import PHONE, REFUSED, take_control, until
 from playwright.sync_api import expect
 from real_console import RealConsole
 
@@ -36,6 +36,7 @@ def console(consoles, tmp_path):
 @pytest.fixture
 def visit(browser, console):
     browser.errors.clear()
+    browser.allowed = REFUSED  # the gateway is killed in some of these
     yield lambda *args, **options: browser.open(console.url, *args, **options)
     browser.close()
     assert browser.errors == []
@@ -133,6 +134,25 @@ def test_keys_from_the_hand_are_set_jogged_and_played(visit, console):
     expect(page.get_by_test_id("pause")).to_have_accessible_name("Resume")
     page.get_by_role("button", name="End the move").click()
     until(lambda: console.state["move"] is None)
+
+
+def test_a_focus_mark_is_the_rigs_every_page_has_it_and_so_has_the_file(visit, console):
+    page, other = visit(), visit(PHONE, touch=True)
+    take_control(page)
+    page.get_by_label("Focus, 0 near").fill("0.3")
+    until(lambda: abs(console.axis("focus")["commanded"] - 0.3) < 1e-6 and console.rests)
+    for each in (page, other):
+        expect(each.get_by_test_id("focus-mark-B")).to_contain_text("set")
+    page.get_by_test_id("focus-mark-B").click()
+    for each in (page, other):
+        expect(each.get_by_test_id("focus-mark-B")).to_contain_text("0.300")
+    (file,) = (console.folder / "state").rglob("presets-*.yaml")
+    until(lambda: "focus_marks: {B: 0.3}" in file.read_text())
+    page.get_by_label("Seconds of a focus pull").fill("0.2")
+    page.get_by_label("Focus, 0 near").fill("0.6")
+    until(lambda: abs(console.axis("focus")["commanded"] - 0.6) < 1e-6 and console.rests)
+    page.get_by_test_id("focus-mark-B").click()
+    until(lambda: abs(console.axis("focus")["commanded"] - 0.3) < 1e-6 and console.rests)
 
 
 def test_a_key_that_is_edited_is_planned_and_saved_with_the_comments(visit, console):
