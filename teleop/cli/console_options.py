@@ -55,8 +55,8 @@ def with_console(arguments: Sequence[str]) -> list[str]:
 
 @Parameter(name="*")
 @dataclass(frozen=True)
-class ConsoleOptions:
-    """How the console is reached, and what it serves."""
+class ReachedOptions:
+    """How the console is reached."""
 
     token: Annotated[
         str | None, Parameter(metavar="TOKEN", help="Token to log in with; without it one is made where it is needed.")
@@ -73,14 +73,17 @@ class ConsoleOptions:
     key: Annotated[
         Path | None, Parameter(metavar="FILE", help="The key of --certificate, if it is in another file.")
     ] = None
-    moves: Annotated[
-        Path, Parameter(metavar="FOLDER", help="Folder of the moves and takes that the console shows.")
-    ] = Path()
+
+    @property
+    def served(self) -> str:
+        """The folder of the moves and takes that it shows, "" for none."""
+        return ""
 
     @contextmanager
-    def gateway(self, bind: str, rig: str, as_json: bool) -> Iterator[Gateway]:
+    def gateway(self, bind: str, rig: str, as_json: bool, results: str = "") -> Iterator[Gateway]:
         """What the gateway is started with, while it listens there; prints how to reach it.
 
+        `results` is the folder that a commissioning leaves.
         Raises UsageError and DeviceError for an address at which it cannot listen.
         """
         try:
@@ -93,12 +96,10 @@ class ConsoleOptions:
         from teleop.console.settings import ConsoleSettings, listen, parse_bind, with_tokens
         from teleop.remote.gateway_child import Gateway
 
-        if not self.moves.is_dir():
-            raise UsageError(f"--moves {self.moves}: is no folder")
         host, port = parse_bind(bind)
-        folder = str(self.moves.resolve())
+        folder = self.served or results
         tokens = self.token or "", self.watch_token or ""
-        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, rig=rig)
+        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, results=results, rig=rig)
         if self.tls or self.certificate or self.key:
             from teleop.console.certificate import with_tls
 
@@ -115,10 +116,10 @@ class ConsoleOptions:
             yield Gateway({"console": console}, (number,), greeting(settings))
 
     @contextmanager
-    def beside(self, bind: str | None, rig: str, as_json: bool) -> Iterator[Gateway | None]:
+    def beside(self, bind: str | None, rig: str, as_json: bool, results: str = "") -> Iterator[Gateway | None]:
         """As `gateway`, where a console is asked for; None where it is not. Raises UsageError for its options alone."""
         if bind is not None:
-            with self.gateway(bind, rig, as_json) as gateway:
+            with self.gateway(bind, rig, as_json, results) as gateway:
                 yield gateway
             return
         for name in ("token", "watch_token", "tls", "certificate", "key"):
@@ -127,4 +128,21 @@ class ConsoleOptions:
         yield None
 
 
-NO_CONSOLE = ConsoleOptions()
+@Parameter(name="*")
+@dataclass(frozen=True)
+class ConsoleOptions(ReachedOptions):
+    """How the console is reached, and what it serves."""
+
+    moves: Annotated[
+        Path, Parameter(metavar="FOLDER", help="Folder of the moves and takes that the console shows.")
+    ] = Path()
+
+    @property
+    def served(self) -> str:
+        """Raises UsageError for what is no folder."""
+        if not self.moves.is_dir():
+            raise UsageError(f"--moves {self.moves}: is no folder")
+        return str(self.moves.resolve())
+
+
+NOT_REACHED, NO_CONSOLE = ReachedOptions(), ConsoleOptions()

@@ -76,6 +76,11 @@ COMMANDS: Mapping[str, CommandSchema] = {
     ),
     "range": CommandSchema("Choose the speed range of sticks", {"number": WHOLE}),
     "shoot": CommandSchema("Shoot a timelapse", {"move": MOVE}),
+    "commission_key": CommandSchema(
+        "Press a key of the page of a commissioning, by the page's number",
+        {"page": WHOLE, "key": TEXT},
+        {"text": TEXT, "agrees": {"type": "boolean", "description": "to what the page says of more than 5 deg/s"}},
+    ),
     "message": CommandSchema("Send a message of the R SDK", {"name": TEXT}, {"fields": {"type": "object"}}),
     "plan": CommandSchema(
         "Plan a move; answered by the gateway",

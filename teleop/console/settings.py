@@ -27,8 +27,8 @@ class ConsoleSettings:
     """`host` and `port` to listen at; without tokens nobody has to log in, which only loopback allows.
 
     Who has the `token` operates, who has the `watch_token` only watches and may press STOP. `moves` and `takes` are
-    the only folders that are served. `certificate` and `key` are files (PEM) for TLS, "" without. `rig` is what plans
-    are made for: a shipped profile's name, or a file.
+    the only folders that are served, and of `results` the three files of a commissioning. `certificate` and `key` are
+    files (PEM) for TLS, "" without. `rig` is what plans are made for: a shipped profile's name, or a file.
     """
 
     host: str = "127.0.0.1"
@@ -37,6 +37,7 @@ class ConsoleSettings:
     watch_token: str = ""
     moves: str = "."
     takes: str = "."
+    results: str = ""
     rig: str = "sim"
     certificate: str = ""
     key: str = ""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -61,6 +61,7 @@ class Parts:
     connections: Mapping[str, Connection]
     desk: Desk
     has_camera: bool
+    commission: Callable[[], Mapping[str, Any] | None] = lambda: None
 
 
 class StatePublisher:
@@ -111,6 +112,7 @@ class StatePublisher:
             "recording_s": round(now - self._recording_since, 2) if self._recording_since is not None else 0.0,
             "move": shown.move(now),
             "shoot": shown.shoot(now),
+            "commission": parts.commission(),
             "links": {name: self._link(connection, now) for name, connection in parts.connections.items()},
             "sticks": {
                 "missed": stick.missed,
