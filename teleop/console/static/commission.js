@@ -4,8 +4,7 @@ import { command, ping, stop } from "./connection.js";
 import { fresh, holder, mayOperate, mine, notify, part } from "./store.js";
 
 /** @typedef {import("./types.js").CommissionState} CommissionState */
-/** @type {import("./vendor/preact/preact.min.js").Signal<CommissionState|null>} */
-export const commission = part((s) => s.commission, null);
+export const commission = part((s) => s.commission ?? null, /** @type {CommissionState|null} */ (null));
 /** The last page was closed here: the connection that ends then is not lost. */
 export const closed = signal(false);
 
