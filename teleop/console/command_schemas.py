@@ -76,6 +76,9 @@ COMMANDS: Mapping[str, CommandSchema] = {
     ),
     "range": CommandSchema("Choose the speed range of sticks", {"number": WHOLE}),
     "shoot": CommandSchema("Shoot a timelapse", {"move": MOVE}),
+    "commission": CommandSchema(
+        "End the run, and commission a device of the rig", {"device": {"type": "string", "enum": ["gimbal", "drone"]}}
+    ),
     "commission_key": CommandSchema(
         "Press a key of the page of a commissioning, by the page's number",
         {"page": WHOLE, "key": TEXT},

@@ -90,6 +90,7 @@ SHAPES: Mapping[str, Shape] = {
     "focus": Shape({"to": number(0.0, 1.0)}, {"seconds": SECONDS}),
     "range": Shape({"number": NUMBER}),
     "shoot": Shape({"move": text(120, FILE_NAME)}),
+    "commission": Shape({"device": text(8)}),
     "commission_key": Shape({"page": whole(1, MOST_ID), "key": text(12)}, {"text": text(40), "agrees": truth}),
     "message": Shape({"name": text(60, r"[a-z][a-z0-9 _-]*")}, {"fields": plain_fields}),
     "alive": Shape(optional={"seen": _ages}),

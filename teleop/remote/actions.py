@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile
@@ -44,6 +44,8 @@ class LiveActions:
         self.presets: Presets
         self.desk: Desk
         self._motion: Motion = {}
+        self.commissions: Sequence[str] = ()  # devices that this run may end for
+        self.commissioned = ""  # that for which it does
         self._due = DueList()
         has_gimbal = any(sink.type == "gimbal" for sink in profile.sinks)
         self.devices = DeviceActions(jobs, told, self._due, lambda: self.rests, has_gimbal)
@@ -72,6 +74,7 @@ class LiveActions:
             "stop_recording": lambda asked, now: self.devices.camera(asked, now, Action.STOP),
             "shutter": lambda asked, now: self.devices.camera(asked, now, Action.SHUTTER),
             "range": self._range,
+            "commission": self._commission,
             "follow": self.devices.follow,
             "message": self.devices.message,
         }
@@ -257,6 +260,19 @@ class LiveActions:
         if self._jobs.job is None:
             raise Refusal("nothing moves that could be aborted")
         self._jobs.end(f"aborted by {asked.command.name}")
+        asked.end()
+
+    def _commission(self, asked: Asked, now: float) -> None:  # noqa: ARG002
+        """The run ends as it does when it is quit: at rest, everything released."""
+        if asked["device"] not in self.commissions:
+            raise Refusal(f"no {asked['device']} can be commissioned from here")
+        self._may_begin()
+        if self._jobs.job is not None or self._works.planning or not self.rests:
+            raise Refusal("wait until nothing moves")
+        if self.operator.status.recording:
+            raise Refusal("the camera records: stop that first")
+        self.commissioned = asked["device"]
+        self.desk.press(asked.command.name, Command.QUIT)
         asked.end()
 
     def _range(self, asked: Asked, now: float) -> None:  # noqa: ARG002

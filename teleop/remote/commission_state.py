@@ -21,7 +21,7 @@ class CommissionState:
     def __init__(self, runner: Runner, device: str) -> None:
         self._runner, self._device = runner, device
         self.number = 1
-        self.files: Sequence[str] = ()  # of the results, once they are written
+        self.files: Sequence[str] | None = None  # of the results, once they are written
         self.ending: Sequence[str] = ()  # what there is to say at the end
         self._shown: tuple[object, ...] = ()
         self._outlined: tuple[Findings, int] | None = None
@@ -64,7 +64,7 @@ class CommissionState:
             "moves": runner.moves,
             "reason": runner.reason[:LONGEST],
             "outline": self._entries(),
-            "files": list(self.files),
+            "files": None if self.files is None else list(self.files),
         }
 
     def _lines(self, page: Page) -> Sequence[str]:

@@ -34,11 +34,12 @@ from teleop.remote.works import Works
 class RemoteHands:
     """`moves` is the folder of the moves that clients may name.
 
-    `gateway` is what the gateway is told, beside where the door is; None for no gateway.
+    `gateway` is what the gateway is told, beside where the door is; None for no gateway. The run may end so that one of
+    the devices in `commissions` is commissioned. `note` is a line for everybody.
     """
 
-    def __init__(self, moves: Path, gateway: Gateway | None) -> None:
-        self._folder, self._gateway = moves, gateway
+    def __init__(self, moves: Path, gateway: Gateway | None, commissions: Sequence[str] = (), note: str = "") -> None:
+        self._folder, self._gateway, self._commissions, self._note = moves, gateway, commissions, note
         self.desk: Desk
         self._read = False  # in this tick
 
@@ -55,7 +56,13 @@ class RemoteHands:
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
         self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, self.told)
         self.desk = Desk(self.door.socket, stick, self._notify, self._actions)
+        self._actions.commissions = self._commissions
         self._actions.desk = self._actions.devices.desk = self.desk
+
+    @property
+    def commissioned(self) -> str:
+        """The device that the run has ended for, "" for none."""
+        return self._actions.commissioned
 
     @property
     def inputs(self) -> Sequence[Input]:
@@ -71,12 +78,14 @@ class RemoteHands:
         self._operator = self._actions.operator = operator
         self._actions.presets, self._actions.devices.has_camera = presets, rig.camera is not None
         shown = LiveShown(operator, presets, self._jobs, self._keys)
-        parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None)
+        camera = rig.camera is not None
+        parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, camera)
+        parts = replace(parts, commissions=self._commissions)
         self._publisher = self.door.publisher(stack, parts, rig.clock)
         if self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, rig.clock, operator.notify)
             self._works.start()
-            operator.notify(self._gateway.greeting)
+            operator.notify(self._note or self._gateway.greeting)
         return self, self
 
     # --- what becomes of commands

@@ -62,6 +62,7 @@ class Parts:
     desk: Desk
     has_camera: bool
     commission: Callable[[], Mapping[str, Any] | None] = lambda: None
+    commissions: Sequence[str] = ()  # devices whose commissioning can be started from here
 
 
 class StatePublisher:
@@ -146,6 +147,7 @@ class StatePublisher:
         self._seldom = {
             "rig": parts.rig,
             "camera": parts.has_camera,
+            "commissions": list(parts.commissions),
             "keys": list(shown.keys),
             "presets": dict(list(shown.presets.items())[:PRESETS]),
             "range": status.range + 1,

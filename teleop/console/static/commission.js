@@ -92,9 +92,9 @@ const Facts = ({ facts }) => html`<div class="facts" tabindex="0" role="region" 
     <td>${fact.found}${fact.verdict === "different" && html`<small>document: ${fact.documented}</small>`}</td>
     <td class="verdict ${fact.verdict.replaceAll(" ", "-")}">${fact.verdict}</td></tr>`)}</tbody></table></div>`;
 
-/** @param {{files: string[]}} props */
+/** @param {{files: string[]|null|undefined}} props */
 const Results = ({ files }) => html`<div class="row results" data-testid="commission-results">
-  ${files.length ? files.map((file) => html`<a class="button" href=${`/commission/${file}`} download>${file}</a>`) : html`<p>Nothing was found: there is no report.</p>`}</div>`;
+  ${!files ? html`<p>The results are being written.</p>` : files.length ? files.map((file) => html`<a class="button" href=${`/commission/${file}`} download>${file}</a>`) : html`<p>Nothing was found: there is no report.</p>`}</div>`;
 
 /** @param {{page: CommissionState}} props */
 function Keys({ page }) {
