@@ -137,4 +137,4 @@ function Outline({ page }) {
 }
 
 /** After the last page was closed. */
-export const Closed = () => html`<main class="commission"><section class="card step"><h2 class="title">Closed</h2><p class="lines">The commissioning is over: this page can be closed.</p></section></main>`;
+export const Closed = () => html`<main class="commission"><section class="card step"><h2 class="title" data-testid="commission-title">Closed</h2><p class="lines">The commissioning is over: this page can be closed.</p></section></main>`;
