@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from page_bench import LANDSCAPE, LAPTOP, LARGE, PHONE, SMALL, until
+from page_bench import LANDSCAPE, LAPTOP, LARGE, PHONE, SMALL, take_control, until
 from PIL import Image
 from playwright.sync_api import expect
 
@@ -169,6 +169,12 @@ def test_buttons_and_keys_are_off_while_another_has_control(page, rig):
 def test_pictures_for_the_docs(page, rig, name, size, picture):
     page.set_viewport_size({"width": size[0], "height": size[1]})
     show(page, rig, name, 1)
-    page.wait_for_timeout(500)
-    image = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+    image, lives = None, False
+    while not lives:  # a busy computer loses the connection now and then
+        if page.get_by_test_id("take-control").count():
+            take_control(page)
+        page.wait_for_timeout(300)
+        image, lives = Image.open(io.BytesIO(page.screenshot())), page.locator(".link-live .control .good").count() == 1
+    assert image is not None
+    image = image.convert("RGB")
     image.quantize(224, dither=Image.Dither.NONE).save(DOCS / f"{picture}.png", optimize=True)
