@@ -57,11 +57,11 @@ def commission(
     kept = Kept(results.wanted, profile.name, device, clock.now)
     with ExitStack() as stack:
         folder = str(kept.folder.absolute())
-        gateway = stack.enter_context(reached.beside(console, options.rig, options.json, folder))
+        gateway = stack.enter_context(reached.beside(console, options, profile, "a commissioning", folder))
         stack.enter_context(kept)
         made = opened(profile, options.rig, device, output, options.link, clock, kept)
         hands = None if gateway is None else hands_of(made, device, gateway)
-        run = CommissionRun(made, kept, clock, keyboard, hands, "" if gateway is None else gateway.greeting)
+        run = CommissionRun(made, kept, clock, keyboard, hands, "" if gateway is None else gateway.greetings[0])
         return run.run(lambda: _report(made, kept, bool(run.interrupted), results.compare, options.json))
 
 

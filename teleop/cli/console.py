@@ -53,7 +53,7 @@ def console(
     profile = options.profile()
     refuse_offsets(profile)
     note = ""
-    with reached.gateway(bind, options.rig, options.json) as gateway, realtime(in_real_time, complain):
+    with reached.gateway(bind, options, profile) as gateway, realtime(in_real_time, complain):
         while True:
             hands = RemoteHands(reached.moves, gateway, [] if take else _devices(profile), note)
             run = LiveRun(profile, profile.name, SystemClock(), None, presets=presets, take=take, beside=hands)

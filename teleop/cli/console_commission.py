@@ -37,7 +37,7 @@ def commission_between(device: str, options: Options, output: Path | None, gatew
     try:
         with kept:
             made = opened(profile, options.rig, device, target, options.link, clock, kept)
-            run = CommissionRun(made, kept, clock, None, hands_of(made, device, served), gateway.greeting)
+            run = CommissionRun(made, kept, clock, None, hands_of(made, device, served), gateway.greetings[0])
             run.run(lambda: 0)
     except TeleopError as error:
         return Commissioned(options, f"not commissioned: {error}")
@@ -55,7 +55,9 @@ def planning_for(gateway: Gateway, rig: str) -> Gateway:
 
 
 def _serving(gateway: Gateway, results: Path) -> Gateway:
-    return _changed(gateway, results=str(results))
+    """The page alone, on the same address: what else the profile serves is there again after it."""
+    served = _changed(gateway, results=str(results))
+    return served._replace(settings={"console": served.settings["console"]}, passed=served.passed[:1])
 
 
 def _changed(gateway: Gateway, **changes: str) -> Gateway:

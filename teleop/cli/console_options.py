@@ -12,9 +12,12 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.screens.folded import tell
+from teleop.cli.options import Options
+from teleop.cli.screens.folded import complain, tell
+from teleop.config.profile import Profile
 from teleop.console import DEFAULT_BIND
 from teleop.core.errors import UsageError
+from teleop.exchange.opening import opened
 
 if TYPE_CHECKING:
     from teleop.remote.gateway_child import Gateway
@@ -80,10 +83,11 @@ class ReachedOptions:
         return ""
 
     @contextmanager
-    def gateway(self, bind: str, rig: str, as_json: bool, results: str = "") -> Iterator[Gateway]:
-        """What the gateway is started with, while it listens there; prints how to reach it.
+    def gateway(self, bind: str, options: Options, profile: Profile, results: str = "") -> Iterator[Gateway]:
+        """What the gateway of the rig is started with, while it listens there; prints how to reach it.
 
-        `results` is the folder that a commissioning leaves.
+        `results` is the folder that a commissioning leaves: while that goes on, nothing else is served.
+
         Raises UsageError and DeviceError for an address at which it cannot listen.
         """
         try:
@@ -99,33 +103,48 @@ class ReachedOptions:
         host, port = parse_bind(bind)
         folder = self.served or results
         tokens = self.token or "", self.watch_token or ""
-        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, results=results, rig=rig)
+        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, results=results, rig=options.rig)
         if self.tls or self.certificate or self.key:
             from teleop.console.certificate import with_tls
 
             asked = with_tls(asked, self.certificate, self.key)
         listener, settings = listen(with_tokens(asked))
-        with listener:
-            if as_json:
+        with listener, opened(profile.model_copy(update={"exchange": []}) if results else profile) as exchange:
+            if options.json:
                 print(json.dumps(reached(settings)), flush=True)
             else:
                 for line in invitation(settings):
                     tell(line)
             number = listener.fileno()
             console = {"settings": settings.as_json(), "listener": number}
-            yield Gateway({"console": console}, (number,), greeting(settings))
+            greetings = [greeting(settings), *([exchange.greeting] if exchange.greeting else [])]
+            yield Gateway({"console": console, **exchange.settings}, (number, *exchange.passed), greetings)
 
     @contextmanager
-    def beside(self, bind: str | None, rig: str, as_json: bool, results: str = "") -> Iterator[Gateway | None]:
-        """As `gateway`, where a console is asked for; None where it is not. Raises UsageError for its options alone."""
+    def beside(
+        self, bind: str | None, options: Options, profile: Profile, replaced: str = "", results: str = ""
+    ) -> Iterator[Gateway | None]:
+        """As `gateway`, where a console is asked for; without one, for the profile's exchange, and None without either.
+
+        `replaced` is the option that has the run go without a hand or a clock, which leaves the exchange out. Raises
+        UsageError for the options of a console that is not there.
+        """
         if bind is not None:
-            with self.gateway(bind, rig, as_json, results) as gateway:
+            with self.gateway(bind, options, profile, results) as gateway:
                 yield gateway
             return
         for name in ("token", "watch_token", "tls", "certificate", "key"):
             if getattr(self, name):
                 raise UsageError(f"--{name.replace('_', '-')}: needs --console")
-        yield None
+        if replaced and profile.exchange:
+            complain(f"exchange: is not served with {replaced}")
+        if replaced or not profile.exchange:
+            yield None
+            return
+        from teleop.remote.gateway_child import Gateway
+
+        with opened(profile) as exchange:
+            yield Gateway(exchange.settings, exchange.passed, [exchange.greeting])
 
 
 @Parameter(name="*")

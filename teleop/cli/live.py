@@ -96,7 +96,8 @@ def live(
     if alone is not None and keyboard is None:
         ask_to_fly(title, alone.axes, i_understand)
         return _unattended(run, alone, options)
-    with reached.beside(console, options.rig, options.json) as gateway, realtime(in_real_time, complain):
+    replaced = "--sticks" if recorded is not None else "--input-recording" if recordings else ""
+    with reached.beside(console, options, profile, replaced) as gateway, realtime(in_real_time, complain):
         return _by_hand(run if gateway is None else replace(run, beside=_hands(reached.moves, gateway)), options)
 
 

@@ -99,7 +99,8 @@ def play(
         raise UsageError("--console: a browser is in real time; leave out --fast")
     if plan.timelapse is not None and shooting.rehearse:
         print_warnings(plan.sequence.warnings)
-    with reached.beside(console, options.rig, options.json) as gateway, realtime(in_real_time, complain):
+    replaced = "--fast" if fast else ""
+    with reached.beside(console, options, plan.profile, replaced) as gateway, realtime(in_real_time, complain):
         beside = None if gateway is None else _hands(gateway)
         if plan.timelapse is not None and not shooting.rehearse:
             return _shoot(file, plan, ordered, shooting, fast, take, options, beside)

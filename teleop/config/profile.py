@@ -19,6 +19,7 @@ from teleop.config.documents.base_model import Finite, Section
 from teleop.config.documents.document import Document, DocumentError, Wrong, mapping, number
 from teleop.config.documents.yaml_loader import parse_document, read_document
 from teleop.config.enable_rules import enable_rules
+from teleop.config.exchange import ExchangeSection
 from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import InputSection, input_rules
 from teleop.config.operator_settings import PresetsSection, SticksSection
@@ -87,6 +88,8 @@ class Profile(Section):
     """Joysticks, pads and dials, and what each of their controls does."""
     timelapse: ShootingSection = ShootingSection()
     """Settings of every timelapse on this rig."""
+    exchange: list[ExchangeSection] = Field(default_factory=list)
+    """What is spoken with other programs and devices while the rig runs, each entry one format."""
 
     @property
     def drones(self) -> frozenset[str]:

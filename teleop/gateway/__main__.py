@@ -48,9 +48,9 @@ async def _serve(settings: dict[str, Any]) -> None:
     threading.Thread(target=_watch_parent, args=(loop, ended), name="parent", daemon=True).start()
     async with DoorClient(DoorAddress(Path(settings["door"]))) as door:
         waiting: asyncio.Task[Any] = loop.create_task(ended.wait())
-        served: list[asyncio.Task[Any]] = (
-            [loop.create_task(_console(settings["console"], door))] if "console" in settings else []
-        )
+        served: list[asyncio.Task[Any]] = [
+            loop.create_task(serve(settings[part], door)) for part, serve in PARTS.items() if part in settings
+        ]
         done, _ = await asyncio.wait([*served, waiting], return_when=asyncio.FIRST_COMPLETED)
         for task in (*served, waiting):
             task.cancel()
@@ -66,6 +66,15 @@ async def _console(settings: dict[str, Any], door: DoorClient) -> None:
     listener = socket.socket(fileno=os.dup(settings["listener"]))
     listener.setblocking(False)
     await server.serve(kept, door, listener)
+
+
+async def _exchange(settings: dict[str, Any], door: DoorClient) -> None:
+    """What a studio's other programs speak; a layer above as well."""
+    await importlib.import_module("teleop.exchange.serving").serve(settings, door)
+
+
+PARTS = {"console": _console, "exchange": _exchange}
+"""What the gateway may be told to serve."""
 
 
 def _watch_parent(loop: asyncio.AbstractEventLoop, ended: asyncio.Event) -> None:

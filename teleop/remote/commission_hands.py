@@ -54,7 +54,7 @@ class CommissionHands:
         self.desk = Desk(self.door.socket, RemoteStick((), float), self.line, self, SILENT)
         self._links: dict[str, Connection] = {}
         parts = Parts(self._rig, {}, self._shown, self._links, self.desk, False, self.state.state)
-        self._publisher = self.door.publisher(stack, parts, clock)
+        self._publisher = self.door.publisher(parts, clock)
         if self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, clock, self.line)
 

@@ -14,6 +14,7 @@ class CommissionShown:
 
     keys: Sequence[Mapping[str, float]] = ()
     changes = 0
+    battery = None
 
     def __init__(self) -> None:
         self.stopped_by, self.now = "", 0.0

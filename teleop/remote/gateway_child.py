@@ -28,11 +28,11 @@ LINES = 20  # of its errors that are passed on, at most
 
 
 class Gateway(NamedTuple):
-    """What the gateway is told when it starts, the descriptors that it inherits, and a line on how it is reached."""
+    """What the gateway is told when it starts, the descriptors that it inherits, and lines on how it is reached."""
 
     settings: Mapping[str, Any]
     passed: Sequence[int] = ()
-    greeting: str = ""
+    greetings: Sequence[str] = ()
 
 
 class GatewayChild:

@@ -1,0 +1,16 @@
+"""The `exchange` of a profile: what the gateway speaks with the rest of a studio; each type a module of its section."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, TypeAdapter
+
+from teleop.config.exchange.dfmoco import DfmocoSection
+from teleop.config.exchange.freed import FreeDSection
+from teleop.config.exchange.osc import OscSection
+
+ExchangeSection = Annotated[DfmocoSection | FreeDSection | OscSection, Field(discriminator="type")]
+
+ENTRIES: TypeAdapter[list[ExchangeSection]] = TypeAdapter(list[ExchangeSection])
+"""The entries as the gateway is told them."""

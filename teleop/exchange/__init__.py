@@ -1,0 +1,15 @@
+"""What the gateway speaks beside the console: each type of a profile's `exchange` is a module, served in one process.
+
+A module has `async def serve(section, served)`, which runs until it is cancelled; `SERVERS` names it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+SERVERS: Mapping[str, str] = {
+    "dfmoco": "teleop.exchange.dfmoco",
+    "freed": "teleop.exchange.freed",
+    "osc": "teleop.exchange.osc",
+}
+"""The module that serves each type."""
