@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated
 
 from cyclopts import Group, Parameter
 
-from teleop.app.commission.results import Results, change_lines, default_folder, read_report
+from teleop.app.commission.kept import Kept, Wanted
+from teleop.app.commission.results import change_lines, read_report
 from teleop.cli.screens.folded import complain, tell
 from teleop.commission.findings import Findings
 from teleop.core.errors import UsageError
-from teleop.core.interfaces import Link
-from teleop.links.url import LinkAddress
 
 RESULTS = Group("Results", sort_key=1)
 _PAIR = 2
@@ -49,55 +48,22 @@ class ResultOptions:
         bool, Parameter(group=RESULTS, help="Keep serial numbers in the results.", negative=(), show_default=False)
     ] = False
 
+    @property
+    def wanted(self) -> Wanted:
+        return Wanted(self.report, self.compare, self.serial)
+
 
 NO_RESULTS = ResultOptions()
 
 
-class Kept:
-    """The results of one commissioning, from its options to its last lines. Raises UsageError and OutputError."""
-
-    def __init__(self, options: ResultOptions, rig: str, device: str, now: Callable[[], float]) -> None:
-        if len(options.compare) > 1:
-            raise UsageError("--compare: give one report to compare with, or two to compare with each other")
-        self._options, self._device, self._now = options, device, now
-        self._folder = options.report or default_folder(rig)
-        self._before = read_report(options.compare[0]) if options.compare else None
-        self._results: Results | None = None
-        self._files: Sequence[Path] = ()
-
-    def tapped(self, address: LinkAddress) -> Callable[[Link], Link]:
-        """Begins the capture of the link at `address`."""
-        self._results = Results(
-            self._folder, address, self._device, self._now, serials=self._options.serial, before=self._before
-        )
-        return self._results.tap
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """The capture is complete; without a report nothing is left behind."""
-        if self._results is not None:
-            self._results.__exit__()
-
-    def write(self, findings: Findings) -> None:
-        """Write what was found, if anything was. Raises OutputError."""
-        if self._results is not None and any(fact.found is not None for fact in findings.facts):
-            self._files = self._results.write(findings)
-
-    def facts(self, findings: Findings) -> dict[str, Any]:
-        """For programs."""
-        files = dict(zip(("page", "report", "capture"), map(str, self._files), strict=False))
-        changed = {} if self._before is None else {"changes": change_lines(self._before, findings)}
-        return {**files, **changed}
-
-    def tell(self, findings: Findings) -> None:
-        """For people."""
-        if self._before is not None and self._files:
-            compared(self._before, findings, str(self._options.compare[0]))
-        if self._results is not None and self._files:
-            tell(f"results: {self._files[0]}, {self._files[1].name}")
-            complain(self._results.summary)
+def tell_results(kept: Kept, findings: Findings, compared_with: Sequence[Path]) -> None:
+    """Print where the results are, and what changed since the earlier report."""
+    if not kept.files:
+        return
+    if kept.before is not None:
+        compared(kept.before, findings, str(compared_with[0]))
+    tell(f"results: {kept.files[0]}, {kept.files[1].name}")
+    complain(kept.summary)
 
 
 def compare_two(reports: Sequence[Path], as_json: bool) -> int:

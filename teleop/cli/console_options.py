@@ -60,8 +60,8 @@ def with_console(arguments: Sequence[str]) -> list[str]:
 
 @Parameter(name="*")
 @dataclass(frozen=True)
-class ConsoleOptions:
-    """How the console is reached, and what it serves."""
+class ReachedOptions:
+    """How the console is reached."""
 
     token: Annotated[
         str | None, Parameter(metavar="TOKEN", help="Token to log in with; without it one is made where it is needed.")
@@ -78,13 +78,17 @@ class ConsoleOptions:
     key: Annotated[
         Path | None, Parameter(metavar="FILE", help="The key of --certificate, if it is in another file.")
     ] = None
-    moves: Annotated[
-        Path, Parameter(metavar="FOLDER", help="Folder of the moves and takes that the console shows.")
-    ] = Path()
+
+    @property
+    def served(self) -> str:
+        """The folder of the moves and takes that it shows, "" for none."""
+        return ""
 
     @contextmanager
-    def gateway(self, bind: str, options: Options, profile: Profile) -> Iterator[Gateway]:
+    def gateway(self, bind: str, options: Options, profile: Profile, results: str = "") -> Iterator[Gateway]:
         """What the gateway of the rig is started with, while it listens there; prints how to reach it.
+
+        `results` is the folder that a commissioning leaves: while that goes on, nothing else is served.
 
         Raises UsageError and DeviceError for an address at which it cannot listen.
         """
@@ -98,19 +102,18 @@ class ConsoleOptions:
         from teleop.console.settings import ConsoleSettings, listen, parse_bind, planned_for, with_tokens
         from teleop.remote.gateway_child import Gateway
 
-        if not self.moves.is_dir():
-            raise UsageError(f"--moves {self.moves}: is no folder")
         host, port = parse_bind(bind)
-        folder = str(self.moves.resolve())
+        folder = self.served or results
         tokens = self.token or "", self.watch_token or ""
-        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, rig=planned_for(profile))
+        rig = planned_for(profile)
+        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, results=results, rig=rig)
         if self.tls or self.certificate or self.key:
             from teleop.console.certificate import with_tls
 
             asked = with_tls(asked, self.certificate, self.key)
         listener, settings = listen(with_tokens(asked))
         invited = invitation(settings)
-        with listener, opened(profile) as exchange:
+        with listener, opened(profile.model_copy(update={"exchange": []}) if results else profile) as exchange:
             if options.json:
                 print(json.dumps(reached(settings)), flush=True)
             else:
@@ -123,7 +126,7 @@ class ConsoleOptions:
 
     @contextmanager
     def beside(
-        self, bind: str | None, options: Options, profile: Profile, replaced: str = ""
+        self, bind: str | None, options: Options, profile: Profile, replaced: str = "", results: str = ""
     ) -> Iterator[Gateway | None]:
         """As `gateway`, where a console is asked for; without one, for the profile's exchange, and None without either.
 
@@ -131,7 +134,7 @@ class ConsoleOptions:
         UsageError for the options of a console that is not there.
         """
         if bind is not None:
-            with self.gateway(bind, options, profile) as gateway:
+            with self.gateway(bind, options, profile, results) as gateway:
                 if key_terminal() is not None and not options.json:
                     gateway = gateway._replace(greetings=[announced(), *gateway.greetings[1:]])
                 yield gateway
@@ -150,4 +153,21 @@ class ConsoleOptions:
             yield Gateway(exchange.settings, exchange.passed, [exchange.greeting])
 
 
-NO_CONSOLE = ConsoleOptions()
+@Parameter(name="*")
+@dataclass(frozen=True)
+class ConsoleOptions(ReachedOptions):
+    """How the console is reached, and what it serves."""
+
+    moves: Annotated[
+        Path, Parameter(metavar="FOLDER", help="Folder of the moves and takes that the console shows.")
+    ] = Path()
+
+    @property
+    def served(self) -> str:
+        """Raises UsageError for what is no folder."""
+        if not self.moves.is_dir():
+            raise UsageError(f"--moves {self.moves}: is no folder")
+        return str(self.moves.resolve())
+
+
+NOT_REACHED, NO_CONSOLE = ReachedOptions(), ConsoleOptions()

@@ -56,7 +56,7 @@ def keys_on(stage: Stage, question: Question | None, in_trouble: bool) -> dict[s
         case Stage.PROMPT:
             return {GO: "goes", SKIP: "skips", END: "ends"}
         case Stage.RUNNING | Stage.RESTORING:
-            return {STOP: "STOP"}
+            return {STOP: "STOP", END: "ends"}
         case Stage.ASKING if question is not None:
             own = {GO: "answers"} if question.word else {END: "ends", **question.choices}
             return {**question.choices, **own, STOP: "STOP"}

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from teleop.commission.findings import Fact, Findings, Verdict
+from teleop.commission.outline import SKIPPED
 from teleop.commission.page import END, GO, REPEAT, SKIP, STOP, Page, Stage, keys_on
 from teleop.commission.step import Device, Step
 from teleop.commission.task import Task
@@ -84,6 +85,33 @@ class Runner:
         """End now, whatever is under way: everything is brought to rest, and nothing is sent back to its place."""
         self.reason = self.reason or reason
         self._end_task(reason, self._finish)
+
+    def stop(self, reason: str) -> None:
+        """End the step under way, as the key for it does; `reason` is what its page says."""
+        if self._moves:
+            self._end_task(reason)
+
+    @property
+    def steps(self) -> Sequence[Step]:
+        return self._steps
+
+    @property
+    def index(self) -> int:
+        """Of the step whose page it is, -1 before the first."""
+        return self._index
+
+    @property
+    def moves(self) -> bool:
+        """Whether a step acts now: not at a question that only waits for its answer, at which everything rests."""
+        question = self._task.question if self._task is not None else None
+        waits = self.stage is Stage.ASKING and question is not None and question.only_waits
+        return self._moves and not waits
+
+    @property
+    def asks_for_stop(self) -> bool:
+        """Whether STOP is an answer to what is asked."""
+        question = self._task.question if self._task is not None else None
+        return question is not None and STOP in question.choices
 
     @property
     def _moves(self) -> bool:
@@ -243,7 +271,7 @@ class Runner:
         self.stage = Stage.RUNNING
 
     def _skip(self, now: float) -> None:
-        self._not_seen("skipped")
+        self._not_seen(SKIPPED)
         self._next(now)
 
     def _not_seen(self, how: str) -> None:
@@ -259,9 +287,9 @@ class Runner:
             return
         self._ending = True
         while self._index < self._first_final - 1:
-            self._not_seen("skipped")
+            self._not_seen(SKIPPED)
             self._index += 1
-        self._not_seen("skipped")
+        self._not_seen(SKIPPED)
         self._next(now)
 
     def _finish(self, _now: float) -> None:

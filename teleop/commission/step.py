@@ -35,6 +35,11 @@ class Question:
     word: bool = False
     seconds: float | None = None
 
+    @property
+    def only_waits(self) -> bool:
+        """Whether the script does nothing before the answer."""
+        return self.seconds is None
+
 
 Pause = Generator[Wait | Question, str, None]
 """A part of a script that only takes its time."""

@@ -23,6 +23,7 @@ from teleop.console.json_body import Refusal, read_object
 from teleop.console.login import Logins
 from teleop.console.moves import MoveRoutes
 from teleop.console.openapi import description
+from teleop.console.results import ResultRoutes
 from teleop.console.sessions import HttpSessions
 from teleop.console.settings import ConsoleSettings
 from teleop.console.static_files import login_page, static_files
@@ -61,6 +62,7 @@ class Console:
     def _all_routes(self) -> Sequence[BaseRoute]:
         commands = CommandRoutes(self._door, self._sessions, self._moves.planned)
         takes = TakeRoutes(Path(self._settings.takes), self._moves, self._workers[1])
+        results = ResultRoutes(self._settings.results)
         return [
             Route("/api", self._describe, methods=["GET"]),
             Route("/api/state", commands.state, methods=["GET"]),
@@ -76,6 +78,7 @@ class Console:
             Route("/api/takes/{name}/keys", takes.keys, methods=["POST"]),
             Route("/takes/{name}/report", takes.page, methods=["GET"]),
             Route("/takes/{name}/download", takes.download, methods=["GET"]),
+            Route("/commission/{name}", results.download, methods=["GET"]),
             WebSocketRoute("/ws", self._websocket),
             Route("/login", self._login_page, methods=["GET"]),
             *(Route(path, self._file, methods=["GET"]) for path in ("/", *static_files()) if path != "/index.html"),

@@ -92,6 +92,14 @@ COMMANDS: Mapping[str, CommandSchema] = {
     "drone": CommandSchema("Have the drone do something, as `drone WORD` in a file", {"command": TEXT}),
     "mark_target": CommandSchema("Mark a target in view: `name,distance` or `name,x,y,z` (m)", {"text": TEXT}),
     "shoot": CommandSchema("Shoot a timelapse", {"move": MOVE}, SHOT),
+    "commission": CommandSchema(
+        "End the run, and commission a device of the rig", {"device": {"type": "string", "enum": ["gimbal", "drone"]}}
+    ),
+    "commission_key": CommandSchema(
+        "Press a key of the page of a commissioning, by the page's number",
+        {"page": WHOLE, "key": TEXT},
+        {"text": TEXT, "agrees": {"type": "boolean", "description": "to what the page says of more than 5 deg/s"}},
+    ),
     "message": CommandSchema("Send a message of the R SDK", {"name": TEXT}, {"fields": {"type": "object"}}),
     "plan": CommandSchema(
         "Plan a move; answered by the gateway",

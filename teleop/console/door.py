@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import AsyncIterator, Mapping
 from typing import Any, Protocol
 
-KINDS = {"busy": 409, "refused": 422, "invalid": 400, "forbidden": 403, "lost": 503}
+KINDS = {"busy": 409, "stale": 409, "refused": 422, "invalid": 400, "forbidden": 403, "lost": 503}
 """HTTP status by the kind of error in an answer."""
 
 

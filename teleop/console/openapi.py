@@ -14,7 +14,7 @@ ERRORS = {
     "401": "No login, or a wrong token",
     "403": "Another site's page, or a role that only watches",
     "404": "No such name",
-    "409": "Another holds control, or has changed the file",
+    "409": "Another holds control, has changed the file, or turned the page",
     "413": "Too large",
     "422": "What the rig cannot do, or a move that cannot be planned",
     "429": "Too many requests",

@@ -1,7 +1,7 @@
 """Sessions of HTTP clients: one for each computer and role, because a script has no connection that stays.
 
-The door is told whenever it asks for something, and once a second while it waits for an answer: a move that it started
-pauses when it is gone.
+The door is told whenever it asks for something, and again while it waits for an answer: a move that it started pauses
+when it is gone.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from teleop.console.door import Door
 from teleop.console.gate import client_address
 from teleop.console.json_body import Refusal
 
-SEEN = 1.0  # s from one word to the door about a request that waits to the next
+SEEN = 0.4  # s from one word to the door about a request that waits to the next
 MOST = 200  # sessions that are remembered
 
 

@@ -33,9 +33,10 @@ class ConsoleSettings:
     """`host` and `port` to listen at; without tokens nobody has to log in, which only loopback allows.
 
     Who has the `token` operates, who has the `watch_token` only watches and may press STOP. `moves` and `takes` are
-    the only folders that are served. `certificate` and `key` are files (PEM) for TLS, "" without. `rig` is what plans
-    are made for: a shipped profile's name, a file, or the profile itself as `planned_for` writes it, which is what a
-    run gives: its limits are then those that the rig keeps, whatever has become of the file since.
+    the only folders that are served, and of `results` the three files of a commissioning. `certificate` and `key` are
+    files (PEM) for TLS, "" without. `rig` is what plans are made for: a shipped profile's name, a file, or the profile
+    itself as `planned_for` writes it, which is what a run gives: its limits are then those that the rig keeps, whatever
+    has become of the file since.
     """
 
     host: str = "127.0.0.1"
@@ -44,6 +45,7 @@ class ConsoleSettings:
     watch_token: str = ""
     moves: str = "."
     takes: str = "."
+    results: str = ""
     rig: str = "sim"
     certificate: str = ""
     key: str = ""

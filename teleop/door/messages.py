@@ -107,6 +107,8 @@ SHAPES: Mapping[str, Shape] = {
     "drone": Shape({"command": text(24, r"[a-z][a-z-]*")}),
     "mark_target": Shape({"text": text(40)}),
     "shoot": Shape({"move": text(120, FILE_NAME)}, {"resume": truth, "restart": truth}),
+    "commission": Shape({"device": text(8)}),
+    "commission_key": Shape({"page": whole(1, MOST_ID), "key": text(12)}, {"text": text(40), "agrees": truth}),
     "message": Shape({"name": text(60, r"[a-z][a-z0-9 _-]*")}, {"fields": plain_fields}),
     "alive": Shape(optional={"seen": _ages}),
     "closed": Shape(),

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, Motion, moves
 from teleop.core.errors import TeleopError
 from teleop.core.events import Action, Tick
+from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
 from teleop.planner.go_motion import ExposureRuns
@@ -54,6 +55,8 @@ class LiveActions:
         self.desk: Desk
         self.passes = ShownPasses()
         self._motion: Motion = {}
+        self.commissions: Sequence[str] = ()  # devices that this run may end for
+        self.commissioned = ""  # that for which it does
         self._due = DueList()
         has_gimbal = any(sink.type == "gimbal" for sink in profile.sinks)
         self.devices = DeviceActions(jobs, told, self._due, lambda: self.rests, has_gimbal)
@@ -79,6 +82,7 @@ class LiveActions:
             "record": self._with_no_shoot(partial(self.devices.camera, action=Action.RECORD)),
             "stop_recording": self._with_no_shoot(partial(self.devices.camera, action=Action.STOP)),
             "shutter": self._with_no_shoot(partial(self.devices.camera, action=Action.SHUTTER)),
+            "commission": self._commission,
             "follow": self._with_no_shoot(self.devices.follow),
             "message": self._with_no_shoot(self.devices.message),
             **KeyActions(keys, lambda: self._motion).do,
@@ -294,4 +298,17 @@ class LiveActions:
         if self._jobs.job is None:
             raise Refusal("nothing moves that could be aborted")
         self._jobs.end(f"aborted by {asked.command.name}")
+        asked.end()
+
+    def _commission(self, asked: Asked, now: float) -> None:  # noqa: ARG002
+        """The run ends as it does when it is quit: at rest, everything released."""
+        if asked["device"] not in self.commissions:
+            raise Refusal(f"no {asked['device']} can be commissioned from here")
+        self._may_begin()
+        if self._jobs.job is not None or self._works.planning or not self.rests:
+            raise Refusal("wait until nothing moves")
+        if self.operator.status.recording:
+            raise Refusal("the camera records: stop that first")
+        self.commissioned = asked["device"]
+        self.desk.press(asked.command.name, Command.QUIT)
         asked.end()

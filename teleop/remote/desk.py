@@ -22,12 +22,14 @@ from teleop.remote.stick import RemoteStick
 
 MOST = 32  # datagrams in a tick
 ANSWERS = 512  # that are kept, for commands that come again
-GONE = 2.0  # s without a word of a console, after which its move pauses
-GATEWAY_GONE = 2.0  # s without a word of the gateway
+GONE = 2.0  # s without a word of a console, or of the gateway, after which its move pauses
 
 
 class Desk:
-    """`actions` are what the commands do in this run; `notify` takes lines for everybody."""
+    """`actions` are what the commands do in this run; `notify` takes lines for everybody.
+
+    A session of which nothing is heard for `gone` s counts as gone.
+    """
 
     name = "console"
 
@@ -37,8 +39,9 @@ class Desk:
         stick: RemoteStick,
         notify: Callable[[str], object],
         actions: Actions,
+        gone: float = GONE,
     ) -> None:
-        self._socket, self.stick, self.actions = socket, stick, actions
+        self._socket, self.stick, self.actions, self._gone = socket, stick, actions, gone
         self.control = Control(notify)
         self.counts = Counts()
         self.tick, self.polled_at = 0, -math.inf
@@ -92,9 +95,14 @@ class Desk:
 
     def _is_gone(self, session: str, now: float) -> bool:
         """Whether nobody is behind a session any more: closed, its page silent, or the gateway silent."""
-        if session in self._closed or now - self.gateway_at > GATEWAY_GONE:
+        if session in self._closed or now - self.gateway_at > self._gone:
             return True
-        return session in self._seen and now - self._seen[session] > GONE
+        return session in self._seen and now - self._seen[session] > self._gone
+
+    @property
+    def seen_last(self) -> float:
+        """When any page or program was there."""
+        return max(self._seen.values(), default=-math.inf)
 
     def all_gone(self, now: float) -> None:
         """The gateway has ended, and with it every connection."""

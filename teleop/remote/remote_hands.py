@@ -41,11 +41,12 @@ from teleop.remote.works import Works
 class RemoteHands:
     """`moves` is the folder of the moves that clients may name.
 
-    `gateway` is what the gateway is told, beside where the door is; None for no gateway.
+    `gateway` is what the gateway is told, beside where the door is; None for no gateway. The run may end so that one of
+    the devices in `commissions` is commissioned. `note` is a line for everybody.
     """
 
-    def __init__(self, moves: Path, gateway: Gateway | None) -> None:
-        self._folder, self._gateway = moves, gateway
+    def __init__(self, moves: Path, gateway: Gateway | None, commissions: Sequence[str] = (), note: str = "") -> None:
+        self._folder, self._gateway, self._commissions, self._note = moves, gateway, commissions, note
         self.desk: Desk
         self._read = False  # in this tick
         self._clock: Clock | None = None  # of the run that goes on, or was the last
@@ -70,8 +71,14 @@ class RemoteHands:
         stack.callback(self._actions.shoots.close)
         stack.callback(self._works.close)
         self.desk = Desk(self.door.socket, stick, self._notify, self._actions)
+        self._actions.commissions = self._commissions
         for actions in (self._actions, self._actions.devices, self._actions.by_operator):
             actions.desk = self.desk
+
+    @property
+    def commissioned(self) -> str:
+        """The device that the run has ended for, "" for none."""
+        return self._actions.commissioned
 
     @property
     def inputs(self) -> Sequence[Input]:
@@ -95,14 +102,17 @@ class RemoteHands:
         drone = rig.drone(list(self._limits))
         state = lambda: None if drone is None else drone.state(rig.clock.now())  # noqa: E731
         shown = LiveShown(operator, presets, self._jobs, self._keys, self._actions.passes, state)
-        parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None)
+        camera = rig.camera is not None
+        parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, camera)
+        parts = replace(parts, commissions=self._commissions)
         self._publisher = self.door.publisher(parts, rig.clock)
         if again:
             self._jobs.again()
         elif self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, rig.clock, self._notify)
             self._works.start()
-        for line in self._gateway.greetings if self._gateway is not None else ():
+        greetings = self._gateway.greetings if self._gateway is not None else ()
+        for line in (*greetings, *([self._note] if self._note and not again else [])):
             operator.notify(line)
         return self, self
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -74,6 +74,8 @@ class Parts:
     connections: Mapping[str, Connection]
     desk: Desk
     has_camera: bool
+    commission: Callable[[], Mapping[str, Any] | None] = lambda: None
+    commissions: Sequence[str] = ()  # devices whose commissioning can be started from here
 
 
 class StatePublisher:
@@ -124,6 +126,7 @@ class StatePublisher:
             "recording_s": round(now - self._recording_since, 2) if self._recording_since is not None else 0.0,
             "move": shown.move(now),
             "shoot": shown.shoot(now),
+            "commission": parts.commission(),
             "battery": shown.battery,
             "links": {name: self._link(connection, now) for name, connection in parts.connections.items()},
             "sticks": {
@@ -167,6 +170,7 @@ class StatePublisher:
         self._seldom = {
             "rig": parts.rig,
             "camera": parts.has_camera,
+            "commissions": list(parts.commissions),
             "keys": list(shown.keys),
             "presets": dict(list(shown.presets.items())[:PRESETS]),
             "range": status.range + 1,

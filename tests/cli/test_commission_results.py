@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 from made_findings import FOUND, UPDATED
 
+from teleop.app.commission.kept import Kept
 from teleop.cli import run
-from teleop.cli.commission_results import Kept, ResultOptions
+from teleop.cli.commission_results import ResultOptions, tell_results
 from teleop.core.clock import VirtualClock
 from teleop.core.errors import UsageError
 from teleop.links import parse
@@ -51,10 +52,10 @@ def test_one_report_is_compared_with_what_is_found_now(
     reports: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     options = ResultOptions(tmp_path / "out", (reports[0],))
-    with Kept(options, "rig", "gimbal", VirtualClock().now) as kept:
+    with Kept(options.wanted, "rig", "gimbal", VirtualClock().now) as kept:
         kept.tapped(parse("sim:"))
         kept.write(UPDATED)
-    kept.tell(UPDATED)
+    tell_results(kept, UPDATED, options.compare)
     printed = capsys.readouterr()
     assert "Sign of pan in speed commands (0E 01): -1 -> 1" in printed.out
     assert "report.html, report.json" in " ".join(printed.out.split())
@@ -64,11 +65,11 @@ def test_one_report_is_compared_with_what_is_found_now(
 
 def test_a_report_that_cannot_be_compared_is_refused_before_anything_is_opened(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="cannot be read"):
-        Kept(ResultOptions(None, (tmp_path / "none.json",)), "rig", "gimbal", VirtualClock().now)
+        Kept(ResultOptions(None, (tmp_path / "none.json",)).wanted, "rig", "gimbal", VirtualClock().now)
 
 
 def test_where_nothing_was_found_nothing_is_written(tmp_path: Path) -> None:
-    with Kept(ResultOptions(tmp_path / "out"), "rig", "gimbal", VirtualClock().now) as kept:
+    with Kept(ResultOptions(tmp_path / "out").wanted, "rig", "gimbal", VirtualClock().now) as kept:
         kept.tapped(parse("sim:"))
         kept.write(replace(FOUND, facts=()))
     assert not (tmp_path / "out").exists()

@@ -29,6 +29,9 @@ class RealConsole:
             cwd=folder,
             env=environment,
         )
+        self._reached()
+
+    def _reached(self) -> None:
         assert self._process.stdout is not None
         started = json.loads(self._process.stdout.readline())
         self.token = started["token"]

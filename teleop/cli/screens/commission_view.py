@@ -21,11 +21,14 @@ _KEYS = {"enter": "Enter", "space": "space"}
 
 
 class CommissionView(PageView):
-    """Shows the page while it is entered: on a terminal a screen, elsewhere what is asked and found as lines."""
+    """Shows the page while it is entered: on a terminal a screen, elsewhere what is asked and found as lines.
 
-    def __init__(self, rig: str, page: Callable[[], Page]) -> None:
+    `beside` is a line on who else sees it.
+    """
+
+    def __init__(self, rig: str, page: Callable[[], Page], beside: Callable[[], str] = str) -> None:
         super().__init__(self._draw)
-        self._rig, self._page = rig, page
+        self._rig, self._page, self._beside = rig, page, beside
         self._said = ""
         self._shown = page()
 
@@ -62,6 +65,7 @@ class CommissionView(PageView):
             banner=Text(f" {trouble[0]}", "bold red") if trouble else Text(),
             axes=[*(Text(f" {line}", "bold red") for line in trouble[1:]), Text(), *_head(page, width), Text()],
             state=state,
+            notes=[Text(f" {line}", "dim") for line in _wrapped(self._beside(), width)],
             bottom=[
                 Text(f" {line}", "bold" if page.question else "")
                 for text in _bottom(page)

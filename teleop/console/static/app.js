@@ -1,8 +1,9 @@
 // The console: what is always there, and the page that is chosen.
 import { html, render, useEffect } from "./vendor/preact/preact.min.js";
 import { start } from "./connection.js";
-import { link, tab } from "./store.js";
+import { fresh, link, tab } from "./store.js";
 import { Banners, Bar, TABS } from "./bar.js";
+import { Closed, Commission, closed, commission, watchCommission } from "./commission.js";
 import { watchGamepads } from "./gamepad.js";
 import { Help, watchKeyboard } from "./keyboard.js";
 import { Live } from "./live.js";
@@ -17,12 +18,13 @@ import { watchWake } from "./wake.js";
 const PAGES = { live: Live, move: Move, shoot: Shoot, takes: Takes };
 
 function App() {
-  const Page = PAGES[tab.value];
+  const commissions = !!commission.value, over = closed.value && !fresh.value;
+  const Page = over ? Closed : commissions ? Commission : PAGES[tab.value];
   useEffect(() => {
     history.replaceState(null, "", `${location.search}#${tab.value}`);
-    document.title = `${TABS.find(([id]) => id === tab.value)?.[1]} - teleop console`;
-  }, [tab.value]);
-  return html`<div class="app link-${link.value}"><${Bar} /><${Banners} /><${Page} /><${Help} /></div>`;
+    document.title = `${commissions ? "Commissioning" : TABS.find(([id]) => id === tab.value)?.[1]} - teleop console`;
+  }, [tab.value, commissions]);
+  return html`<div class="app link-${link.value} ${commissions || over ? "commissions" : ""}"><${Bar} />${!over && html`<${Banners} />`}<${Page} /><${Help} /></div>`;
 }
 
 const first = location.hash.slice(1);
@@ -32,6 +34,7 @@ place.replaceChildren();
 render(html`<${App} />`, place);
 watchReleases();
 watchKeyboard();
+watchCommission();
 watchGamepads();
 watchWake();
 start();

@@ -3,6 +3,7 @@ import { html, useEffect, useSignal } from "./vendor/preact/preact.min.js";
 import { command, stop, stopping } from "./connection.js";
 import { age, fresh, hello, holder, link, mayOperate, mine, notice, part, roundTrip, state, tab } from "./store.js";
 import { milliseconds, minutes, timeOfDay } from "./format.js";
+import { commission } from "./commission.js";
 import { clear, showHelp, Word } from "./keyboard.js";
 
 export const TABS = [["live", "Live"], ["move", "Move"], ["shoot", "Shoot"], ["takes", "Takes"]];
@@ -20,7 +21,7 @@ const Chip = ({ tone = "", name, children, testid, title }) =>
 export function Bar() {
   return html`<header class="bar"><h1 class="unseen">teleop console</h1>
     <div class="brand"><b>teleop</b><span>${rig.value || hello.value.rig}</span></div>
-    <${Tabs} />
+    ${!commission.value && html`<${Tabs} />`}
     <div class="chips"><${Control} /><div class="health" tabindex="0" role="group" aria-label="Health"><${Health} /></div></div>
     <${Stop} />
   </header>`;
@@ -58,14 +59,14 @@ function ControlButton() {
 
 function Health() {
   const late = age.value !== null && age.value > 250;
-  const trip = roundTrip.value;
+  const trip = roundTrip.value, driven = !commission.value;
   return html`
-    <${Chip} tone=${late ? "bad" : "good"} name="Age" testid="age">${fresh.value ? milliseconds(age.value) : "--"}<//>
+    ${driven && html`<${Chip} tone=${late ? "bad" : "good"} name="Age" testid="age">${fresh.value ? milliseconds(age.value) : "--"}<//>`}
     <${Chip} tone=${trip.median === null ? "" : trip.median > 150 ? "warn" : "good"} name="Round trip" title="median and worst of the last 10 s">
       ${milliseconds(trip.median)} / ${milliseconds(trip.worst)}<//>
     ${Object.entries(links.value).map(([name, each]) => html`<${Chip} tone=${each.ok ? "good" : "bad"} name=${name}>${each.ok ? milliseconds(each.age_ms) : "no answer"}<//>`)}
     ${inputs.value.filter((each) => each.name !== "console" && each.name !== holder.value).map((each) => html`<${Input} each=${each} />`)}
-    <${Chip} tone=${missed.value ? "warn" : ""} name="Missed">${missed.value}<//>
+    ${driven && html`<${Chip} tone=${missed.value ? "warn" : ""} name="Missed">${missed.value}<//>`}
     ${camera.value && html`<${Chip} tone=${recording.value ? "rec" : ""} name="REC">${recording.value ? minutes(recordingTime.value) : "off"}<//>`}`;
 }
 
@@ -95,6 +96,8 @@ export function Banners() {
 }
 
 function Stopped() {
+  if (commission.value)
+    return html`<p class="banner bad"><b>STOPPED</b><span>${stoppedBy.value && `by ${stoppedBy.value} `}${stoppedAt.value ? `at ${timeOfDay(stoppedAt.value)}. ` : ". "}The next key goes on.</span></p>`;
   return html`<p class="banner bad"><b>STOPPED</b><span>${stoppedBy.value && `by ${stoppedBy.value} `}${stoppedAt.value ? `at ${timeOfDay(stoppedAt.value)}. ` : ". "}
     Clear it, then center all sticks.</span>
     <button data-testid="clear" disabled=${!mayOperate.value || (!mine.value && !!holder.value)} onClick=${clear}>Clear STOP</button></p>`;

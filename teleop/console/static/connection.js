@@ -169,6 +169,13 @@ function pong(id) {
   roundTrip.value = { median: sorted[sorted.length >> 1], worst: sorted[sorted.length - 1] };
 }
 
+/** A word that this page lives; its answer is the round trip. */
+export function ping() {
+  const id = nextId++;
+  if (send({ do: "ping", id })) pings.set(id, performance.now());
+  if (pings.size > 40) pings.delete(/** @type {number} */ (pings.keys().next().value));
+}
+
 /** A page that hung or slept is lost too: what it shows is old, and what it held is held no longer. */
 function watch() {
   const now = performance.now(), slept = now - lastWatch > GAP && !document.hidden;
@@ -180,9 +187,5 @@ export function start() {
   connect();
   lastWatch = performance.now();
   setInterval(watch, 100);
-  setInterval(() => {
-    const id = nextId++;
-    if (send({ do: "ping", id })) pings.set(id, performance.now());
-    if (pings.size > 40) pings.delete(/** @type {number} */ (pings.keys().next().value));
-  }, PING);
+  setInterval(ping, PING);
 }

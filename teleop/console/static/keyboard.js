@@ -1,6 +1,7 @@
 // The keyboard of the console: the same keys as `teleop live`, `teleop play` and a shoot have in a terminal.
 import { html, signal, useEffect, useRef } from "./vendor/preact/preact.min.js";
 import { command, stop } from "./connection.js";
+import { commission, pressedKey } from "./commission.js";
 import { able, mine, notify, state } from "./store.js";
 import { SHEETS } from "./key_sheets.js";
 import { recallSeconds } from "./presets.js";
@@ -36,6 +37,7 @@ function pressed(event) {
     return;
   }
   if (typing || event.metaKey || event.altKey || target.matches("select, input") || (event.ctrlKey && !event.key.startsWith("Arrow"))) return;
+  if (commission.peek()) return void (pressedKey(event) && event.preventDefault());
   if (event.key === "Escape") return void ((helping.value = false), (asked = ""));
   const question = asked;
   asked = "";

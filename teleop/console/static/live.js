@@ -14,6 +14,7 @@ import { Transport } from "./transport.js";
 const ranges = part((s) => s.ranges, []), range = part((s) => s.range, 0), follow = part((s) => s.follow, "");
 const recording = part((s) => s.recording, false), camera = part((s) => s.camera, false);
 const newest = part((s) => s.messages?.[0]?.text ?? "", "");
+const commissions = part((s) => s.commissions, /** @type {string[]} */ ([]));
 const MODES = ["lock", "yaw", "sport"];
 /** s within which a jog of so many units has to be done; the rig may need longer and then stops short */
 const JOGS = [[0.1, 0.5], [1, 1], [10, 3]];
@@ -70,6 +71,15 @@ function JogCard() {
   </section>`;
 }
 
+/** The way to a commissioning: the run ends for it, so it asks once more. @param {{device: string, off: boolean}} props */
+function Start({ device, off }) {
+  const asked = useSignal(false), id = device === "gimbal" ? "commission-start" : `commission-start-${device}`;
+  if (!asked.value) return html`<button disabled=${off} data-testid=${id} onClick=${() => (asked.value = true)}>Commission the ${device}</button>`;
+  return html`<span class="row"><span>This run ends for it.</span>
+    <button class="primary" disabled=${off} data-testid=${`${id}-yes`} onClick=${() => ((asked.value = false), command("commission", { device }))}>Begin</button>
+    <button onClick=${() => (asked.value = false)}>Cancel</button></span>`;
+}
+
 /** What belongs to the sticks: their speed, and the camera's and gimbal's buttons. */
 function StickCard() {
   const off = !able.value;
@@ -83,6 +93,7 @@ function StickCard() {
     ${camera.value && html`<button class="record ${recording.value ? "on" : ""}" disabled=${!mayOperate.value || !inControl.value}
       onClick=${() => command(recording.value ? "stop_recording" : "record")}><i aria-hidden="true"></i>${recording.value ? "Stop recording" : "Record"}</button>
     <button disabled=${!inControl.value} onClick=${() => command("shutter")}>Shutter</button>`}
+    ${commissions.value.map((device) => html`<${Start} device=${device} off=${off} />`)}
     <${StickState} />
     ${newest.value && html`<p class="newest" role="log" aria-label="Newest message">${newest.value}</p>`}
   </section>`;
