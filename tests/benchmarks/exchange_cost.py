@@ -83,6 +83,7 @@ def main() -> None:
     (control, gateway), (control_with, gateway_with) = (
         tuple(statistics.mean(pair[i][j] for pair in shares) for j in range(2)) for i in range(2)
     )
+    print("control process, pairs without and with:", *(f"{a[0]:.1%} {b[0]:.1%};" for a, b in shares))
     print(f"gateway: {gateway:.1%} of a core without, {gateway_with:.1%} with both")
     print(f"control process: {control:.1%} without, {control_with:.1%} with: ratio {control_with / control:.3f}")
 
