@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+import socket
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
@@ -115,8 +116,10 @@ class ConsoleOptions:
                     tell(line)
             number = listener.fileno()
             console = {"settings": settings.as_json(), "listener": number}
+            announcement = _announcement(profile.name, listener, settings.has_tls)
             greetings = [greeting(settings), *([exchange.greeting] if exchange.greeting else [])]
-            yield Gateway({"console": console, **exchange.settings}, (number, *exchange.passed), greetings)
+            told = {"console": console, **announcement, **exchange.settings}
+            yield Gateway(told, (number, *exchange.passed), greetings)
 
     @contextmanager
     def beside(
@@ -143,6 +146,17 @@ class ConsoleOptions:
 
         with opened(profile) as exchange:
             yield Gateway(exchange.settings, exchange.passed, [exchange.greeting])
+
+
+def _announcement(rig: str, listener: socket.socket, tls: bool) -> dict[str, Any]:
+    """What the gateway announces of it on the network: nothing of a console that only this computer reaches."""
+    from teleop.console.settings import is_loopback
+    from teleop.gateway.discovery import Announcement
+
+    host, port = listener.getsockname()[:2]
+    if is_loopback(host):
+        return {}
+    return {"announcement": Announcement(rig, host, port, tls).as_settings()}
 
 
 NO_CONSOLE = ConsoleOptions()
