@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 SERVERS: Mapping[str, str] = {
+    "foxglove": "teleop.exchange.foxglove",
     "freed": "teleop.exchange.freed",
     "osc": "teleop.exchange.osc",
 }
