@@ -10,6 +10,7 @@ from collections.abc import Mapping
 SERVERS: Mapping[str, str] = {
     "foxglove": "teleop.exchange.foxglove",
     "freed": "teleop.exchange.freed",
+    "midi": "teleop.exchange.midi",
     "osc": "teleop.exchange.osc",
 }
 """The module that serves each type."""

@@ -16,9 +16,10 @@ from teleop.gateway.door_client import DoorClient
 Work = Callable[[RemoteBench, Served], Awaitable[Any]]
 Server = Callable[[Served], Awaitable[None]]
 PACE = 0.002  # s of the machine's time from one tick to the next at least: a server gets its turns
+REAL = 0.01  # s: as fast as the machine's clock, for what compares the two
 
 
-def beside_a_rig(folder: Path, server: Server, work: Work) -> list[str]:
+def beside_a_rig(folder: Path, server: Server, work: Work, pace: float = PACE) -> list[str]:
     """`work` while the server serves; the lines that it had for the operator."""
     lines: list[str] = []
 
@@ -26,8 +27,8 @@ def beside_a_rig(folder: Path, server: Server, work: Work) -> list[str]:
         with remote_bench(folder) as bench:
             async with DoorClient(bench.hands.door.address) as door:
                 served = Served(door, Rig("Bench", dict(bench.hands._limits)), None, lines.append)
-                async with asyncio.timeout(60):
-                    with turning(bench), _task(server(served)):
+                async with asyncio.timeout(30):
+                    with turning(bench, pace), _task(server(served)):
                         await work(bench, served)
 
     asyncio.run(run())
@@ -35,13 +36,13 @@ def beside_a_rig(folder: Path, server: Server, work: Work) -> list[str]:
 
 
 @contextmanager
-def turning(bench: RemoteBench) -> Iterator[None]:
+def turning(bench: RemoteBench, pace: float) -> Iterator[None]:
     """Its time passes within."""
 
     async def turns() -> None:
         while True:
             bench.tick()
-            await asyncio.sleep(PACE)
+            await asyncio.sleep(pace)
 
     with _task(turns()):
         yield

@@ -8,9 +8,10 @@ from pydantic import Field, TypeAdapter
 
 from teleop.config.exchange.foxglove import FoxgloveSection
 from teleop.config.exchange.freed import FreeDSection
+from teleop.config.exchange.midi import MidiSection
 from teleop.config.exchange.osc import OscSection
 
-ExchangeSection = Annotated[FoxgloveSection | FreeDSection | OscSection, Field(discriminator="type")]
+ExchangeSection = Annotated[FoxgloveSection | FreeDSection | MidiSection | OscSection, Field(discriminator="type")]
 
 ENTRIES: TypeAdapter[list[ExchangeSection]] = TypeAdapter(list[ExchangeSection])
 """The entries as the gateway is told them."""
