@@ -9,6 +9,7 @@ from teleop.config.exchange.midi import Control
 from teleop.exchange.midi.messages import light, motor
 from teleop.exchange.midi.surface import Surface
 
+REFRESH = 2.0  # s until all is sent again: a message is lost now and then, and a controller may have been switched on
 OLD = 1000.0  # ms: a state that is older says nothing of the rig
 
 Message = tuple[int, int, int]
@@ -21,11 +22,17 @@ class Feedback:
         self._surface = surface
         self._lit: dict[Control, bool] = {}
         self.played = ""
+        self._refreshed = -1e9
 
     def messages(self, state: Mapping[str, Any], now: float) -> Iterator[Message]:
         """What has changed; nothing before the first reading."""
         if all(axis["measured"] is None for axis in state["axes"].values()):
             return
+        if now - self._refreshed >= REFRESH:
+            self._refreshed = now
+            self._lit.clear()
+            for fader in self._surface.faders.values():
+                fader.sent = None
         yield from self._lights(state)
         for at, fader in self._surface.faders.items():
             measured = state["axes"][self._surface.axis_of(at)]["measured"]
