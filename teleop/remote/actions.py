@@ -12,6 +12,7 @@ from teleop.core.events import Action, Tick
 from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
+from teleop.planner.chasing import Reference
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.device_actions import DeviceActions, Due, DueList
@@ -68,6 +69,7 @@ class LiveActions:
             "previous_key": lambda asked, now: self._transport(asked, now, lambda job: job.step(-1, now)),
             "to_start": lambda asked, now: self._transport(asked, now, lambda job: job.to_start(now)),
             "abort": self._abort,
+            "chase": self._chase,
             "record": lambda asked, now: self.devices.camera(asked, now, Action.RECORD),
             "stop_recording": lambda asked, now: self.devices.camera(asked, now, Action.STOP),
             "shutter": lambda asked, now: self.devices.camera(asked, now, Action.SHUTTER),
@@ -252,6 +254,15 @@ class LiveActions:
         if isinstance(job, PlayJob):
             job.owner = asked.command.session
         self._transport(asked, now, lambda job: job.resume(now))
+
+    def _chase(self, asked: Asked, now: float) -> None:
+        """The place that the move is to have at the time of the command, by this computer's clock."""
+        job = self._jobs.job
+        if not isinstance(job, PlayJob):
+            raise Refusal("no move is playing")
+        reference = Reference(asked["at"], asked.command.time / 1000, asked.get("rate", 1.0))
+        job.chase(reference, asked.get("free", False), now)
+        asked.end()
 
     def _abort(self, asked: Asked, now: float) -> None:  # noqa: ARG002
         if self._jobs.job is None:

@@ -12,6 +12,7 @@ from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.errors import TeleopError
 from teleop.remote.asked import Asked, Refusal
+from teleop.remote.follower import Follower
 from teleop.remote.moves import move_file
 from teleop.remote.planning_process import PlanningProcess, why
 from teleop.remote.play_job import PlayJob
@@ -85,9 +86,10 @@ class Works:
         compiled = self._planner.plan(move_file(what, self._folder) if isinstance(what, str) else what)
         passes = float("inf") if asked.get("loop", False) else asked.get("passes", 1)
         preroll = asked.get("preroll", compiled.preroll)
-        cycle = Cycle(preroll, passes=passes, back_to_one=compiled.back_to_one)
+        follower = Follower() if asked.get("chase", False) else None
+        cycle = Cycle(preroll, passes=passes, back_to_one=compiled.back_to_one, trigger=follower)
         missing = [axis for axis in compiled.move.tracks if axis not in self._limits]
         if missing:
             raise TeleopError(f"{compiled.title}: this run has no {', '.join(missing)}")
         source = SequenceSource(compiled, self._limits, asked.get("speed", 1.0), cycle=cycle)
-        return PlayJob(compiled.title, asked.command.session, source, asked.get("attended", True), asked.end)
+        return PlayJob(compiled.title, asked.command.session, source, asked.get("attended", True), asked.end, follower)
