@@ -12,5 +12,6 @@ SERVERS: Mapping[str, str] = {
     "freed": "teleop.exchange.freed",
     "midi": "teleop.exchange.midi",
     "osc": "teleop.exchange.osc",
+    "timecode": "teleop.exchange.timecode",
 }
 """The module that serves each type."""

@@ -19,21 +19,27 @@ Listener = Callable[[Sequence[int]], object]
 
 
 class MidiPort:
-    """An open input, and the output beside it where there is one. `listener` gets each message's bytes, in a thread."""
+    """An open input, and the output beside it where there is one. `listener` gets each message's bytes, in a thread.
 
-    def __init__(self, name: str, feedback: str, api: str, virtual: bool, listener: Listener) -> None:
+    Raises DeviceError where there is no such port, UsageError without python-rtmidi.
+    """
+
+    def __init__(
+        self, name: str, feedback: str, api: str, virtual: bool, listener: Listener, listens_only: bool = False
+    ) -> None:
         rtmidi = _rtmidi()
         kind = _api(rtmidi, api)
         self._input = self._output = None
         try:
             self._input = rtmidi.MidiIn(kind, name=CLIENT)
-            self._output = rtmidi.MidiOut(kind, name=CLIENT)
+            self._output = None if listens_only else rtmidi.MidiOut(kind, name=CLIENT)
             self._input.ignore_types(sysex=False, timing=False, active_sense=False)
             self._input.set_callback(lambda event, _data: listener(event[0]))
             if virtual:
                 self.name = self._back = name
                 self._input.open_virtual_port(name)
-                self._output.open_virtual_port(feedback or name)
+                if self._output is not None:
+                    self._output.open_virtual_port(feedback or name)
             else:
                 self.name = _chosen(self._input.get_ports(), name, "input")
                 self._input.open_port(self._input.get_ports().index(self.name), "in")
@@ -48,11 +54,13 @@ class MidiPort:
 
     def _open_output(self, feedback: str, name: str) -> str:
         """The port for feedback; "" for a controller that has none."""
-        there = self._output.get_ports()  # type: ignore[union-attr]
+        if self._output is None:
+            return ""
+        there = self._output.get_ports()
         if not feedback and not [each for each in there if name in each]:
             return ""
         found = _chosen(there, feedback or name, "output")
-        self._output.open_port(there.index(found), "out")  # type: ignore[union-attr]
+        self._output.open_port(there.index(found), "out")
         return found
 
     @property

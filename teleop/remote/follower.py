@@ -85,11 +85,10 @@ class Follower:
 
     def _play(self, source: SequenceSource, reference: Reference, now: float) -> None:
         playback = source.playback
-        if playback.changing(now):
+        if self._free or playback.changing(now):
             return
         if not playback.paused:
-            if not self._free:
-                playback.chase(reference, now)
+            playback.chase(reference, now)
             return
         here, code = playback.time(now), reference.place(now)
         if code >= here - JOIN:

@@ -119,8 +119,8 @@ class Surface:
             del self._ways[at]
             here = state["axes"][self._axes[at]]["commanded"]
             target = None
-            for share in way.shares if here is not None else ():
-                target = self.faders[at].moved(share, here, now)
+            for share in way.shares:
+                target = None if here is None else self.faders[at].moved(share, here, now)
             if target is not None:
                 self._targets[at] = target
                 changed = True

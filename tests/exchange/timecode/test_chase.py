@@ -30,8 +30,7 @@ def assert_within_limits(bench: ChaseBench) -> None:
             assert moved == pytest.approx((one.velocity + two.velocity) / 2, abs=0.01)  # nothing jumps
 
 
-@pytest.mark.parametrize("lead", [0.0, 5.0])
-@pytest.mark.parametrize("speed", [1.0, 1.001, 0.999])
+@pytest.mark.parametrize(("speed", "lead"), [(1.0, 0.0), (1.001, 5.0), (0.999, 0.0)])
 @pytest.mark.parametrize("rate", range(4))
 def test_it_is_within_half_a_frame_after_two_seconds_and_within_the_limits(
     rate: int, speed: float, lead: float
@@ -39,10 +38,10 @@ def test_it_is_within_half_a_frame_after_two_seconds_and_within_the_limits(
     fps = RATES[rate]
     lead = round(lead * fps / 2) * 2 / fps
     bench = ChaseBench()
-    bench.run(22.0, sender(rate, BEGIN, 24, 0.004, speed, lead), lambda now: (now - BEGIN) * speed - lead)
+    bench.run(16.0, sender(rate, BEGIN, 14, 0.004, speed, lead), lambda now: (now - BEGIN) * speed - lead)
     since = max(BEGIN + LOCKED, BEGIN + lead)
     chased = [point for point in bench.points if point.place is not None and since < point.time and point.code < 19]
-    assert len(chased) > 1200
+    assert len(chased) > 600
     assert max(abs(point.place - point.code) for point in chased if point.place is not None) * fps < HALF
     assert not bench.faults
     assert_within_limits(bench)
