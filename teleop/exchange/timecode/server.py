@@ -7,6 +7,7 @@ it. After a STOP, and whatever else ends the move, it counts again only once it 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Mapping
 from contextlib import suppress
 from time import monotonic
 from typing import Any
@@ -24,6 +25,7 @@ SAY = 0.1  # s between two words to the move of where it is
 LOOK = 1.0  # s between two looks whether the port is there, and until it is opened again
 SEEN = 0.5  # s between two words that somebody is there
 GIVEN_UP = 10.0  # s without timecode, after which the move is over and control free
+UNANSWERED = 4  # commands
 AGAIN = 2.0  # s until the same line may come again
 
 
@@ -72,6 +74,7 @@ class Chaser:
         self._playing: asyncio.Task[None] | None = None
         self._done = 0  # the lock of the timecode with which the move has been played
         self._told = self._seen = self._locked_at = -1e9
+        self._telling: set[asyncio.Task[None]] = set()
         self._why, self._said, self._said_at = "", "", -1e9
 
     def step(self, now: float) -> None:
@@ -109,7 +112,7 @@ class Chaser:
             self._told = now
             free = {"free": True} if self._section.start is not None else {}
             place = {"at": round(reference.at, 6), "time": now * 1000, "rate": round(reference.rate, 6), **free}
-            self._client.newest({"do": "chase", **place})
+            self._tell({"do": "chase", **place})
 
     async def _play(self, place: float) -> None:
         """Until the move has ended."""
@@ -129,11 +132,25 @@ class Chaser:
         if self._playing is not None or self._why != "is lost":
             self._say(self._why)
         if self._playing is not None:
-            self._client.post({"do": "pause"})
+            self._tell({"do": "pause"})
+
+    def _tell(self, command: Mapping[str, Any]) -> None:
+        """A command that leaves control with the move, where another one's would end with what it does."""
+        if len(self._telling) < UNANSWERED:
+            task = asyncio.get_running_loop().create_task(self._told_to(command))
+            self._telling.add(task)
+            task.add_done_callback(self._telling.discard)
+
+    async def _told_to(self, command: Mapping[str, Any]) -> None:
+        answer = await self._served.door.command(command, self._client.session, self._client.name)
+        if answer.get("kind") != "busy":
+            self._say(answer.get("error", ""))
 
     def close(self) -> None:
         if self._playing is not None:
             self._playing.cancel()
+        for task in self._telling:
+            task.cancel()
         self._client.close()
 
     def _say(self, why: str) -> None:
