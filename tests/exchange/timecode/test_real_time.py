@@ -12,6 +12,7 @@ import pytest
 from ltc_sound import encoded, is_installed
 from remote_bench import remote_bench
 
+from teleop.app.realtime import realtime
 from teleop.config.profile import checked_profile
 from teleop.config.resources import find
 from teleop.core.clock import SystemClock
@@ -19,14 +20,14 @@ from teleop.exchange.opening import opened
 from teleop.remote.gateway_child import Gateway
 
 FPS, BLOCK, SAMPLES = 25.0, 960, 48000
-LEAD, SECONDS = 3.0, 10.0
+LEAD, SECONDS = 2.0, 7.0
 
 
 class Tape:
     """Runs from `LEAD` s before the hour, into the pipe, as fast as sound does."""
 
     def __init__(self, pipe: Path) -> None:
-        self._sound = encoded((0, 59, 57, 0), int(FPS * (LEAD + SECONDS)), FPS)
+        self._sound = encoded((0, 59, 58, 0), int(FPS * (LEAD + SECONDS)), FPS)
         self._file = os.open(pipe, os.O_RDWR)
         self.began = 0.0
         self._thread = threading.Thread(target=self._run, daemon=True)
@@ -49,27 +50,29 @@ class Tape:
         os.close(self._file)
 
 
+@pytest.mark.flaky(reruns=2, only_rerun="KeyError: <RunState.OVER")  # the computer stalled: the run is over
 @pytest.mark.skipif(not is_installed(), reason="libltc is not installed")
 def test_it_is_within_half_a_frame_in_real_time_and_rests_when_the_sound_ends(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "ltc")
     text = find("sim", "profiles", "rig")[0].read_text(encoding="utf-8")
     entry = f"{{type: timecode, source: ltc, device: 'pipe:{tmp_path}/ltc', rate: 25, chase: nudge, at: '01:00:00:00'}}"
     off: list[float] = []
+    tape = Tape(tmp_path / "ltc")
     with opened(checked_profile(f"{text}\nexchange:\n  - {entry}\n", "rig.yaml")) as exchange:
         gateway = Gateway(exchange.settings, exchange.passed)
         with remote_bench(tmp_path, clock=SystemClock(), gateway=gateway) as bench:
             bench.quiet = True  # the real gateway says that it is there
-            tape = Tape(tmp_path / "ltc")
-            while bench.hands.desk.gateway_at < 0:
-                bench.tick()
-            tape.start()
-            while tape.place(bench.now) < SECONDS:
-                bench.tick()
-                move = bench.state["move"]
-                if move and move["phase"] == "playing" and tape.place(bench.now) > 2.0:
-                    off.append(abs(move["at"] - tape.place(bench.state["time"])) * FPS)
-            while not (bench.state["move"] and bench.state["move"]["phase"] == "paused" and bench.rests):
-                bench.tick()
+            with realtime(True, print):
+                while bench.hands.desk.gateway_at < 0:
+                    bench.tick()
+                tape.start()
+                while tape.place(bench.now) < SECONDS:
+                    bench.tick()
+                    move = bench.state["move"]
+                    if move and move["phase"] == "playing" and tape.place(bench.now) > 2.0:
+                        off.append(abs(move["at"] - tape.place(bench.state["time"])) * FPS)
+                while not (bench.state["move"] and bench.state["move"]["phase"] == "paused" and bench.rests):
+                    bench.tick()
             tape.close()
             assert any("is lost" in line for line in bench.lines)
     assert len(off) > 100
