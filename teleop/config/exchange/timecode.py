@@ -74,7 +74,7 @@ class TimecodeSection(Section):
     samples: Annotated[int, Field(ge=8000, le=192000)] = 48000
     """Samples per second of the sound."""
     latency: Annotated[Finite, Field(ge=-1000, le=1000)] = 0.0
-    """Milliseconds that the timecode is late when it is heard."""
+    """Milliseconds by which the timecode arrives late."""
 
     @property
     def move(self) -> str:

@@ -84,6 +84,6 @@ def _reading(frame: _Frame, when: Callable[[int], float]) -> Reading | Fault:
     units = [data[place] & 15 for place in (6, 4, 2, 0)]
     tens = [data[place] & mask for place, mask in ((7, 3), (5, 7), (3, 7), (1, 3))]
     if any(unit > 9 for unit in units):
-        return Fault("has a label that there is not")
+        return Fault("has a label that does not exist")
     hours, minutes, seconds, frames = (10 * ten + unit for ten, unit in zip(tens, units, strict=True))
     return Reading(when(frame.start), (hours, minutes, seconds, frames), bool(data[1] & 4))

@@ -75,7 +75,7 @@ class Tracker:
         if found.drop and self._rate is not None and not drops(self._rate):
             return f"drops frame numbers, which {shown_rate(self._rate)} does not"
         if not is_label(found.label, whole, found.drop):
-            return "has a label that there is not"
+            return "has a label that does not exist"
         return ""
 
     def _add(self, found: Reading) -> None:
