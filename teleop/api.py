@@ -25,7 +25,7 @@ from teleop.app.clocks import real_links
 from teleop.app.move import Move, Samples
 from teleop.app.planning import plan_content, plan_file
 from teleop.app.program import BusyError, EventJob, JogJob, MoveJob, StoppedError
-from teleop.app.session import Session, shortest_seconds
+from teleop.app.session import Session
 from teleop.app.session_play import AxisReport, Passes, Report, play
 from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.config.profile import Profile, load_profile
@@ -33,6 +33,7 @@ from teleop.core.axes import STICKS, Axis, State
 from teleop.core.errors import DeviceError, LinkError, TeleopError, UsageError
 from teleop.core.events import Action
 from teleop.core.response import Response
+from teleop.planner.shortest import shortest_seconds
 from teleop.recording.reader import Take
 
 __all__ = [
@@ -246,7 +247,8 @@ class Rig:
     def _refuse_haste(self, targets: Mapping[Axis, float], seconds: float) -> None:
         """Raises UsageError where the limits do not allow the move in so short a time."""
         self._session.check()
-        least = shortest_seconds(self._session, targets)
+        tick = self._session.program.tick
+        least = 0.0 if tick is None else shortest_seconds(tick.motion, targets, self._session.profile.limits)
         if seconds < least - 1e-6:
             least = math.ceil(least * 100) / 100  # what is named is long enough
             raise UsageError(f"move: seconds={seconds:g} is too short: this move needs {least:.2f} s")

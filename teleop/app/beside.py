@@ -7,12 +7,15 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import Protocol
 
+from teleop.app.run import RunReport
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
+from teleop.core.errors import LinkError
 from teleop.core.events import Action, DeviceCommand
 from teleop.core.interfaces import Clock, Observer, Sink, Source
 from teleop.core.operator_input import Input
+from teleop.devices.drone.state import DroneState
 from teleop.devices.rig import Rig
 from teleop.manual.operator import Operator
 from teleop.manual.stop_guard import StopGuard
@@ -21,7 +24,10 @@ from teleop.timelapse.progress import Progress
 
 
 class BesideLive(Protocol):
-    """Hands beside those at the rig, outranked by them: inputs, and what drives the axes beneath all inputs."""
+    """Hands beside those at the rig, outranked by them: inputs, and what drives the axes beneath all inputs.
+
+    They outlast a run of the rig that failed, where what they do goes on in another one.
+    """
 
     @property
     def inputs(self) -> Sequence[Input]: ...
@@ -29,7 +35,17 @@ class BesideLive(Protocol):
     @property
     def beneath(self) -> Source: ...
 
-    def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits]) -> None: ...
+    def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits]) -> None:
+        """Once, before the first run, until the stack is left."""
+        ...
+
+    def goes_on(self, report: RunReport | LinkError) -> bool:
+        """Whether what they do goes on in another run, after this one or this try to reach the rig."""
+        ...
+
+    def wait(self, now: float) -> bool:
+        """Called again and again until that begins: whether it is still wanted."""
+        ...
 
     def attach(self, stack: ExitStack, operator: Operator, presets: Presets, rig: Rig) -> tuple[Observer, Sink]: ...
 
@@ -44,13 +60,17 @@ class BesideLive(Protocol):
 
 @dataclass(frozen=True)
 class Running:
-    """A run that moves by itself, for those beside it; `guard` is None until it begins, `show` is its screen's."""
+    """A run that moves by itself, for those beside it; `guard` is None until it begins, `show` is its screen's.
+
+    `drone` has what is known of the drone, None in a run without one.
+    """
 
     title: str
     guard: Callable[[], StopGuard | None]
     show: Callable[[str], object]
     source: SequenceSource | None = None
     progress: Progress | None = None
+    drone: Callable[[], DroneState | None] = lambda: None
 
 
 class BesideRun(Protocol):

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from teleop.app.absent_devices import open_present
@@ -18,11 +18,13 @@ from teleop.app.drone_flight import Aboard, is_flown
 from teleop.app.kept_responses import KeptResponses
 from teleop.app.operator_inputs import open_devices
 from teleop.app.run import RunReport, Screen, Signals, commands, run
+from teleop.app.shoot_runner import LOOK, RETRY
 from teleop.app.stop_inputs import open_stop_inputs
 from teleop.app.target_file import TargetFile
 from teleop.config.presets import default_file, read_presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
+from teleop.core.errors import LinkError
 from teleop.core.interfaces import Clock, Observer, Sink, Source
 from teleop.core.run_status import RunStatus
 from teleop.devices.camera_answers import CameraAnswers
@@ -53,6 +55,23 @@ class LiveParts:
     drone: Callable[[], DroneState | None]
 
 
+@dataclass
+class _Opened:
+    """What the first run has opened, and later ones go on with; `last` is the report of the last of them."""
+
+    axes: Sequence[Axis]
+    recorder: Recorder | None
+    last: RunReport | None = None
+
+    def reported(self, ended: RunReport | LinkError) -> RunReport:
+        """The report of all of them."""
+        assert self.last is not None
+        report = self.last if isinstance(ended, LinkError) else ended
+        if self.recorder is not None:
+            self.recorder.finish(report.result, report.reasons, report.links)
+        return replace(report, take=self.recorder)
+
+
 MakeReplayScreen = Callable[[Mapping[Axis, Limits], Callable[[float], RunStatus], Recorder | None], Screen]
 
 
@@ -76,45 +95,93 @@ class LiveRun:
     beside: BesideLive | None = None
 
     def by_hand(self, make_screen: Callable[[LiveParts], Screen], signals: Signals) -> RunReport:
-        """Until the operator or what is recorded ends it. Raises TeleopError for what keeps it from beginning."""
+        """Until the operator or what is recorded ends it. Raises TeleopError for what keeps it from beginning.
+
+        What those beside it do may outlast a run that failed: then the rig is opened again.
+        """
+        with ExitStack() as outer:
+            aboard = Aboard()
+            kept_open: _Opened | None = None
+            while True:
+                ended: RunReport | LinkError
+                try:
+                    with ExitStack() as stack:
+                        kept_open, ended = self._one_run(outer, stack, kept_open, aboard, make_screen, signals)
+                except LinkError as error:
+                    if kept_open is None:
+                        raise
+                    ended = error
+                if self.beside is None or not self.beside.goes_on(ended) or not self._waits(self.beside, signals):
+                    return kept_open.reported(ended)
+
+    def _one_run(
+        self,
+        outer: ExitStack,
+        stack: ExitStack,
+        before: _Opened | None,
+        aboard: Aboard,
+        make_screen: Callable[[LiveParts], Screen],
+        signals: Signals,
+    ) -> tuple[_Opened, RunReport]:
+        """What is opened with the first run lasts until `outer` is left."""
         profile, keyboard = self.profile, self.keyboard
         sticks = self.recorded if not self.recordings else _until_end(self.recorded, self.recordings)
-        replay, aboard = None if sticks is None else self.replay(sticks), Aboard()
-        with ExitStack() as stack:
-            begin = (lambda: math.inf) if replay is None else (lambda: replay.begin)
-            alone = keyboard is not None or self.beside is not None
-            inputs, note = open_devices(
-                *(stack, profile, self.clock, alone, NO_INPUT, self.recordings, begin, self.virtual)
-            )
-            damage: list[str] = []
-            kept = KeptResponses(profile, damage.append)
-            rig, axes, left_out = self._opened(stack, kept)
-            limits = {axis: profile.limits[axis] for axis in axes}
-            shelf = read_presets(self.presets or default_file(profile.name), limits, profile.name)
-            stack.callback(shelf.close)
-            own = [*inputs, *([] if keyboard is None else [keyboard])]
-            beneath: Source | None = replay
-            if self.beside is not None:
-                self.beside.open(stack, profile, limits)
-                own, beneath = [*own, *self.beside.inputs], self.beside.beneath
-            targets = None if self.targets is None else TargetFile(self.targets)
-            marks = None if targets is None else TargetMarks(targets.height, targets.add)
-            operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, beneath, marks)
-            if targets is not None:
-                targets.notify = operator.notify
-                stack.callback(targets.close)
-            for line in (*damage, *left_out, *([note] if note else [])):
-                operator.notify(line)
-            recorder = self._recorder(stack, limits, lambda: aboard.status(operator.status), patient=self.virtual)
-            aboard.board(rig, axes, operator.notify, by_script=False)
-            screen = make_screen(LiveParts(limits, operator, rig.connections, recorder, aboard.state))
-            observers, sinks = self._watched(rig, axes, operator, lenient=replay is None)
-            observers = [*observers, *([] if targets is None else [targets])]
-            if self.beside is not None:
-                observer, sink = self.beside.attach(stack, operator, shelf, rig)
-                observers, sinks = [*observers, observer], [*sinks, sink]
-            tracking, stopped = TrackingErrorMonitor(lambda: operator.begin), (lambda: operator.reason)
-            return run(rig, axes, [operator], tracking, screen, signals, recorder, observers, sinks, stopped, kept)
+        replay = None if sticks is None else self.replay(sticks)
+        begin = (lambda: math.inf) if replay is None else (lambda: replay.begin)
+        alone = keyboard is not None or self.beside is not None
+        inputs, note = open_devices(
+            *(stack, profile, self.clock, alone, NO_INPUT, self.recordings, begin, self.virtual)
+        )
+        damage: list[str] = []
+        kept = KeptResponses(profile, damage.append)
+        rig, axes, left_out = self._opened(stack, kept)
+        limits = {axis: profile.limits[axis] for axis in axes}
+        if before is not None and set(before.axes) != set(axes):
+            raise LinkError("not every device of the run before is there")
+        shelf = read_presets(self.presets or default_file(profile.name), limits, profile.name)
+        stack.callback(shelf.close)
+        own = [*inputs, *([] if keyboard is None else [keyboard])]
+        beneath: Source | None = replay
+        if self.beside is not None:
+            if before is None:
+                self.beside.open(outer, profile, limits)
+            own, beneath = [*own, *self.beside.inputs], self.beside.beneath
+        targets = None if self.targets is None else TargetFile(self.targets)
+        marks = None if targets is None else TargetMarks(targets.height, targets.add)
+        operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, beneath, marks)
+        if targets is not None:
+            targets.notify = operator.notify
+            stack.callback(targets.close)
+        for line in (*damage, *left_out, *([note] if note else [])):
+            operator.notify(line)
+        status = lambda: aboard.status(operator.status)  # noqa: E731
+        opened = before or _Opened(axes, self._recorder(outer, limits, status, patient=self.virtual))
+        if opened.recorder is not None:
+            opened.recorder.status = status
+        aboard.board(rig, axes, operator.notify, by_script=False)
+        screen = make_screen(LiveParts(limits, operator, rig.connections, opened.recorder, aboard.state))
+        observers, sinks = self._watched(rig, axes, operator, lenient=replay is None)
+        observers = [*observers, *([] if targets is None else [targets])]
+        if self.beside is not None:
+            observer, sink = self.beside.attach(outer, operator, shelf, rig)
+            observers, sinks = [*observers, observer], [*sinks, sink]
+        observers = [*observers, *([] if opened.recorder is None else [opened.recorder])]
+        tracking, stopped = TrackingErrorMonitor(lambda: operator.begin), (lambda: operator.reason)
+        report = run(rig, axes, [operator], tracking, screen, signals, None, observers, sinks, stopped, kept)
+        opened.last = report
+        return opened, report
+
+    def _waits(self, beside: BesideLive, signals: Signals) -> bool:
+        """A moment, before the rig is tried again; whether another run is wanted."""
+        interrupted: list[str] = []
+        nothing: Callable[..., None] = lambda *_: None  # noqa: E731
+        with signals(interrupted.append, nothing, nothing):
+            end = self.clock.now() + RETRY
+            while (now := self.clock.now()) < end:
+                if interrupted or not beside.wait(now):
+                    return False
+                self.clock.sleep_until(min(end, now + LOOK))
+        return True
 
     def unattended(
         self,

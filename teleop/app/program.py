@@ -41,12 +41,17 @@ class Job(Protocol):
 
 
 class MoveJob:
-    """Every axis to its target (units) and at rest there, `seconds` from its start or as soon as the limits allow."""
+    """Every axis to its target (units) and at rest there, `seconds` from its start or as soon as the limits allow.
+
+    `speeds` (unit/s) are the most that axes may go which have no `seconds`.
+    """
 
     moves = True
 
-    def __init__(self, targets: Mapping[Axis, float], seconds: float | None) -> None:
-        self._targets, self._seconds = targets, seconds
+    def __init__(
+        self, targets: Mapping[Axis, float], seconds: float | None, speeds: Mapping[Axis, float] | None = None
+    ) -> None:
+        self._targets, self._seconds, self._speeds = targets, seconds, speeds or {}
         self._end: float | None = None
         self._arrived: float | None = None
 
@@ -55,7 +60,9 @@ class MoveJob:
 
     def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         left = None if self._end is None else max(0.0, self._end - now)
-        return {axis: PositionTarget(target, left or None) for axis, target in self._targets.items()}, ()
+        return {
+            axis: PositionTarget(target, left or None, self._speeds.get(axis)) for axis, target in self._targets.items()
+        }, ()
 
     def done(self, tick: Tick) -> bool:
         states = {axis: tick.motion[axis] for axis in self._targets}

@@ -47,7 +47,7 @@ class RunReport:
     """How a run ended. `tracking` has how well each axis followed; `links` counts by link; `take` what was recorded.
 
     `responses` are what was identified of the axes that are sent speeds, of those that moved enough for it; `kept` is
-    what became of them.
+    what became of them. `faults` is what was raised in the run.
     """
 
     result: Result
@@ -58,6 +58,7 @@ class RunReport:
     take: Recorder | None = None
     responses: Mapping[Axis, Response] = field(default_factory=dict)
     kept: KeptReport = field(default_factory=KeptReport)
+    faults: Sequence[BaseException] = ()
 
 
 def run(
@@ -92,7 +93,7 @@ def run(
     drone = rig.drone(axes)
     state = None if drone is None else drone.state(rig.clock.now())
     keeping = KeptReport() if kept is None else kept.finish()
-    return RunReport(ended.result, ended.reasons, tracking, links, state, take, rig.responses, keeping)
+    return RunReport(ended.result, ended.reasons, tracking, links, state, take, rig.responses, keeping, loop.faults)
 
 
 def commands(

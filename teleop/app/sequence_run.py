@@ -111,7 +111,7 @@ class SequenceRun:
             shown = status_of if guard is None else (lambda now: guard.over(status_of(now)))
             screen = make_screen(self.limits, shown, recorder)
             if self.beside is not None:
-                running = Running(self.sequence.title, lambda: guard, screen.notify, self.source)
+                running = Running(self.sequence.title, lambda: guard, screen.notify, self.source, drone=aboard.state)
                 observers.append(self.beside.attach(stack, running))
             aboard.board(rig, axes, screen.notify, by_script=True)
             if guard:

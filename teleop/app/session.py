@@ -11,7 +11,7 @@ import atexit
 import logging
 import threading
 import weakref
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 
 from teleop.app.clocks import clock_for
@@ -20,7 +20,6 @@ from teleop.app.program import Job, ProgramSource
 from teleop.app.run import command_sinks
 from teleop.app.switch_interval import short_switch_interval
 from teleop.config.profile import Profile
-from teleop.core.axes import Axis, State
 from teleop.core.control_loop import ControlLoop
 from teleop.core.errors import DeviceError, Interrupted, TeleopError, UsageError
 from teleop.core.events import Action
@@ -28,7 +27,6 @@ from teleop.core.interfaces import Observer
 from teleop.core.run_state import Result, RunState
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.rig import Rig, open_rig
-from teleop.planner.ruckig_solver import PositionSolver
 
 CLOSING = 15.0  # s to wait for a run to end; the loop's own deadlines are shorter
 IMPATIENT = 2  # interrupts while closing, after which devices are released without a ramp
@@ -203,19 +201,3 @@ def _close_all() -> None:
     """A rig that the program has left open is brought to rest and released as the interpreter ends."""
     for session in list(_sessions):
         session.close()
-
-
-def shortest_seconds(session: Session, targets: Mapping[Axis, float]) -> float:
-    """The least time in which every axis can be at rest at its target together, by the jerk-limited planner."""
-    tick = session.program.tick
-    if tick is None:
-        return 0.0
-    limits = [session.profile.limits[axis] for axis in targets]
-    trajectory = PositionSolver(len(targets)).solve(
-        [tick.motion[axis] for axis in targets],
-        [State(target) for target in targets.values()],
-        [of.velocity for of in limits],
-        [of.acceleration for of in limits],
-        [of.jerk for of in limits],
-    )
-    return 0.0 if trajectory is None else trajectory.duration

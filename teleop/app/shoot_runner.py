@@ -11,7 +11,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Literal
 
 from teleop.app.kept_responses import KeptResponses
 from teleop.config.documents.document import DocumentError
@@ -33,7 +32,7 @@ from teleop.timelapse.compile import Timelapse
 from teleop.timelapse.go_motion import mover_of
 from teleop.timelapse.journal import FrameState, Journal
 from teleop.timelapse.movers import Mover
-from teleop.timelapse.progress import Progress
+from teleop.timelapse.so_far import InDoubt, settle_doubt, so_far
 from teleop.timelapse.source import TimelapseSource
 
 LOOK = 0.1  # s between looks for a signal while waiting, and at the inputs while nothing moves
@@ -41,7 +40,6 @@ RETRY = 2.0  # s between two tries to reach a rig that was lost
 LONGEST_WAIT = 24 * 3600.0  # s of such pauses in a row, after which the shoot ends
 STALLS = 5  # runs in a row that a stalled computer may end without a frame
 COUNTED = (FrameState.DONE, FrameState.DOUBTFUL)  # as shot
-InDoubt = Literal["shoot", "skip"]
 
 
 @dataclass(frozen=True)
@@ -58,6 +56,16 @@ def camera_link(profile: Profile) -> str:
     if not links:
         raise DocumentError([f"{profile.name} has no camera to shoot with: sinks needs {{type: camera, link: ...}}"])
     return links[0]
+
+
+def passes_by_itself(faults: Sequence[BaseException], wait_for_link: bool, fruitless: int) -> bool:
+    """Whether what ended a run does: a link's loss where that is waited for, a stall of the computer.
+
+    `fruitless` is how many runs in a row have brought no frame.
+    """
+    if faults and isinstance(faults[0], LinkError):
+        return wait_for_link and str(faults[0]) != CLOSED  # the operator's own end is gone, not the rig's
+    return bool(faults) and isinstance(faults[0], StallError) and fruitless < STALLS
 
 
 class Shooting:
@@ -83,15 +91,13 @@ class Shooting:
     ) -> None:
         self._look = look
         self._timelapse, self._profile, self._clock, self._journal = timelapse, profile, clock, journal
-        self._notify, self._observers, self._in_doubt = notify, observers, in_doubt
+        self._notify, self._observers = notify, observers
+        self._in_doubt: InDoubt = in_doubt
         self._executor = executor
         self._inputs = [*([] if keys is None else [keys]), *inputs]
         self.guard: StopGuard | None = None
         self._camera = camera_link(profile)
-        shot = sum(state is FrameState.DONE for state in journal.frames.values())
-        self.progress = Progress(timelapse.slots, timelapse.fps, shot, frame=journal.next, by_hand=by_hand)
-        self.progress.doubtful += [each for each, state in journal.frames.items() if state is FrameState.DOUBTFUL]
-        self.progress.lost += [each for each, state in journal.frames.items() if state is FrameState.MISSED]
+        self.progress = so_far(timelapse, journal, by_hand)
         self._begin = math.inf  # when the first frame of the first run was due
         self._source: TimelapseSource | ByHandSource | None = None
         self.links: Mapping[str, Mapping[str, int]] = {}
@@ -114,7 +120,7 @@ class Shooting:
         fruitless, waiting, waited = 0, False, 0.0
         while True:
             before = self.progress.shot
-            self._settle_doubt()
+            settle_doubt(journal=self._journal, progress=self.progress, in_doubt=self._in_doubt, notify=self._notify)
             if self._journal.next >= self._timelapse.frames:
                 return self._finished()
             ended, faults, reached = self._one_run()
@@ -187,32 +193,10 @@ class Shooting:
         return ByHandSource(timelapse, mover, journal, first, progress, keys, shot)
 
     def _may_go_on(self, faults: Sequence[BaseException], reached: bool, waiting: bool, fruitless: int) -> bool:
-        """Whether what ended a run passes by itself: a link's loss where the profile says so, a stall of the computer.
-
-        A rig that is waited for may also be there and not yet answer.
-        """
+        """Whether what ended a run passes by itself. A rig that is waited for may also be there and not yet answer."""
         if waiting and not reached:
             return True
-        if faults and isinstance(faults[0], LinkError):
-            if str(faults[0]) == CLOSED:  # the operator's own end is gone, not the rig's
-                return False
-            return reached and self._profile.timelapse.wait_for_link
-        return bool(faults) and isinstance(faults[0], StallError) and fruitless < STALLS
-
-    def _settle_doubt(self) -> None:
-        """A frame that was begun and not confirmed is shot again, or counts as shot; either way it is named."""
-        frame = self._journal.in_doubt
-        if frame is None:
-            return
-        line = f"frame {frame} may be missing: the shoot stopped at its shutter"
-        if self._in_doubt == "skip":
-            self._journal.note(frame, FrameState.DOUBTFUL)
-            self._journal.catch_up()
-            self.progress.doubtful.append(frame)
-            self._notify(f"{line}; it counts as shot")
-        else:
-            self._notify(f"{line}; it is shot again, so the camera may have it twice")
-        self.progress.frame = self._journal.next
+        return passes_by_itself(faults, self._profile.timelapse.wait_for_link and reached, fruitless)
 
     def interrupt(self, reason: str) -> None:
         """Stop smoothly; safe to call from a signal handler, again and again."""

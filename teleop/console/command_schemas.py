@@ -31,6 +31,7 @@ class CommandSchema(NamedTuple):
     optional: Mapping[str, Schema] = {}
 
 
+SHARE = {"type": "number", "minimum": 0, "maximum": 1}
 STICK = {
     "seq": {"type": "integer", "minimum": 0},
     "axes": {"type": "object", "additionalProperties": {"type": "number", "minimum": -1, "maximum": 1}},
@@ -42,6 +43,10 @@ PLAYED = {
     "speed": {"type": "number", "description": "share of the written speed"},
     "preroll": SECONDS,
 }
+SHOT = {
+    "resume": {"type": "boolean", "description": "true: go on with the shoot that its journal knows"},
+    "restart": {"type": "boolean", "description": "true: begin anew, whatever the journal says"},
+}
 COMMANDS: Mapping[str, CommandSchema] = {
     "take_control": CommandSchema("Take control; `ask` where another holds it", {}, {"ask": TRUTH}),
     "release_control": CommandSchema("Give control up"),
@@ -50,7 +55,11 @@ COMMANDS: Mapping[str, CommandSchema] = {
     "clear": CommandSchema("Clear a STOP"),
     "stick": CommandSchema("One message of a stream, 50 a second", STICK, {"hold": TRUTH}),
     "jog": CommandSchema("Move an axis by so many units", {"axis": AXIS, "by": NUMBER}, {"within": SECONDS}),
-    "goto": CommandSchema("Go to positions", {"axes": POSITIONS}, {"seconds": SECONDS}),
+    "goto": CommandSchema("Go to positions", {"axes": POSITIONS}, {"seconds": SECONDS, "speeds": POSITIONS}),
+    "go_motion": CommandSchema(
+        "Move through one exposure, from where its run begins",
+        {"axes": POSITIONS, "before": POSITIONS, "after": POSITIONS, "exposure": SECONDS, "blur": SHARE},
+    ),
     "preset_recall": CommandSchema("Go to a preset", {"number": PRESET}, {"seconds": SECONDS}),
     "preset_store": CommandSchema("Keep the positions as a preset", {"number": PRESET}, {"name": TEXT}),
     "preset_delete": CommandSchema("Delete a preset", {"number": PRESET}),
@@ -75,7 +84,7 @@ COMMANDS: Mapping[str, CommandSchema] = {
         "Move the focus", {"to": {"type": "number", "minimum": 0, "maximum": 1}}, {"seconds": SECONDS}
     ),
     "range": CommandSchema("Choose the speed range of sticks", {"number": WHOLE}),
-    "shoot": CommandSchema("Shoot a timelapse", {"move": MOVE}),
+    "shoot": CommandSchema("Shoot a timelapse", {"move": MOVE}, SHOT),
     "message": CommandSchema("Send a message of the R SDK", {"name": TEXT}, {"fields": {"type": "object"}}),
     "plan": CommandSchema(
         "Plan a move; answered by the gateway",

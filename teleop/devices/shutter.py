@@ -34,6 +34,11 @@ class ShutterSink:
         self._again: list[tuple[int, CameraCommand, int]] = []
         connection.on_answer(camera.Command, self._answered)
 
+    @property
+    def holds(self) -> bool:
+        """Whether the shutter, or a focus, is pressed."""
+        return bool(self._held)
+
     def write(self, tick: Tick) -> None:
         self._retry(tick.time)
         for act in tick.actions:

@@ -49,6 +49,8 @@ def _runtime_folder() -> str | None:
 
     On a disk a write to a mapped page waits now and then for the disk: the loop stalled for 0.28 s by that.
     """
+    if not hasattr(os, "getuid"):  # Windows, where that place is in the folder of the user
+        return None
     named = os.environ.get("XDG_RUNTIME_DIR", "")
     try:
         found = os.stat(named) if os.path.isabs(named) else None

@@ -17,6 +17,7 @@ from teleop.door.sockets import LARGEST
 
 FAR = 1e6  # of a position, in units: the rig's own limits are checked where they are known
 LONGEST = 3600.0  # s that one way may take
+SLOWEST = 1e-6  # unit/s that a way may be limited to
 MOST_SEEN = 24  # sessions in one word about who is there
 MOST_ID = 2**53  # what JavaScript counts up to
 SESSION, NAME = text(40, r"[\w.:-]+"), text(40)
@@ -57,7 +58,16 @@ SHAPES: Mapping[str, Shape] = {
     "clear": Shape(),
     "stick": Shape({"seq": whole(0, MOST_ID), "axes": axes(-1.0, 1.0)}, {"hold": truth}),
     "jog": Shape({"axis": axis, "by": number(-90.0, 90.0)}, {"within": number(0.0, 60.0)}),
-    "goto": Shape({"axes": axes(-FAR, FAR)}, {"seconds": SECONDS}),
+    "goto": Shape({"axes": axes(-FAR, FAR)}, {"seconds": SECONDS, "speeds": axes(SLOWEST, FAR)}),
+    "go_motion": Shape(
+        {
+            "axes": axes(-FAR, FAR),
+            "before": axes(-FAR, FAR),
+            "after": axes(-FAR, FAR),
+            "exposure": number(0.001, LONGEST),
+            "blur": number(0.0, 1.0),
+        }
+    ),
     "preset_recall": Shape({"number": PRESET}, {"seconds": SECONDS}),
     "preset_store": Shape({"number": PRESET}, {"name": text(60)}),
     "preset_delete": Shape({"number": PRESET}),
@@ -91,7 +101,7 @@ SHAPES: Mapping[str, Shape] = {
     "follow": Shape({"mode": text(24, r"[a-z][a-z0-9-]*")}),
     "focus": Shape({"to": number(0.0, 1.0)}, {"seconds": SECONDS}),
     "range": Shape({"number": NUMBER}),
-    "shoot": Shape({"move": text(120, FILE_NAME)}),
+    "shoot": Shape({"move": text(120, FILE_NAME)}, {"resume": truth, "restart": truth}),
     "message": Shape({"name": text(60, r"[a-z][a-z0-9 _-]*")}, {"fields": plain_fields}),
     "alive": Shape(optional={"seen": _ages}),
     "closed": Shape(),

@@ -43,7 +43,7 @@ class RingWriter:
         try:
             size = HEAD + SLOTS * SLOT_SIZE
             os.ftruncate(descriptor, size)
-            self._map = mmap.mmap(descriptor, size)
+            self._map = mmap.mmap(descriptor, size, access=mmap.ACCESS_WRITE)
         finally:
             os.close(descriptor)
         self._words = memoryview(self._map).cast("Q")
@@ -76,7 +76,7 @@ class RingReader:
         try:
             descriptor = os.open(path, os.O_RDONLY)
             try:
-                self._map = mmap.mmap(descriptor, 0, prot=mmap.PROT_READ)
+                self._map = mmap.mmap(descriptor, 0, access=mmap.ACCESS_READ)
             finally:
                 os.close(descriptor)
         except (OSError, ValueError) as error:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 SERVERS: Mapping[str, str] = {
+    "dfmoco": "teleop.exchange.dfmoco",
     "foxglove": "teleop.exchange.foxglove",
     "freed": "teleop.exchange.freed",
     "midi": "teleop.exchange.midi",

@@ -50,7 +50,7 @@ class Client:
         self._left, self._counted = float(BURST), monotonic()
         self._unanswered = 0
         self._said = -SAID_AGAIN
-        self._newest: dict[str, Command | None] = {}  # by what it does: one under way, and the one that follows
+        self._newest: dict[str, Command | None] = {}  # by fader: one under way, and the one that follows
         self._stopping = self._stop_again = False
         self._tasks: set[asyncio.Task[None]] = set()
 
@@ -73,17 +73,20 @@ class Client:
             self._unanswered += 1
             self._start(self._posted(command))
 
-    def newest(self, command: Command) -> None:
-        """As `post`, for a fader: while one that does the same is unanswered, only the newest of them is kept."""
-        do = command["do"]
-        if do in self._newest:
-            self._newest[do] = command
+    def newest(self, command: Command, fader: str = "") -> None:
+        """As `post`, for a fader: while one of the same is unanswered, only the newest of them is kept.
+
+        `fader` tells several apart whose commands do the same.
+        """
+        fader = fader or command["do"]
+        if fader in self._newest:
+            self._newest[fader] = command
         elif why := self._why_not():
             self._say(why)
         else:
-            self._newest[do] = None
+            self._newest[fader] = None
             self._unanswered += 1
-            self._start(self._follow(do, command))
+            self._start(self._follow(fader, command))
 
     def stop(self) -> None:
         """STOP, whoever has control and however much was sent: repeated until the state shows it."""
@@ -132,15 +135,15 @@ class Client:
         if not (why := end.get("error", "")).startswith(REPLACED):
             self._say(why)
 
-    async def _follow(self, do: str, command: Command) -> None:
+    async def _follow(self, fader: str, command: Command) -> None:
         try:
             following: Command | None = command
             while following is not None:
                 await self._posted(following)
-                following, self._newest[do] = self._newest[do], None
+                following, self._newest[fader] = self._newest[fader], None
                 self._unanswered += following is not None
         finally:
-            del self._newest[do]
+            del self._newest[fader]
 
     async def _stop(self) -> None:
         try:

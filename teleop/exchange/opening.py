@@ -52,12 +52,14 @@ def opened(profile: Profile) -> Iterator[Exchange]:
 
 
 def _listener(stack: ExitStack, number: int, entry: ExchangeSection) -> socket.socket | None:
-    listen = getattr(entry, "listen", None)
-    if entry.TRANSPORT is None or listen is None:
+    listen, transport, where = getattr(entry, "listen", None), entry.TRANSPORT, getattr(entry, "listen", None)
+    if transport is None and listen is not None:  # it begins with its transport, as in tcp:HOST:PORT
+        transport, _, where = listen.partition(":")
+    if listen is None or where is None or transport not in KINDS:
         return None
     place = f"exchange[{number}] ({entry.type}): listen {listen}"
     try:
-        return stack.enter_context(_bound(address(listen), KINDS[entry.TRANSPORT]))
+        return stack.enter_context(_bound(address(where), KINDS[transport]))
     except (OSError, UnicodeError) as error:
         why = getattr(error, "strerror", None) or error
         raise DeviceError(f"{place}: cannot listen: {why}; choose another port, or end what has it") from None

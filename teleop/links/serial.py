@@ -62,6 +62,10 @@ class SerialPort:
     def read(self) -> bytes:
         return self._port.read(_READ)
 
+    def fileno(self) -> int:
+        """What an event loop waits for. Raises OSError where the system has none."""
+        return self._port.fileno()
+
     def close(self) -> None:
         self._port.close()
 

@@ -37,13 +37,17 @@ class TrackingErrorMonitor:
     """An observer. Readings from before `begin`, on the loop's clock, do not count.
 
     `planned` is what they are compared with, of a tick: what was commanded, unless a correction was added to that.
+    `counts` says of a time whether readings of it do.
     """
 
     def __init__(
-        self, begin: Callable[[], float], planned: Callable[[Tick], Motion] = lambda tick: tick.motion
+        self,
+        begin: Callable[[], float],
+        planned: Callable[[Tick], Motion] = lambda tick: tick.motion,
+        counts: Callable[[float], bool] = lambda _time: True,
     ) -> None:
         self.scores: dict[Axis, Score] = {}
-        self._begin, self._planned = begin, planned
+        self._begin, self._planned, self._counts = begin, planned, counts
         self._latest: Tick | None = None
         self._commanded: deque[tuple[float, Motion]] = deque(maxlen=100)
         self._counted: dict[Axis, float] = {}
@@ -54,8 +58,9 @@ class TrackingErrorMonitor:
         for axis, reading in tick.reported.items():
             if axis in tick.motion and reading.time != self._counted.get(axis) and reading.time >= self._begin():
                 self._counted[axis] = reading.time
-                error = self._commanded_at(axis, reading.time) - reading.position
-                self.scores.setdefault(axis, Score()).add(error)
+                if self._counts(reading.time):
+                    error = self._commanded_at(axis, reading.time) - reading.position
+                    self.scores.setdefault(axis, Score()).add(error)
 
     @property
     def seconds(self) -> float:

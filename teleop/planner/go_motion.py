@@ -23,6 +23,7 @@ RAMP = 1.0  # s from rest to the speed of the exposure, and back to rest
 GENTLE = 0.5  # of acceleration and jerk, for the change of speed at the middle where there is time for it
 SHORTEST_CHANGE = 0.1  # s on each side of the middle: ten ticks
 STEEPEST = 3.0  # times the slower side's speed, that of the middle: with more the slower side would turn back
+WHOLE = 1 + 1e-9  # of a limit, for rounding
 PIECES = 6  # ramp, even, change, change, even, ramp
 
 
@@ -46,6 +47,13 @@ class ExposureRuns:
         return cls(
             np.append(places[:1], places[:-1]), places, np.append(places[1:], places[-1:]), blur, exposure, limits
         )
+
+    @classmethod
+    def once(
+        cls, before: float, place: float, after: float, blur: float, exposure: float, limits: Limits
+    ) -> ExposureRuns:
+        """Of one frame, with the places of the frame before it and of the next."""
+        return cls(np.array([before]), np.array([place]), np.array([after]), blur, exposure, limits)
 
     def only(self, frames: Sequence[int]) -> ExposureRuns:
         """Those of some frames, by their numbers."""
@@ -129,6 +137,10 @@ class ExposureRuns:
         rows[:, 5, 0], rows[:, 5, 1] = self.places + last * half, last
         rows[:, 5, 3], rows[:, 5, 4] = -last / RAMP**2, last / (2 * RAMP**3)
         return rows
+
+    def over(self) -> str:
+        """The limit that the first run would exceed, "" for none."""
+        return next((name for name, shares in self.shares().items() if not shares[0] <= WHOLE), "")
 
     def track(self, frame: int) -> Track:
         """The run of a frame; its time 0 is when the shutter is pressed."""

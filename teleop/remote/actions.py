@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile
@@ -13,15 +15,22 @@ from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
 from teleop.planner.chasing import Reference
+from teleop.planner.go_motion import ExposureRuns
+from teleop.planner.shortest import shortest_seconds
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.device_actions import DeviceActions, Due, DueList
+from teleop.remote.go_motion_job import GoMotionJob
 from teleop.remote.jobs import JobSource, WayJob
 from teleop.remote.keys import MOST as MOST_KEYS
 from teleop.remote.keys import HandKeys
+from teleop.remote.made_jobs import JobMaker
+from teleop.remote.pass_errors import ShownPasses
 from teleop.remote.play_job import NotNowError, PlayJob
+from teleop.remote.shoot_actions import ShootActions
+from teleop.remote.shoot_job import ShootJob
 from teleop.remote.told import Told
-from teleop.remote.works import Works
+from teleop.remote.works import Work, Works
 
 JOG_TIME = 0.5  # s that a jog takes at least, unless it says otherwise
 WAY_TIME = 600.0  # s for a way along the path of a move
@@ -38,19 +47,24 @@ class LiveActions:
         jobs: JobSource,
         keys: HandKeys,
         works: Works,
+        maker: JobMaker,
         told: Told,
     ) -> None:
         self._profile, self._limits, self._jobs, self.keys, self._works = profile, limits, jobs, keys, works
+        self._maker = maker
         self.operator: Operator
         self.presets: Presets
         self.desk: Desk
+        self.passes = ShownPasses()
         self._motion: Motion = {}
         self._due = DueList()
         has_gimbal = any(sink.type == "gimbal" for sink in profile.sinks)
         self.devices = DeviceActions(jobs, told, self._due, lambda: self.rests, has_gimbal)
+        self.shoots = ShootActions(jobs, works, maker, self._due, self._begin, lambda text: self.operator.notify(text))
         self._halted = False
         self._do: Mapping[str, Callable[[Asked, float], None]] = {
             "goto": lambda asked, _now: self._go("goto", asked, dict(asked["axes"]), asked.get("seconds")),
+            "go_motion": self._go_motion,
             "jog": self._jog,
             "focus": lambda asked, _now: self._go("focus", asked, {Axis.FOCUS: asked["to"]}, asked.get("seconds")),
             "recenter": self._recenter,
@@ -61,7 +75,8 @@ class LiveActions:
             "delete_key": self._delete_key,
             "clear_keys": self._clear_keys,
             "play": self._play,
-            "pause": lambda asked, now: self._transport(asked, now, lambda job: job.pause(now)),
+            "shoot": self._shoot,
+            "pause": self._pause,
             "resume": self._resume,
             "speed": lambda asked, now: self._transport(asked, now, lambda job: job.speed(asked["share"], now)),
             "seek": lambda asked, now: self._transport(asked, now, lambda job: job.seek(asked["at"], now)),
@@ -70,12 +85,12 @@ class LiveActions:
             "to_start": lambda asked, now: self._transport(asked, now, lambda job: job.to_start(now)),
             "abort": self._abort,
             "chase": self._chase,
-            "record": lambda asked, now: self.devices.camera(asked, now, Action.RECORD),
-            "stop_recording": lambda asked, now: self.devices.camera(asked, now, Action.STOP),
-            "shutter": lambda asked, now: self.devices.camera(asked, now, Action.SHUTTER),
+            "record": self._with_no_shoot(partial(self.devices.camera, action=Action.RECORD)),
+            "stop_recording": self._with_no_shoot(partial(self.devices.camera, action=Action.STOP)),
+            "shutter": self._with_no_shoot(partial(self.devices.camera, action=Action.SHUTTER)),
             "range": self._range,
-            "follow": self.devices.follow,
-            "message": self.devices.message,
+            "follow": self._with_no_shoot(self.devices.follow),
+            "message": self._with_no_shoot(self.devices.message),
         }
 
     # --- what the desk asks
@@ -86,26 +101,24 @@ class LiveActions:
 
     def busy(self, session: str) -> bool:
         job = self._jobs.job
-        own = job is not None and job.owner == session and not (isinstance(job, PlayJob) and job.paused)
+        own = job is not None and job.owner == session and not (isinstance(job, PlayJob | ShootJob) and job.paused)
         return own or self._works.planning or self._due.of(session)
 
     def do(self, asked: Asked, now: float) -> None:
-        action = self._do.get(asked.command.do)
-        if action is None:
-            raise Refusal(f"{asked.command.do}: a shoot is a run of its own: teleop play FILE --console")
         try:
-            action(asked, now)
+            self._do[asked.command.do](asked, now)
         except (NotNowError, TeleopError) as error:
             raise Refusal(str(error)) from None
 
     def passing(self, now: float) -> None:
-        if self._jobs.job is not None:
+        if self.shoots.job is None:  # which goes on
             self._jobs.halt(now, "control passes to another one")
 
     def gone(self, sessions: Callable[[str], bool], now: float) -> None:
         """Also what each tick has to look at."""
         self._take_stop(now)
-        self._works.deliver(now)
+        self._works.deliver()
+        self.shoots.look()
         self._due.look(now)
         job = self._jobs.job
         if isinstance(job, PlayJob) and job.attended and not job.left and not job.paused and sessions(job.owner):
@@ -115,7 +128,10 @@ class LiveActions:
 
     def observe(self, tick: Tick) -> None:
         self._motion = tick.motion
+        self.passes.observe(tick)
         self._jobs.observe(tick)
+        if not isinstance(self._jobs.job, PlayJob):
+            self.passes.end()
 
     def _take_stop(self, now: float) -> None:
         stopped = self.operator.status.stopped
@@ -136,14 +152,57 @@ class LiveActions:
         self._may_move()
         if isinstance(self._jobs.job, PlayJob):
             raise Refusal(f"{self._jobs.job.title} is playing: abort it first")
+        self._refuse_beside_a_shoot()
+
+    def _refuse_beside_a_shoot(self) -> None:
+        if self.shoots.job is not None:
+            raise Refusal(f"{self.shoots.job.title} is being shot: abort it first")
+
+    def _with_no_shoot(self, do: Callable[[Asked, float], None]) -> Callable[[Asked, float], None]:
+        """The camera, and what the gimbal is set to, are the shoot's as long as there is one."""
+
+        def checked(asked: Asked, now: float) -> None:
+            self._refuse_beside_a_shoot()
+            do(asked, now)
+
+        return checked
 
     def _go(self, title: str, asked: Asked, targets: dict[Axis, float], seconds: float | None) -> None:
         self._may_begin()
         where = {axis: self._place(axis, to) for axis, to in targets.items()}
         if not where:
             raise Refusal(f"{title} has no axis of this rig")
+        if asked.get("seconds"):
+            self._refuse_haste(title, where, asked["seconds"])
+        speeds = asked.get("speeds")
+        if speeds and seconds:
+            raise Refusal(f"{title}: give seconds or speeds, not both")
         asked.accept()
-        self._jobs.begin(WayJob(title, asked.command.session, where, seconds, asked.end))
+        self._jobs.begin(WayJob(title, asked.command.session, where, seconds, asked.end, speeds))
+
+    def _go_motion(self, asked: Asked, now: float) -> None:  # noqa: ARG002
+        self._may_begin()
+        before, places, after = asked["before"], asked["axes"], asked["after"]
+        if not before.keys() == places.keys() == after.keys():
+            raise Refusal("go-motion: axes, before and after must name the same axes")
+        for axis, place in places.items():
+            self._place(axis, place)
+        shape = asked["blur"], asked["exposure"]
+        runs = {
+            axis: ExposureRuns.once(before[axis], places[axis], after[axis], *shape, self._limits[axis])
+            for axis in places
+        }
+        job = GoMotionJob(asked.command.session, runs, asked.end)
+        job.check_start(self._motion)
+        asked.accept()
+        self._jobs.begin(job)
+
+    def _refuse_haste(self, title: str, where: Mapping[Axis, float], seconds: float) -> None:
+        """Raises Refusal where the limits do not allow it in the time that was asked for."""
+        least = shortest_seconds(self._motion, where, self._limits)
+        if seconds < least - SLACK:
+            least = math.ceil(least * 100) / 100  # what is named is long enough
+            raise Refusal(f"{title} in {seconds:g} s is too short: the limits of this rig need {least:.2f} s")
 
     def _place(self, axis: Axis, to: float) -> float:
         """Where an axis goes that is sent to `to`; raises Refusal for one that cannot."""
@@ -215,28 +274,37 @@ class LiveActions:
     # --- moves
 
     def _play(self, asked: Asked, now: float) -> None:  # noqa: ARG002
+        self._may_plan()
+        by_hand, maker = asked["move"] == "keys", self._maker
+        if by_hand and len(self.keys.keys) < 2:
+            raise Refusal("set at least two keys first")
+        what = self.keys.content() if by_hand else asked["move"]
+        self._works.do(
+            asked, Work(lambda planner: maker.play(asked, what, planner), lambda job: self._begin(asked, job))
+        )
+
+    def _shoot(self, asked: Asked, now: float) -> None:  # noqa: ARG002
+        self._may_plan()
+        self.shoots.shoot(asked)
+
+    def _may_plan(self) -> None:
         self._may_begin()
         if self._works.planning:
             raise Refusal("another move is being planned")
-        by_hand = asked["move"] == "keys"
-        if by_hand and len(self.keys.keys) < 2:
-            raise Refusal("set at least two keys first")
-        asked.planning()
-        self._works.plan(asked, self.keys.content() if by_hand else asked["move"], self._begin)
 
-    def _begin(self, asked: Asked, job: PlayJob) -> None:
-        """The move is planned: play it, if the one who asked still may."""
+    def _begin(self, asked: Asked, job: PlayJob | ShootJob) -> bool:
+        """The move is planned: play it, if the one who asked still may; whether it begins."""
         try:
-            if not self.desk.control.holds(asked.command.session):
-                raise Refusal("control was lost while the move was planned")
-            self._may_move()
-            if missing := [axis.value for axis in job.axes if axis not in self._limits]:
-                raise Refusal(f"{', '.join(missing)}: not in this run")
+            self.desk.authorize(asked, self.desk.polled_at)
+            self._may_begin()
         except Refusal as refusal:
             asked.refuse(refusal)
-            return
+            return False
         asked.accept()
         self._jobs.begin(job)
+        if isinstance(job, PlayJob):
+            self.passes.watch(job.title, job.source, job.axes, lambda: job.halted)
+        return True
 
     def _transport(self, asked: Asked, now: float, does: Callable[[PlayJob], object]) -> None:
         """Done once the change of speed, or the way along the path, is."""
@@ -248,8 +316,17 @@ class LiveActions:
         done = lambda now: self._jobs.job is not job or not job.changing(now)  # noqa: E731
         self._due.add(Due(asked, done, now + WAY_TIME, "it takes too long", lambda: job.source.playback.refusal))
 
+    def _pause(self, asked: Asked, now: float) -> None:
+        if self.shoots.job is not None:
+            self.shoots.pause(self.shoots.job, asked, now)
+        else:
+            self._transport(asked, now, lambda job: job.pause(now))
+
     def _resume(self, asked: Asked, now: float) -> None:
         self._may_move()
+        if self.shoots.job is not None:
+            self.shoots.resume(self.shoots.job, asked, now)
+            return
         job = self._jobs.job
         if isinstance(job, PlayJob):
             job.owner = asked.command.session
@@ -264,7 +341,10 @@ class LiveActions:
         job.chase(reference, asked.get("free", False), now)
         asked.end()
 
-    def _abort(self, asked: Asked, now: float) -> None:  # noqa: ARG002
+    def _abort(self, asked: Asked, now: float) -> None:
+        if self.shoots.job is not None:
+            self.shoots.abort(self.shoots.job, asked, now)
+            return
         if self._jobs.job is None:
             raise Refusal("nothing moves that could be aborted")
         self._jobs.end(f"aborted by {asked.command.name}")

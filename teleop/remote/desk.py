@@ -49,6 +49,7 @@ class Desk:
         self._presses: list[Press] = []
         self._unsaid: list[tuple[dict[str, Any], str]] = []
         self._asker: Asked | None = None
+        self._brief: dict[str, set[Asked]] = {}  # by session, what control was taken for alone
         self._changes = 0
 
     # --- the input
@@ -102,6 +103,28 @@ class Desk:
             if person is not None:
                 self._close(person.session, now)
 
+    def idle(self, now: float, why: str) -> str:
+        """While no run of the rig goes on: a STOP is for the next one; why all was given up, "" as long as it was not.
+
+        All else is refused with `why`.
+        """
+        given_up = ""
+        for datagram in self._socket.receive(MOST):
+            with suppress(CommandError):
+                command = checked(unpacked(datagram.data))
+                asked = Asked(command, datagram.address, self)
+                if command.do in INTERNAL:
+                    self._internal(command, now)
+                elif command.do == "stop":
+                    self._do(asked, now)
+                elif command.do == "abort" and (self.control.holder is None or self.control.holds(command.session)):
+                    given_up = f"aborted by {command.name}"
+                    asked.end()
+                elif command.do != "stick":
+                    asked.refuse(Refusal(why))
+        self.flush()
+        return given_up
+
     # --- one datagram
 
     def take(self, datagram: Datagram, now: float) -> None:
@@ -148,20 +171,20 @@ class Desk:
                 case "take_control":
                     self._take_control(asked, now)
                 case "release_control":
-                    self._authorize(asked, now)
+                    self.authorize(asked, now)
                     self.control.release(asked.command.session, now)
                     asked.end()
                 case "deny_control":
-                    self._authorize(asked, now)
+                    self.authorize(asked, now)
                     self.control.deny()
                     asked.end()
                 case "clear":
                     if self.control.holder is not None:
-                        self._authorize(asked, now)
+                        self.authorize(asked, now)
                     self.press(asked.command.name, Command.CLEAR)
                     asked.end()
                 case _:
-                    self._authorize(asked, now)
+                    self.authorize(asked, now)
                     self.actions.do(asked, now)
         except Refusal as refusal:
             self.counts.refused += 1
@@ -170,11 +193,12 @@ class Desk:
             self.counts.faults += 1
             asked.refuse(Refusal(f"{asked.command.do}: {type(fault).__name__}: {fault}"[:200]))
 
-    def _authorize(self, asked: Asked, now: float) -> None:
+    def authorize(self, asked: Asked, now: float) -> None:
         """Raises Refusal for one who has no control, unless it is free and is taken for this alone."""
         control, command = self.control, asked.command
         if command.brief and (control.holder is None or control.holds(command.session)):
             control.take(asked.person, now, brief=True)
+            self._brief.setdefault(command.session, set()).add(asked)
         if not control.holds(command.session):
             if control.holder is None:
                 raise Refusal("take control first")
@@ -193,8 +217,13 @@ class Desk:
             self._asker = asked
 
     def action_over(self, asked: Asked) -> None:
-        """A control that was taken for one action alone ends with it."""
+        """A control that was taken for single actions alone ends with the last of them."""
         session = asked.command.session
+        under_way = self._brief.get(session, set())
+        under_way.discard(asked)
+        if under_way:
+            return
+        self._brief.pop(session, None)
         if asked.command.brief and self.control.brief and self.control.holds(session):
             self.control.release(session, self.polled_at)
             self.control.step(self.polled_at, self.actions.rests, False)

@@ -15,6 +15,7 @@ from teleop.core.errors import TeleopError
 from teleop.core.events import Tick, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand
+from teleop.devices.gimbal.outlook import Foreseen
 
 Ended = Callable[[str], object]
 """Told why it ended before its end, "" when it is done."""
@@ -42,15 +43,29 @@ class RemoteJob(Protocol):
         """A STOP, or control on its way to another one: whether it is over with that."""
         ...
 
+    def outranked(self, now: float, why: str) -> bool:
+        """An input of the operator has taken an axis of it: whether it is over with that."""
+        ...
+
+    def foreseen(self, time: float) -> Motion:
+        """Where its axes will be at a `time` soon, on the loop's clock; none where that is not known."""
+        ...
+
 
 class WayJob:
     """Every axis to its target and at rest there, in `seconds` or as soon as the limits allow."""
 
     def __init__(
-        self, title: str, owner: str, targets: Mapping[Axis, float], seconds: float | None, ended: Ended
+        self,
+        title: str,
+        owner: str,
+        targets: Mapping[Axis, float],
+        seconds: float | None,
+        ended: Ended,
+        speeds: Mapping[Axis, float] | None = None,
     ) -> None:
         self.title, self.owner, self.targets, self.ended = title, owner, targets, ended
-        self._job = MoveJob(targets, seconds or None)
+        self._job = MoveJob(targets, seconds or None, speeds)
         self.start = self._job.start
         self.read = self._job.read
         self.done = self._job.done
@@ -62,15 +77,22 @@ class WayJob:
     def halt(self, now: float, why: str) -> bool:  # noqa: ARG002 - it cannot be resumed
         return True
 
+    outranked = halt
+
+    def foreseen(self, time: float) -> Motion:  # noqa: ARG002 - the planner decides on its way
+        return {}
+
 
 class JobSource:
     """The job in hand as the source beneath the operator's inputs; it never ends the run.
 
-    `taken` are the axes that inputs move in the tick before.
+    `taken` are the axes that inputs move in the tick before. `foresee` is told of each job that begins where it will
+    be, and None when it ends.
     """
 
     def __init__(self, taken: Callable[[], Collection[Axis]]) -> None:
         self._taken = taken
+        self.foresee: Callable[[Foreseen | None], object] = lambda _foreseen: None
         self.job: RemoteJob | None = None
         self._fresh = False
         self.events: list[TickEvent] = []  # for the next tick
@@ -80,10 +102,15 @@ class JobSource:
         self.end(f"replaced by {job.title}")
         self.job, self._fresh = job, True
 
+    def again(self) -> None:
+        """Another run of the rig begins, with the job that is in hand."""
+        self._fresh, self.events = self.job is not None, []
+
     def end(self, why: str) -> None:
         """End the job in hand, if there is one."""
         job, self.job = self.job, None
         if job is not None:
+            self.foresee(None)
             job.ended(why)
 
     def halt(self, now: float, why: str) -> None:
@@ -97,14 +124,17 @@ class JobSource:
     def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
         events, self.events = self.events, []
         job = self.job
-        if job is not None and isinstance(job, WayJob) and (lost := set(job.axes) & set(self._taken())):
-            self.end(f"an operator moved {' and '.join(sorted(lost))}")
-            job = None
+        if job is not None and (lost := set(job.axes) & set(self._taken())):
+            why = f"an operator moved {' and '.join(sorted(lost))}"
+            if job.outranked(now, why):
+                self.end(why)
+                job = None
         if job is None:
             return {}, events
         if self._fresh:
             self._fresh = False
             job.start(now, feedback.motion)
+            self.foresee(job.foreseen)
         demand, due = job.read(now, feedback)
         return demand, [*events, *due]
 

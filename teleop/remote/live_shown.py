@@ -2,21 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from teleop.config.presets import Presets
 from teleop.core.axes import Axis
+from teleop.devices.drone.state import DroneState
 from teleop.manual.operator import Operator
 from teleop.manual.status import OperatorStatus
 from teleop.remote.jobs import JobSource
 from teleop.remote.keys import HandKeys
+from teleop.remote.pass_errors import ShownPasses
 from teleop.remote.play_job import PlayJob
+from teleop.remote.shoot_job import ShootJob
 
 
 class LiveShown:
-    def __init__(self, operator: Operator, presets: Presets, jobs: JobSource, keys: HandKeys) -> None:
+    """`drone` is what is known of the drone, None in a rig without one."""
+
+    def __init__(
+        self,
+        operator: Operator,
+        presets: Presets,
+        jobs: JobSource,
+        keys: HandKeys,
+        passes: ShownPasses,
+        drone: Callable[[], DroneState | None],
+    ) -> None:
         self._operator, self._presets, self._jobs, self._keys = operator, presets, jobs, keys
+        self._passes, self._drone = passes, drone
 
     @property
     def status(self) -> OperatorStatus:
@@ -29,6 +43,14 @@ class LiveShown:
     @property
     def changes(self) -> object:
         return self._keys.changes, self._presets.changes
+
+    @property
+    def errors(self) -> Mapping[str, Any] | None:
+        return self._passes.shown
+
+    @property
+    def battery(self) -> float | None:
+        return battery(self._drone())
 
     @property
     def keys(self) -> Sequence[Mapping[str, float]]:
@@ -47,7 +69,7 @@ class LiveShown:
 
     def drivers(self) -> Mapping[Axis, str]:
         job = self._jobs.job
-        if job is None or (isinstance(job, PlayJob) and job.paused):
+        if job is None or (isinstance(job, PlayJob | ShootJob) and job.paused):
             return {}
         return dict.fromkeys(job.axes, job.title)
 
@@ -55,5 +77,11 @@ class LiveShown:
         job = self._jobs.job
         return job.state(now) if isinstance(job, PlayJob) else None
 
-    def shoot(self, now: float) -> Mapping[str, Any] | None:  # noqa: ARG002 - a shoot is a run of its own
-        return None
+    def shoot(self, now: float) -> Mapping[str, Any] | None:
+        job = self._jobs.job
+        return job.state(now) if isinstance(job, ShootJob) else None
+
+
+def battery(drone: DroneState | None) -> float | None:
+    """In %, None where it is not known: a gimbal does not report its own."""
+    return None if drone is None else drone.battery

@@ -28,11 +28,10 @@ class OpenDoor:
         stack.callback(self.socket.close)
         self._ended = False  # the gateway, since the last look
 
-    def publisher(self, stack: ExitStack, parts: Parts, clock: Clock) -> StatePublisher:
-        """What writes the states of the run: that it waits at once, and that it is over when the stack is left."""
+    def publisher(self, parts: Parts, clock: Clock) -> StatePublisher:
+        """What writes the states of the run: that it waits, at once."""
         made = StatePublisher(parts, self.ring)
         made.publish("waiting", clock.now())
-        stack.callback(lambda: made.publish("over", clock.now()))
         return made
 
     def start(

@@ -14,11 +14,15 @@ import subprocess
 import sys
 from collections.abc import Mapping
 from contextlib import suppress
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 from teleop.config.profile import Profile
 from teleop.core.errors import TeleopError
-from teleop.sequence.compile import CompiledSequence
+
+if TYPE_CHECKING:
+    from teleop.app.planning import Plan
+    from teleop.sequence.compile import CompiledSequence
+    from teleop.timelapse.compile import Timelapse
 
 HEAD = struct.Struct("!I")
 NICE = 5
@@ -56,11 +60,18 @@ class PlanningProcess:
 
     def plan(self, what: str | Mapping[str, Any]) -> CompiledSequence:
         """The move in a file, or with this content. Raises TeleopError with the reason."""
+        return self._answer(False, what)
+
+    def timelapse(self, file: str) -> Timelapse:
+        """The timelapse in a file. Raises TeleopError with the reason."""
+        return self._answer(True, file)
+
+    def _answer(self, shoots: bool, what: str | Mapping[str, Any]) -> Any:
         process = self._running()
         assert process.stdin is not None
         assert process.stdout is not None
         try:
-            send(process.stdin, what)
+            send(process.stdin, (shoots, what))
             found = receive(process.stdout)
         except (OSError, EOFError):
             self.close()
@@ -102,22 +113,31 @@ def main() -> None:
     with suppress(EOFError, OSError):
         profile = receive(reading)
         while True:
-            what = receive(reading)
+            shoots, what = receive(reading)
             try:
                 plan = plan_file(what, profile) if isinstance(what, str) else plan_content(what, profile)
-                found = _playable(plan)
+                found = shot_of(plan) if shoots else played_of(plan)
             except TeleopError as error:
                 found = why(error)
             send(writing, found)
 
 
-def _playable(plan: Any) -> CompiledSequence:
+def played_of(plan: Plan) -> CompiledSequence:
     """Raises TeleopError for a move that is none to play from a console."""
     if plan.timelapse is not None:
         raise TeleopError("it is a timelapse: shoot it")
     if plan.is_flown:
         raise TeleopError("it flies a drone, which needs an operator at the rig: use teleop play")
     return plan.sequence
+
+
+def shot_of(plan: Plan) -> Timelapse:
+    """Raises TeleopError for a move that is none to shoot from a console."""
+    if plan.timelapse is None:
+        raise TeleopError("it is no timelapse: play it")
+    if plan.is_flown:
+        raise TeleopError("a timelapse cannot fly a drone: leave out the stick axes")
+    return plan.timelapse
 
 
 if __name__ == "__main__":

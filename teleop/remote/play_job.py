@@ -82,6 +82,12 @@ class PlayJob:
             self.follower.halt()
         return False
 
+    def outranked(self, now: float, why: str) -> bool:  # noqa: ARG002 - it goes on beneath the hand
+        return False
+
+    def foreseen(self, time: float) -> Motion:
+        return {} if self.halted else self.source.foreseen(time)
+
     # --- the transport; NotNowError says why not
 
     @property

@@ -8,14 +8,18 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from teleop.app.run import RunReport
 from teleop.config.operator_settings import EXPO
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile
+from teleop.config.sinks_section import CameraSection
 from teleop.core.axes import Axis, Limits
-from teleop.core.events import Action, DeviceCommand, Tick
-from teleop.core.interfaces import Observer, Sink, Source
-from teleop.core.operator_input import Held, Input
+from teleop.core.errors import LinkError
+from teleop.core.events import Action, DeviceCommand, ShutterResult, Tick
+from teleop.core.interfaces import Clock, Observer, Sink, Source
+from teleop.core.operator_input import Command, Held, Input
 from teleop.devices.rig import Rig
+from teleop.devices.shutter import ShutterSink
 from teleop.inputs.stick_shaping import shape
 from teleop.manual.operator import Operator
 from teleop.remote.actions import LiveActions
@@ -24,7 +28,9 @@ from teleop.remote.gateway_child import Gateway
 from teleop.remote.jobs import JobSource
 from teleop.remote.keys import HandKeys
 from teleop.remote.live_shown import LiveShown
+from teleop.remote.made_jobs import JobMaker
 from teleop.remote.open_door import OpenDoor
+from teleop.remote.shoot_recovery import ShootRecovery
 from teleop.remote.state import Parts
 from teleop.remote.stick import RemoteStick
 from teleop.remote.told import Told
@@ -41,19 +47,23 @@ class RemoteHands:
         self._folder, self._gateway = moves, gateway
         self.desk: Desk
         self._read = False  # in this tick
+        self._clock: Clock | None = None  # of the run that goes on, or was the last
 
     def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits]) -> None:
         """Open the door, until the stack is left."""
         self._profile = profile
         self._limits = limits
+        self._recovery = ShootRecovery(profile)
         self.door = OpenDoor(stack)
+        stack.callback(self._leave)
         expo = EXPO if profile.sticks.expo is None else profile.sticks.expo
         moved = [axis for axis in limits if not axis.is_stick]
         stick = RemoteStick(moved, lambda value: shape(value, 0.0, expo))
-        self._works = Works(profile, limits, self._folder)
-        stack.callback(self._works.close)
+        self._works, maker = Works(profile), JobMaker(limits, self._folder)
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
-        self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, self.told)
+        self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, maker, self.told)
+        stack.callback(self._actions.shoots.close)
+        stack.callback(self._works.close)
         self.desk = Desk(self.door.socket, stick, self._notify, self._actions)
         self._actions.desk = self._actions.devices.desk = self.desk
 
@@ -68,17 +78,52 @@ class RemoteHands:
 
     def attach(self, stack: ExitStack, operator: Operator, presets: Presets, rig: Rig) -> tuple[Observer, Sink]:
         """To the operator of an open rig; from now on the gateway runs. What sees each tick, and the release."""
+        again, self._clock = self._clock is not None, rig.clock
+        if again and self._operator.stopped_by:  # a STOP that is not cleared outlasts a run
+            self.desk.press(self._operator.stopped_by, Command.STOP)
         self._operator = self._actions.operator = operator
         self._actions.presets, self._actions.devices.has_camera = presets, rig.camera is not None
-        shown = LiveShown(operator, presets, self._jobs, self._keys)
+        self._shutter = self._shutter_of(rig)
+        self._actions.shoots.has_camera = self._shutter is not None
+        self._jobs.foresee = rig.foresee
+        drone = rig.drone(list(self._limits))
+        state = lambda: None if drone is None else drone.state(rig.clock.now())  # noqa: E731
+        shown = LiveShown(operator, presets, self._jobs, self._keys, self._actions.passes, state)
         parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, rig.camera is not None)
-        self._publisher = self.door.publisher(stack, parts, rig.clock)
-        if self._gateway is not None:
-            self.door.start(stack, self._gateway, self.desk, rig.clock, operator.notify)
+        self._publisher = self.door.publisher(parts, rig.clock)
+        if again:
+            self._jobs.again()
+        elif self._gateway is not None:
+            self.door.start(stack, self._gateway, self.desk, rig.clock, self._notify)
             self._works.start()
-            for line in self._gateway.greetings:
-                operator.notify(line)
+        for line in self._gateway.greetings if self._gateway is not None else ():
+            operator.notify(line)
         return self, self
+
+    def _leave(self) -> None:
+        """All runs are over."""
+        self._jobs.end("the run has ended")
+        if self._clock is not None:
+            self._publisher.publish("over", self._clock.now())
+            self.desk.flush()
+
+    # --- a shoot outlasts a run that failed
+
+    def goes_on(self, report: RunReport | LinkError) -> bool:
+        job, reached = self._actions.shoots.job, not isinstance(report, LinkError)
+        if job is None or not self._recovery.goes_on(report, job):
+            return False
+        if reached:
+            job.prepare()
+        return True
+
+    def wait(self, now: float) -> bool:
+        if self._clock is not None:
+            self._publisher.publish("waiting", now)
+        why = self.desk.idle(now, "the rig is not reached: the shoot waits for it")
+        if why:
+            self._jobs.end(why)
+        return not why
 
     # --- what becomes of commands
 
@@ -101,13 +146,30 @@ class RemoteHands:
         self._publisher.publish(run, tick.time, tick)
         self.desk.flush()
 
-    def write(self, tick: Tick) -> None: ...
+    def write(self, tick: Tick) -> None:
+        if self._shutter is None:
+            return
+        self._shutter.write(tick)
+        if self._shutter.holds and self._actions.shoots.job is None:  # one that was ended before its end
+            self._shutter.release(tick.time)
 
     def release(self, now: float) -> float | None:
-        self._jobs.end("the run has ended")
+        if (job := self._actions.shoots.job) is None:
+            self._jobs.end("the run has ended")
+        else:
+            job.leave(now)
         self._publisher.publish("releasing", now)
         self.desk.flush()
-        return None
+        return None if self._shutter is None else self._shutter.release(now)
+
+    def _shutter_of(self, rig: Rig) -> ShutterSink | None:
+        """Of the camera that the profile names, for shoots."""
+        links = [section.link for section in rig.profile.sinks if isinstance(section, CameraSection)]
+        return ShutterSink(rig.connections[links[0]], self._shot) if links else None
+
+    def _shot(self, result: ShutterResult) -> None:
+        if (job := self._actions.shoots.job) is not None:
+            job.on_result(result)
 
     def _mark(self) -> None:
         self._read = True

@@ -9,7 +9,6 @@ from typing import Any
 from teleop.app.beside import Running
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits, Motion
-from teleop.core.clock import date
 from teleop.core.events import Action, Tick
 from teleop.core.interfaces import Clock, Observer
 from teleop.core.operator_input import Command, Input
@@ -17,8 +16,11 @@ from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway
+from teleop.remote.live_shown import battery
 from teleop.remote.move_state import move_state
 from teleop.remote.open_door import OpenDoor
+from teleop.remote.pass_errors import ShownPasses
+from teleop.remote.shoot_state import shoot_state
 from teleop.remote.state import Parts
 from teleop.remote.stick import RemoteStick
 
@@ -43,6 +45,7 @@ class RunHands:
         self._motion: Motion = {}
         self._recording = False
         self._running: Running | None = None
+        self._passes = ShownPasses()
 
     def open(self, stack: ExitStack, profile: Profile, limits: Mapping[Axis, Limits], clock: Clock) -> None:
         """Open the door, until the stack is left."""
@@ -59,7 +62,10 @@ class RunHands:
         self._running = running
         camera = any(sink.type == "camera" for sink in self._profile.sinks)
         parts = Parts(self._profile.name, self._limits, self, {}, self.desk, camera)
-        self._publisher = self.door.publisher(stack, parts, self._clock)
+        publisher = self._publisher = self.door.publisher(parts, self._clock)
+        stack.callback(lambda: publisher.publish("over", self._clock.now()))
+        if running.source is not None:
+            self._passes.watch(running.title, running.source, list(self._limits), lambda: self._halted(running))
         if self._gateway is not None:
             self.door.start(stack, self._gateway, self.desk, self._clock, self.line)
             for line in self._gateway.greetings:
@@ -74,6 +80,7 @@ class RunHands:
         for action in tick.actions:
             if action in (Action.RECORD, Action.STOP):
                 self._recording = action is Action.RECORD
+        self._passes.observe(tick)
         self.door.look(self.desk, tick.time)
         self._publisher.publish("running", tick.time, tick)
         self.desk.flush()
@@ -86,6 +93,14 @@ class RunHands:
     @property
     def presets(self) -> Mapping[str, Mapping[str, Any]]:
         return {}
+
+    @property
+    def errors(self) -> Mapping[str, Any] | None:
+        return self._passes.shown
+
+    @property
+    def battery(self) -> float | None:
+        return battery(self._running.drone()) if self._running else None
 
     @property
     def stopped_by(self) -> str:
@@ -113,19 +128,7 @@ class RunHands:
         running = self._running
         if running is None or running.progress is None:
             return None
-        progress = running.progress
-        left = 0.0 if progress.by_hand else progress.left(now)
-        return {
-            "title": running.title,
-            "frames_done": progress.shot,
-            "frames": progress.slots.frames,
-            "eta": None if progress.by_hand or left == float("inf") else round(date() + left, 1),
-            "missed": progress.missed,
-            "paused": progress.pausing or bool(self._halted(running)),
-            "phase": progress.phase,
-            "clip_s": progress.clip,
-            "why": progress.problem,
-        }
+        return shoot_state(running.title, running.progress, now, self._halted(running))
 
     def _halted(self, running: Running) -> str:
         guard = running.guard()

@@ -47,6 +47,16 @@ class Shown(Protocol):
         """What moves an axis that no input does."""
         ...
 
+    @property
+    def errors(self) -> Mapping[str, Any] | None:
+        """Of the passes of the move that plays, or played last: another object after each change."""
+        ...
+
+    @property
+    def battery(self) -> float | None:
+        """In %, None where no device reports it."""
+        ...
+
     def move(self, now: float) -> Mapping[str, Any] | None: ...
 
     def shoot(self, now: float) -> Mapping[str, Any] | None: ...
@@ -113,6 +123,7 @@ class StatePublisher:
             "recording_s": round(now - self._recording_since, 2) if self._recording_since is not None else 0.0,
             "move": shown.move(now),
             "shoot": shown.shoot(now),
+            "battery": shown.battery,
             "links": {name: self._link(connection, now) for name, connection in parts.connections.items()},
             "sticks": {
                 "missed": stick.missed,
@@ -139,7 +150,8 @@ class StatePublisher:
 
     def _seldom_now(self, status: OperatorStatus) -> Mapping[str, Any]:
         parts, shown = self._parts, self._parts.shown
-        of = (status.messages, status.inputs, status.range, status.follow, shown.changes)
+        errors = shown.errors
+        of = (status.messages, status.inputs, status.range, status.follow, shown.changes, id(errors))
         if of == self._of:
             return self._seldom
         self._of = of
@@ -152,6 +164,7 @@ class StatePublisher:
             "ranges": list(status.ranges),
             "follow": status.follow,
             "focus_marks": {},
+            "errors": errors,
             "inputs": [
                 {
                     "name": each.name,

@@ -83,6 +83,10 @@ class TimelapseSource:
         self._cycle.asked_to_pause = self.progress.pausing = True
         return True
 
+    def go_on(self) -> None:
+        """After a pause that was asked for."""
+        self._cycle.asked_to_pause = self.progress.pausing = False
+
     def suspend(self, now: float) -> None:
         """No shutter is pressed from `now` on. A frame that was begun and not pressed counts as not begun."""
         cycle = self._cycle
@@ -152,5 +156,5 @@ class TimelapseSource:
                 case Command.PAUSE:
                     self._cycle.asked_to_pause = not self._cycle.asked_to_pause
                 case Command.GO:
-                    self._cycle.asked_to_pause = False
+                    self.go_on()
         self.progress.pausing = self._cycle.asked_to_pause

@@ -1,9 +1,12 @@
-"""`--realtime`: the calling thread alone, put back afterwards, and a line where it is not permitted."""
+"""`--realtime`: the calling thread, and those beside it, put back afterwards, and a line where it is not permitted."""
 
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import threading
+import time
 
 import pytest
 
@@ -17,16 +20,45 @@ def scheduler() -> int:
 @pytest.mark.skipif(not hasattr(os, "sched_setscheduler"), reason="this system has no SCHED_FIFO")
 def test_it_is_scheduled_first_in_first_out_or_says_why_not() -> None:
     lines: list[str] = []
-    of_another: list[int] = []
     before = scheduler()
     with realtime(True, lines.append):
         within = scheduler()
-        thread = threading.Thread(target=lambda: of_another.append(scheduler()))
-        thread.start()
-        thread.join()
+        child = subprocess.run([sys.executable, "-S", "-c", CHILD], capture_output=True, check=True)
     assert scheduler() == before
     assert (within == os.SCHED_FIFO) is not bool(lines)
-    assert of_another == [before]
+    assert int(child.stdout) == os.SCHED_OTHER
+
+
+CHILD = "import os; print(os.sched_getscheduler(0))"
+
+
+@pytest.mark.skipif(not hasattr(os, "sched_setscheduler"), reason="this system has no SCHED_FIFO")
+def test_the_other_threads_are_real_time_below_it_as_long_as_it_lasts() -> None:
+    """One that was interrupted by another program, in the middle of some Python, would hold the control thread up."""
+    lines: list[str] = []
+    of_others: list[int] = []
+    go, end = threading.Event(), threading.Event()
+
+    def watch() -> None:
+        go.wait()
+        of_others.append(scheduler())
+        end.wait()
+        of_others.append(scheduler())
+
+    early = threading.Thread(target=watch)
+    early.start()
+    with realtime(True, lines.append):
+        go.set()
+        late = threading.Thread(target=watch)
+        late.start()
+        while len(of_others) < 2:
+            time.sleep(0.001)
+    end.set()
+    early.join()
+    late.join()
+    within = os.SCHED_OTHER if lines else os.SCHED_RR
+    assert of_others == [within, within, os.SCHED_OTHER, os.SCHED_OTHER]
+    assert threading.getprofile() is None
 
 
 def test_what_is_not_permitted_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from door_rig import settled, with_rig
 from fake_door import FakeDoor
-from remote_bench import RemoteBench, remote_bench
+from remote_bench import RemoteBench
 
 from teleop.exchange import client
 from teleop.exchange.client import BURST, UNANSWERED, Client, Peers
@@ -23,11 +24,6 @@ def on_fake(work: Callable[[FakeDoor], Awaitable[None]]) -> FakeDoor:
         return door
 
     return asyncio.run(run())
-
-
-async def settled(check: Callable[[], object]) -> None:
-    while not check():
-        await asyncio.sleep(0.001)
 
 
 def test_an_action_takes_control_and_frees_it_at_rest(tmp_path: Path) -> None:
@@ -61,24 +57,6 @@ def test_a_stop_counts_without_control_and_after_a_clear_again(tmp_path: Path) -
         await settled(lambda: door.state()["stopped"])
 
     with_rig(tmp_path, work)
-
-
-def with_rig(folder: Path, work: Callable[[DoorClient, RemoteBench], Awaitable[None]]) -> None:
-    async def turning(bench: RemoteBench) -> None:
-        while True:
-            bench.loop.turn()
-            await asyncio.sleep(0)
-
-    async def run() -> None:
-        with remote_bench(folder) as bench:
-            async with DoorClient(bench.hands.door.address) as door:
-                rig = asyncio.create_task(turning(bench))
-                try:
-                    await asyncio.wait_for(work(door, bench), 30)
-                finally:
-                    rig.cancel()
-
-    asyncio.run(run())
 
 
 def test_a_flood_is_refused_with_one_word_and_stop_is_not(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,78 +2,14 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
-from remote_bench import ANNA, BOB, RemoteBench, remote_bench
+from remote_asks import done, ended, planned_or_not, played, until
+from remote_bench import BOB, RemoteBench
 
 from teleop.dji.gimbal import messages as gimbal
-from teleop.remote import works
 from teleop.remote.desk import MOST
-
-PATIENCE = 5.0  # s of the loop's time
-MOVE = """
-title: There and back
-keyframes:
-  - {at: 0, pan: 0, tilt: 0}
-  - {at: 2s, pan: 20, tilt: 5}
-  - {at: 4s, pan: 0, tilt: 0}
-"""
-
-
-def done(bench: RemoteBench, do: str, **fields: Any) -> dict[str, Any]:
-    """How it ended, once it has."""
-    number = bench.say(do, **fields)
-    end = bench.now + PATIENCE
-    while number not in bench.ends and bench.now < end:
-        bench.tick()
-        if "error" in bench.answers.get(number, {}):
-            return bench.answers[number]
-    return bench.ends[number]
-
-
-def played(bench: RemoteBench, **fields: Any) -> int:
-    """A move that is planned in this process, and has begun."""
-    number = bench.say("play", **fields)
-    planned_or_not(bench, number)
-    assert bench.answers[number].get("ok"), bench.answers[number]
-    return number
-
-
-def planned_or_not(bench: RemoteBench, number: int) -> None:
-    """The plan is made in a thread: real time too has to go by."""
-    until(bench, lambda: bench.answers.get(number, {"planning": True}).get("planning") is None)
-
-
-@pytest.fixture
-def planned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Plans in this process: the other one takes a second to start."""
-    from teleop.app.planning import plan_content, plan_file
-
-    class Here:
-        def __init__(self, profile: Any) -> None:
-            self._profile = profile
-
-        def plan(self, what: Any) -> Any:
-            plan = plan_file(what, self._profile) if isinstance(what, str) else plan_content(what, self._profile)
-            return plan.sequence
-
-        def close(self) -> None: ...
-
-    monkeypatch.setattr(works, "PlanningProcess", Here)
-    (tmp_path / "there.yaml").write_text(MOVE)
-
-
-@pytest.fixture
-def stage(tmp_path: Path, planned: None) -> Iterator[RemoteBench]:
-    with remote_bench(tmp_path) as bench:
-        bench.ask("take_control")
-        bench.seen = {ANNA: 0.0}
-        yield bench
-
 
 # --- ways
 
@@ -120,6 +56,65 @@ def test_jogs_add_up_and_end_at_the_soft_limit(held: RemoteBench) -> None:
     assert done(held, "jog", axis="tilt", by=-90.0, within=2.0)["ok"]
     assert held.state["axes"]["tilt"]["commanded"] == pytest.approx(-50)
     assert "soft limit" in held.ask("jog", axis="tilt", by=-1.0)["error"]
+
+
+@pytest.mark.parametrize(
+    ("do", "fields"),
+    [
+        ("goto", {"axes": {"pan": 60.0, "tilt": 1.0}, "seconds": 0.5}),
+        ("preset_recall", {"number": 1, "seconds": 0.5}),
+        ("recenter", {"seconds": 0.01}),
+    ],
+)
+def test_a_way_in_less_time_than_the_limits_need_is_refused_with_the_shortest(
+    held: RemoteBench, do: str, fields: dict[str, Any]
+) -> None:
+    done(held, "goto", axes={"pan": 60.0})
+    held.ask("preset_store", number=1)
+    done(held, "goto", axes={"pan": 0.0 if do != "recenter" else 60.0})
+    answer = held.ask(do, **fields)
+    assert answer["kind"] == "refused"
+    assert "the limits of this rig need 1.35 s" in answer["error"]
+    begin = held.now
+    assert done(held, do, **{**fields, "seconds": 1.35})["ok"]
+    assert held.now - begin == pytest.approx(1.35, abs=0.1)
+
+
+def test_what_follows_upon_a_request_that_still_runs_has_control_too(free: RemoteBench) -> None:
+    """As HTTP does it: each command takes control for itself alone."""
+    free.ask("set_key", brief=True)
+    way = free.say("goto", axes={"pan": 20.0}, seconds=1.0, brief=True)
+    free.tick()
+    free.ask("set_key", brief=True)
+    number = played(free, move="there", preroll=0.0, brief=True)
+    assert "error" in free.ends[way] or free.ends[way]["ok"]
+    free.run(1)
+    ended(free, "pause", brief=True)
+    assert free.state["holder"] == "Anna"
+    ended(free, "resume", brief=True)
+    until(free, lambda: number in free.ends)
+    assert free.ends[number]["ok"]
+    free.tick(3)
+    assert free.state["holder"] is None
+    for do, fields in (("jog", {"axis": "pan", "by": 5.0}), ("goto", {"axes": {"pan": 9.0}}), ("recenter", {})):
+        assert "ok" in free.ask(do, **fields, brief=True), do
+        free.run(0.1)
+    until(free, lambda: free.state["holder"] is None)
+    assert free.rests
+
+
+def test_a_move_whose_control_another_one_has_by_the_time_it_is_planned_is_refused_with_the_holder(
+    free: RemoteBench,
+) -> None:
+    works = free.hands._works
+    deliver, works.deliver = works.deliver, lambda: None
+    number = free.say("play", move="there", brief=True)
+    free.tick()
+    free.hands.desk.control.holder = None  # as after 60 s
+    assert "ok" in free.ask("take_control", BOB)
+    works.deliver = deliver
+    answer = planned_or_not(free, number)
+    assert (answer["kind"], answer["holder"]) == ("busy", "Bob")
 
 
 def test_an_operator_at_the_rig_ends_a_way(held: RemoteBench) -> None:
@@ -196,6 +191,21 @@ def test_a_move_of_the_folder_plays_to_its_end(stage: RemoteBench) -> None:
     stage.run(2.5)
     assert stage.ends[number]["ok"]
     assert stage.state["move"] is None
+
+
+def test_each_pass_that_is_over_is_shown_with_its_errors_by_axis_the_last_one_too(stage: RemoteBench) -> None:
+    assert stage.state["errors"] is None
+    number = played(stage, move="there", preroll=0.0, passes=2)
+    assert stage.state["errors"] == {"title": "There and back", "passes": []}
+    until(stage, lambda: len(stage.state["errors"]["passes"]) == 1)
+    assert stage.state["move"]["pass"] == 2
+    until(stage, lambda: number in stage.ends)
+    passes = stage.state["errors"]["passes"]
+    assert [each["pass"] for each in passes] == [1, 2]
+    for each in passes:
+        assert set(each["axes"]) == {"pan", "tilt"}
+        assert all(0 < axis["rms"] <= axis["peak"] < 0.5 for axis in each["axes"].values())
+    assert stage.state["battery"] is None
 
 
 def test_a_move_that_is_neither_here_nor_shipped_is_refused(stage: RemoteBench) -> None:
@@ -337,21 +347,5 @@ def test_a_fault_in_a_command_ends_no_run(held: RemoteBench, monkeypatch: pytest
     assert held.state["run"] == "running"
 
 
-def ended(bench: RemoteBench, do: str, **fields: Any) -> None:
-    number = bench.say(do, **fields)
-    until(bench, lambda: number in bench.ends or "error" in bench.answers.get(number, {}))
-    assert bench.ends[number].get("ok"), (bench.answers[number], bench.ends.get(number))
-
-
 def paused(bench: RemoteBench) -> None:
     until(bench, lambda: bench.state["move"]["phase"] == "paused" and bench.rests)
-
-
-def until(bench: RemoteBench, holds: Callable[[], object]) -> None:
-    """A change of speed is searched for in a thread: real time too has to go by."""
-    for _ in range(2000):
-        if holds():
-            return
-        bench.tick()
-        time.sleep(0.0005)
-    raise AssertionError(bench.state["move"])

@@ -18,7 +18,10 @@ from teleop.app.realtime import realtime
 from teleop.core.axes import Axis
 from teleop.core.clock import SystemClock
 from teleop.core.events import Tick
+from teleop.core.timing import PERIOD
+from teleop.dji.gimbal.camera import CameraCommand, Command
 from teleop.remote.desk import Desk
+from teleop.remote.shoot_job import ShootJob
 
 RAMP = 60 / 240 + 240 / 2400  # s from the bench's full speed to rest, at its limits
 SILENCE = 0.25
@@ -46,7 +49,7 @@ class ChaosBench:
         self.ticks.append((tick.time, tick.motion[Axis.PAN].velocity))
         self.heard.append(self.desk.stick._stream.sent if self.desk else -1.0)
 
-    def client(self, what: str, amount: int = 0) -> subprocess.Popen[str]:
+    def client(self, what: str, amount: int | str = 0) -> subprocess.Popen[str]:
         """Once it has begun."""
         folder = self._bench.hands.door.address.folder
         process = subprocess.Popen(
@@ -57,12 +60,34 @@ class ChaosBench:
         assert process.stdout.readline() == "holding\n"
         return process
 
-    def until_full_speed(self) -> None:
-        wait_until(lambda: self.ticks and self.ticks[-1][1] > 59.9, "full speed")
+    def until_full_speed(self, client: subprocess.Popen[str]) -> None:
+        """And until its client has seen it, which from then on does not take control again by itself."""
+        wait_until(lambda: any(speed > 59.9 for _, speed in self.ticks), "full speed")
+        assert client.stdout is not None
+        assert client.stdout.readline() == "moved\n"
 
     def until_rest(self) -> None:
         """Then one rest follows that lasts: 0.3 s of ticks."""
         wait_until(lambda: len(self.ticks) > 30 and not any(speed for _, speed in self.ticks[-30:]), "rest")
+
+    @property
+    def shoot(self) -> ShootJob | None:
+        return self._bench.hands._actions.shoots.job
+
+    @property
+    def plays(self) -> bool:
+        return self._bench.hands._jobs.job is not None
+
+    @property
+    def shots(self) -> list[float]:
+        """When the shutter was pressed, on the wire."""
+        commands = list(self.wire.of(Command))
+        return [at for at, message in commands if message.command is CameraCommand.SHUTTER]
+
+    @property
+    def late(self) -> float:
+        """By how much the loop itself was late at worst, in s."""
+        return max(after - before for (before, _), (after, _) in pairwise(self.ticks)) - PERIOD
 
     def overruns(self) -> float:
         """By how much motion outlasted what it may, at worst, in s, beyond what the loop itself was late.

@@ -3,18 +3,21 @@
 `hold`: takes control and holds pan over. `hang`: the same for a moment, then its sticks are silent and all else goes
 on. `stretch`: the same, but from then on the network gives out nothing for half a second at a time, and then all of it.
 `flood`: the same, and then sends AMOUNT of what is no command as fast as they leave. `stops`: presses STOP and clears
-it AMOUNT times, and says how long each took to reach the loop, in ms.
+it AMOUNT times, and says how long each took to reach the loop, in ms. `gives` takes control, gives the command that is
+AMOUNT as JSON, and then its page hangs. `floods` only floods, without a hand.
 """
 
 from __future__ import annotations
 
 import asyncio
+import json
 import os
 import random
 import sys
 from contextlib import suppress
 from pathlib import Path
 from time import monotonic
+from typing import Any
 
 from teleop.door.address import DoorAddress
 from teleop.door.sockets import client_socket
@@ -40,7 +43,9 @@ async def hold(door: DoorClient, what: str) -> None:
         now = monotonic()
         door.seen(ANNA)
         state = door.state()
-        moved = moved or state["axes"]["pan"]["speed"] > NEARLY
+        if not moved and state["axes"]["pan"]["speed"] > NEARLY:
+            moved = True
+            say("moved")
         if not moved and "again" in state["sticks"]["waits_for"]:  # a machine under load: nothing has been tested yet
             await door.command({"do": "take_control"}, ANNA, "Anna")
             begin, zeros = now, seq + 3
@@ -70,6 +75,14 @@ def flood(folder: Path, amount: int) -> None:
     say("flooded")
 
 
+async def gives(door: DoorClient, command: dict[str, Any]) -> None:
+    await door.command({"do": "take_control"}, ANNA, "Anna")
+    accepted = await door.command(command, ANNA, "Anna")
+    assert "ok" in accepted, accepted
+    say("holding")
+    await asyncio.sleep(3600)
+
+
 async def stops(door: DoorClient, amount: int) -> None:
     say("holding")
     for _ in range(amount):
@@ -85,10 +98,18 @@ async def stops(door: DoorClient, amount: int) -> None:
         await asyncio.sleep(0.0137)
 
 
-async def main(folder: Path, what: str, amount: int) -> None:
+async def main(folder: Path, what: str, given: str) -> None:
     async with DoorClient(DoorAddress(folder)) as door:
+        if what == "gives":
+            await gives(door, json.loads(given))
+            return
+        amount = int(given)
         if what == "stops":
             await stops(door, amount)
+            return
+        if what == "floods":
+            say("holding")
+            await asyncio.to_thread(flood, folder, amount)
             return
         if what == "flood":
             asyncio.get_running_loop().call_later(
@@ -99,4 +120,4 @@ async def main(folder: Path, what: str, amount: int) -> None:
 
 if __name__ == "__main__":
     os.setpgid(0, 0)
-    asyncio.run(main(Path(sys.argv[1]), sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 0))
+    asyncio.run(main(Path(sys.argv[1]), sys.argv[2], sys.argv[3] if len(sys.argv) > 3 else "0"))

@@ -29,6 +29,7 @@ from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.playback_keymap import BY_HAND_KEYS, RUN_KEYS, PlayKeys
 from teleop.recording.writer import Recorder
 from teleop.timelapse.compile import Timelapse
+from teleop.timelapse.troubles import troubles
 
 
 def shoot(
@@ -86,7 +87,7 @@ def _print(report: ShootReport) -> None:
         error_table(report.tracking)
     clip = f", {progress.clip:.2f} s of clip" if progress.clip is not None else ""
     print(f"{progress.shot} of {progress.slots.frames} frames shot{clip}")
-    for line in _troubles(report.shooting):
+    for line in troubles(progress):
         tell(line)
     if report.ended.result is not Result.DONE:
         if journal.in_doubt is not None:
@@ -96,31 +97,6 @@ def _print(report: ShootReport) -> None:
             tell(f"Continue with --by-hand --resume: frame {journal.next} is next ({journal.path})")
             return
         tell(f"Continue with --resume: frame {journal.next} is next, {left} of shooting left ({journal.path})")
-
-
-def _troubles(shooting: Shooting) -> list[str]:
-    """What did not go as it should, in lines."""
-    progress, lines = shooting.progress, []
-    if progress.missed:
-        lines.append(f"{progress.missed} slots were missed")
-    if progress.lost:
-        lines.append(f"No picture of frames {_numbers(progress.lost)}")
-    if progress.doubtful:
-        lines.append(f"Frames {_numbers(progress.doubtful)} may be missing: the camera did not confirm them")
-    if progress.stopped:
-        lines.append(f"Frames {_numbers(progress.stopped)} were exposing when a STOP halted the axes: check them")
-    if progress.late:
-        lines.append(f"{progress.late} frames were late, by {progress.latest:.2f} s at most")
-    if progress.refused:
-        lines.append(f"The camera refused {progress.refused} times")
-    if progress.unsettled:
-        lines.append(f"{progress.unsettled} frames were shot before the axes were measured to be still")
-    return lines
-
-
-def _numbers(frames: list[int]) -> str:
-    shown = ", ".join(map(str, frames[:20]))
-    return shown if len(frames) <= 20 else f"{shown} and {len(frames) - 20} more"
 
 
 def _facts(report: ShootReport) -> Mapping[str, object]:

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from pydantic import Field, TypeAdapter
 
+from teleop.config.exchange.dfmoco import DfmocoSection
 from teleop.config.exchange.foxglove import FoxgloveSection
 from teleop.config.exchange.freed import FreeDSection
 from teleop.config.exchange.midi import MidiSection
@@ -13,7 +14,8 @@ from teleop.config.exchange.osc import OscSection
 from teleop.config.exchange.timecode import TimecodeSection
 
 ExchangeSection = Annotated[
-    FoxgloveSection | FreeDSection | MidiSection | OscSection | TimecodeSection, Field(discriminator="type")
+    DfmocoSection | FoxgloveSection | FreeDSection | MidiSection | OscSection | TimecodeSection,
+    Field(discriminator="type"),
 ]
 
 ENTRIES: TypeAdapter[list[ExchangeSection]] = TypeAdapter(list[ExchangeSection])

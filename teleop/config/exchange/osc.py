@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from teleop.config.documents.base_model import Section
 from teleop.config.exchange.address import Allowed, Listen, To
@@ -23,3 +23,9 @@ class OscSection(Section):
     """HOST:PORT that is sent the feedback."""
     allow: list[Allowed] = Field(default_factory=list)
     """Addresses or networks whose commands are taken; those of this computer always are, and stop from anywhere."""
+
+    @model_validator(mode="after")
+    def _does_something(self) -> Self:
+        if self.listen is None and self.to is None:
+            raise ValueError("needs listen, to, or both")
+        return self

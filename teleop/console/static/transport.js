@@ -9,6 +9,7 @@ import { chosen, playable, preferred } from "./moves.js";
 import { keys } from "./keys.js";
 
 const move = part((s) => s.move, null);
+const errors = part((s) => s.errors, null);
 const SPEEDS = [0.25, 0.5, 0.75, 1, 1.5, 2];
 const KEPT = "teleop.preroll";
 
@@ -45,7 +46,7 @@ export function Transport({ compact = false, open, blocked = "" }) {
       <label>Passes <${NumberField} min=${1} max=${999} value=${passes.value} set=${(/** @type {number} */ value) => (passes.value = Math.round(value))} /></label>
       <button aria-pressed=${loop.value} onClick=${() => (loop.value = !loop.value)}>Loop</button>
     </div>
-    ${!compact && now?.errors && html`<${Errors} errors=${now.errors} />`}
+    ${!compact && errors.value?.passes.length > 0 && html`<${Errors} of=${errors.value} />`}
     ${blocked && html`<p class="waits">${blocked}</p>`}
   </section>`;
 }
@@ -61,6 +62,13 @@ function phase(now) {
   return `${now.phase}${now.key ? `, key ${now.key} of ${now.keys}` : ""}${pass}${now.why ? `: ${now.why}` : ""}`;
 }
 
-/** @param {{errors: Object<string, number>[]}} props the largest error of each pass, by axis */
-const Errors = ({ errors }) => html`<table class="errors"><thead><tr><th scope="col">Pass</th>${Object.keys(errors[0] ?? {}).map((axis) => html`<th scope="col">${axis}</th>`)}</tr></thead>
-  <tbody>${errors.map((each, n) => html`<tr><th scope="row">${n + 1}</th>${Object.values(each).map((value) => html`<td>${short(value, 3)}</td>`)}</tr>`)}</tbody></table>`;
+/** The error of each pass that is over, by axis. @param {{of: import("./types.js").PassErrors}} props */
+function Errors({ of }) {
+  const axes = Object.keys(of.passes[0].axes);
+  return html`<table class="errors" data-testid="pass-errors"><caption>${of.title}: error, rms and largest</caption>
+    <thead><tr><th scope="col">Pass</th>${axes.map((axis) => html`<th scope="col">${axis}</th>`)}</tr></thead>
+    <tbody>${of.passes.map((each) => html`<tr><th scope="row">${each.pass}</th>${axes.map((axis) => html`<td>${figures(each.axes[axis])}</td>`)}</tr>`)}</tbody></table>`;
+}
+
+/** @param {{rms: number, peak: number}|undefined} error */
+const figures = (error) => (error ? `${short(error.rms, 3)}, ${short(error.peak, 3)}` : "");

@@ -14,7 +14,8 @@ import socket
 from contextlib import ExitStack, suppress
 from threading import Event, Lock, Thread
 
-from teleop.core.errors import DeviceError, UsageError
+from teleop.core.errors import DeviceError
+from teleop.links.osc_packets import Argument, OscError, messages
 
 POLL_PERIOD = 0.2  # s between looks at whether it is over
 LEAVE = 1.0  # s for the listening thread to end
@@ -23,19 +24,11 @@ LONGEST = 65536  # bytes of a packet
 
 
 class OscTrigger:
-    """Fires for a message to `address` whose first argument, if it has one, is not 0: a button that is let go sends 0.
-
-    Raises UsageError without python-osc.
-    """
+    """Fires for a message to `address` whose first argument, if it has one, is not 0, as of a button let go."""
 
     again = True
 
     def __init__(self, host: str, port: int, address: str) -> None:
-        try:
-            from pythonosc.osc_packet import OscPacket
-        except ImportError:
-            raise UsageError("--trigger osc: needs python-osc: pip install 'rs-teleop[osc]'") from None
-        self._parse = OscPacket
         self._where, self._address = (host, port), address
         self._listener: socket.socket | None = None
         self._lock = Lock()  # over taking a packet, and over what it counts for
@@ -89,13 +82,12 @@ class OscTrigger:
     def _hear(self, data: bytes, armed: int = 0) -> None:
         """A packet that was taken while it had been armed so many times."""
         try:
-            messages = [timed.message for timed in self._parse(data).messages]
-            if any(self._is_go(message.address, message.params) for message in messages):
+            if any(self._is_go(*message) for message in messages(data)):
                 self._fired_in = armed
-        except Exception:  # noqa: BLE001 - whatever a stranger's packet does to a parser, it is a packet to ignore
+        except OscError:
             self.ignored += 1
 
-    def _is_go(self, address: str, arguments: list[object]) -> bool:
+    def _is_go(self, address: str, arguments: tuple[Argument, ...]) -> bool:
         return address == self._address and (not arguments or bool(arguments[0]))
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 from chase_bench import LIMITS, ChaseBench, sender
 from midi_sender import RATES, quarters
-from timecode import Timecode
+from timecode.timecode import Timecode
 
 from teleop.core.timing import PERIOD
 from teleop.exchange.timecode.mtc import MtcDecoder

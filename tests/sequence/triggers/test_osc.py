@@ -13,7 +13,8 @@ from pythonosc.osc_bundle_builder import IMMEDIATELY, OscBundleBuilder
 from pythonosc.osc_message_builder import OscMessageBuilder
 from waiting import wait_until
 
-from teleop.core.errors import DeviceError, UsageError
+from teleop.core.errors import DeviceError
+from teleop.links.osc_packets import messages
 from teleop.sequence.triggers.osc import OscTrigger
 
 
@@ -97,12 +98,6 @@ def test_a_port_that_is_taken_is_said():
         OscTrigger("127.0.0.1", port, "/go").open(stack)
 
 
-def test_a_missing_extra_is_a_line_that_says_what_to_install(monkeypatch):
-    monkeypatch.setitem(__import__("sys").modules, "pythonosc.osc_packet", None)
-    with pytest.raises(UsageError, match=r"pip install 'rs-teleop\[osc\]'"):
-        OscTrigger("127.0.0.1", 9000, "/go")
-
-
 def test_a_packet_that_waits_in_the_socket_when_it_is_armed_does_not_count(monkeypatch):
     """The thread is kept from taking it, as a busy computer does."""
     port = free_port()
@@ -125,14 +120,14 @@ def test_a_packet_that_waits_in_the_socket_when_it_is_armed_does_not_count(monke
 def test_a_packet_that_is_still_being_read_when_it_is_armed_does_not_count(monkeypatch):
     port = free_port()
     trigger = OscTrigger("127.0.0.1", port, "/go")
-    reading, go_on, parse = Event(), Event(), trigger._parse
+    reading, go_on = Event(), Event()
 
     def slow(data):
         reading.set()
         assert go_on.wait(5)
-        return parse(data)
+        return messages(data)
 
-    monkeypatch.setattr(trigger, "_parse", slow)
+    monkeypatch.setattr("teleop.sequence.triggers.osc.messages", slow)
     with ExitStack() as stack:
         trigger.open(stack)
         trigger.arm(0.0)
