@@ -32,6 +32,7 @@ from teleop.remote.shoot_job import ShootJob
 from teleop.remote.told import Told
 from teleop.remote.works import Work, Works
 
+CLOCK = 2.0  # s by which the clock of a chase may have been read before
 JOG_TIME = 0.5  # s that a jog takes at least, unless it says otherwise
 WAY_TIME = 600.0  # s for a way along the path of a move
 SLACK = 1e-6
@@ -337,6 +338,8 @@ class LiveActions:
         job = self._jobs.job
         if not isinstance(job, PlayJob):
             raise Refusal("no move is playing")
+        if abs(now - asked.command.time / 1000) > CLOCK:
+            raise Refusal("chase: its time is not of this computer's clock")
         reference = Reference(asked["at"], asked.command.time / 1000, asked.get("rate", 1.0))
         job.chase(reference, asked.get("free", False), now)
         asked.end()
