@@ -20,14 +20,14 @@ from teleop.exchange.opening import opened
 from teleop.remote.gateway_child import Gateway
 
 FPS, BLOCK, SAMPLES = 25.0, 960, 48000
-LEAD, SECONDS = 2.0, 7.0
+LEAD, SECONDS = 6.0, 5.0
 
 
 class Tape:
     """Runs from `LEAD` s before the hour, into the pipe, as fast as sound does."""
 
     def __init__(self, pipe: Path) -> None:
-        self._sound = encoded((0, 59, 58, 0), int(FPS * (LEAD + SECONDS)), FPS)
+        self._sound = encoded((0, 59, 54, 0), int(FPS * (LEAD + SECONDS)), FPS)
         self._file = os.open(pipe, os.O_RDWR)
         self.began = 0.0
         self._thread = threading.Thread(target=self._run, daemon=True)
