@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+import socket
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
@@ -121,8 +122,10 @@ class ReachedOptions:
                     tell(line)
             number = listener.fileno()
             console = {"settings": settings.as_json(), "listener": number}
+            announcement = _announcement(profile.name, listener, settings.has_tls)
             greetings = [greeting(settings), *([exchange.greeting] if exchange.greeting else [])]
-            yield Gateway({"console": console, **exchange.settings}, (number, *exchange.passed), greetings, invited)
+            told = {"console": console, **announcement, **exchange.settings}
+            yield Gateway(told, (number, *exchange.passed), greetings, invited)
 
     @contextmanager
     def beside(
@@ -168,6 +171,17 @@ class ConsoleOptions(ReachedOptions):
         if not self.moves.is_dir():
             raise UsageError(f"--moves {self.moves}: is no folder")
         return str(self.moves.resolve())
+
+
+def _announcement(rig: str, listener: socket.socket, tls: bool) -> dict[str, Any]:
+    """What the gateway announces of it on the network: nothing of a console that only this computer reaches."""
+    from teleop.console.settings import is_loopback
+    from teleop.gateway.discovery import Announcement
+
+    host, port = listener.getsockname()[:2]
+    if is_loopback(host):
+        return {}
+    return {"announcement": Announcement(rig, host, port, tls).as_settings()}
 
 
 NOT_REACHED, NO_CONSOLE = ReachedOptions(), ConsoleOptions()

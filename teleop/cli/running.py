@@ -12,7 +12,7 @@ from teleop.cli.screens.response_lines import run_facts, run_lines
 from teleop.cli.screens.run_view import error_table
 from teleop.core.run_state import Result
 from teleop.monitors.tracking_error import TrackingErrorMonitor
-from teleop.recording.format import plain
+from teleop.recording.topics import plain
 from teleop.recording.writer import Recorder
 
 EXIT_CODES: Mapping[Result, int] = {Result.DONE: 0, Result.FAILED: 1, Result.INTERRUPTED: 130}

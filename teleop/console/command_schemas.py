@@ -43,6 +43,7 @@ PLAYED = {
     "loop": TRUTH,
     "speed": {"type": "number", "description": "share of the written speed"},
     "preroll": SECONDS,
+    "chase": {"type": "boolean", "description": "true: wait for the clock of `chase`, and follow it"},
 }
 SHOT = {
     "resume": {"type": "boolean", "description": "true: go on with the shoot that its journal knows"},
@@ -68,6 +69,11 @@ COMMANDS: Mapping[str, CommandSchema] = {
     "delete_key": CommandSchema("Delete a key", {"number": WHOLE}),
     "clear_keys": CommandSchema("Delete all keys"),
     "play": CommandSchema("Play a move; `keys` are those set by hand", {"move": MOVE}, PLAYED),
+    "chase": CommandSchema(
+        "Where the clock is, at `time` of this computer (ms), that a move played with `chase` follows",
+        {"at": {"type": "number", "description": "s of the move"}},
+        {"rate": {"type": "number", "minimum": 0.9, "maximum": 1.1}, "free": TRUTH},
+    ),
     "pause": CommandSchema("Pause the move"),
     "resume": CommandSchema("Go on with the move"),
     "speed": CommandSchema("Change the speed of the move", {"share": NUMBER}),

@@ -9,10 +9,10 @@ from typing import Any
 
 from teleop.config.documents.document import DocumentError
 from teleop.core.run_state import Result
-from teleop.recording.format import plain
 from teleop.recording.reader import read_take
 from teleop.recording.report import report
 from teleop.recording.summary import Summary, summarize_index
+from teleop.recording.topics import plain
 
 COMPLETE = Result.DONE.name.lower()
 

@@ -16,11 +16,11 @@ class StatePacker:
         self._seldom: Mapping[str, Any] | None = None
         self._packed = b""
 
-    def pack(self, often: Mapping[str, Any], seldom: Mapping[str, Any]) -> bytes:
-        """`seldom` is looked at by identity: a changed one has to be another object."""
+    def pack(self, often: Mapping[str, Any], seldom: Mapping[str, Any], beside: object = None) -> bytes:
+        """`seldom` is looked at by identity: a changed one has to be another object. `beside` is not in the state."""
         if seldom is not self._seldom:
             self._seldom, self._packed = seldom, msgpack.packb(seldom)
-        return self._packer.pack([often, self._packed])
+        return self._packer.pack([often, self._packed, beside])
 
 
 class StateUnpacker:
@@ -30,7 +30,11 @@ class StateUnpacker:
 
     def unpack(self, data: bytes) -> dict[str, Any]:
         """Raises ValueError for what no StatePacker has made."""
-        often, packed = msgpack.unpackb(data)
+        return self.both(data)[0]
+
+    def both(self, data: bytes) -> tuple[dict[str, Any], Any]:
+        """The state, and what was packed beside it."""
+        often, packed, beside = msgpack.unpackb(data)
         if packed != self._packed:
             self._packed, self._seldom = packed, msgpack.unpackb(packed)
-        return {**self._seldom, **often}
+        return {**self._seldom, **often}, beside

@@ -9,7 +9,10 @@ from collections.abc import Mapping
 
 SERVERS: Mapping[str, str] = {
     "dfmoco": "teleop.exchange.dfmoco",
+    "foxglove": "teleop.exchange.foxglove",
     "freed": "teleop.exchange.freed",
+    "midi": "teleop.exchange.midi",
     "osc": "teleop.exchange.osc",
+    "timecode": "teleop.exchange.timecode",
 }
 """The module that serves each type."""

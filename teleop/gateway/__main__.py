@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import ctypes
 import importlib
+import importlib.util
 import json
 import os
 import signal
@@ -73,7 +74,24 @@ async def _exchange(settings: dict[str, Any], door: DoorClient) -> None:
     await importlib.import_module("teleop.exchange.serving").serve(settings, door)
 
 
-PARTS = {"console": _console, "exchange": _exchange}
+async def _announcement(settings: dict[str, Any], door: DoorClient) -> None:  # noqa: ARG001 - as the other parts
+    """The run on mDNS, by a child that says goodbye when this process has ended, whatever ended it."""
+    if importlib.util.find_spec("zeroconf") is None:
+        sys.stderr.write("mDNS: the rig is not announced: pip install 'rs-teleop[console]'\n")
+        await asyncio.Event().wait()
+    command = [sys.executable, "-m", "teleop.gateway.announcer"]
+    child = await asyncio.create_subprocess_exec(*command, stdin=asyncio.subprocess.PIPE, start_new_session=True)
+    assert child.stdin is not None
+    try:
+        child.stdin.write(json.dumps(settings).encode() + b"\n")
+        if code := await child.wait():
+            sys.stderr.write(f"mDNS: the rig is no longer announced: code {code}\n")
+        await asyncio.Event().wait()
+    finally:
+        child.stdin.close()
+
+
+PARTS = {"console": _console, "exchange": _exchange, "announcement": _announcement}
 """What the gateway may be told to serve."""
 
 

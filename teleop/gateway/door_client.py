@@ -16,11 +16,13 @@ from time import monotonic
 from typing import Any, Self
 
 from teleop.core.errors import TeleopError
+from teleop.core.events import Tick
 from teleop.door.address import DoorAddress
 from teleop.door.messages import MOST_SEEN, CommandError, checked, packed, unpacked
-from teleop.door.ring import RingReader
+from teleop.door.ring import SLOTS, RingReader
 from teleop.door.sockets import LARGEST, client_socket
 from teleop.door.states import StateUnpacker
+from teleop.door.ticks import from_plain
 
 REPEAT = 0.2  # s until a command that is not answered is sent again
 STOP_REPEAT = 0.05
@@ -99,6 +101,19 @@ class DoorClient:
                 state = self.state()  # which may be a newer one again
                 before = self._number
                 yield state
+            await asyncio.sleep(LOOK)
+
+    async def ticks(self) -> AsyncIterator[tuple[dict[str, Any], Tick, dict[str, float]]]:
+        """Every tick from now on, with its state as it was written, and what came of all sticks (-1..1) in it."""
+        unpacker, last = StateUnpacker(), self._ring.number
+        while True:
+            newest = self._ring.number
+            for number in range(max(last + 1, newest - SLOTS // 2), newest + 1):
+                data = self._ring.read(number)
+                state, beside = ({}, None) if data is None else unpacker.both(data)
+                if beside is not None:
+                    yield state, from_plain(beside[0]), beside[1]
+            last = newest
             await asyncio.sleep(LOOK)
 
     def _newest(self) -> dict[str, Any]:

@@ -15,9 +15,10 @@ from typing import Any
 
 from teleop.config.documents.document import DocumentError
 from teleop.recording import ENDING
-from teleop.recording.format import ABOUT, END, SCHEMAS, About
+from teleop.recording.format import ABOUT, END, About
 from teleop.recording.messages import Ending, Messages, about, ending, reading_errors
 from teleop.recording.records import RECORD_LIMIT
+from teleop.recording.topics import SCHEMAS
 
 
 @dataclass

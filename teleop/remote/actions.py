@@ -13,6 +13,7 @@ from teleop.core.events import Action, Tick
 from teleop.core.operator_input import Command
 from teleop.manual.operator import CENTERED, Operator
 from teleop.manual.recall import at_rest, reachable
+from teleop.planner.chasing import Reference
 from teleop.planner.go_motion import ExposureRuns
 from teleop.planner.shortest import shortest_seconds
 from teleop.remote.asked import Asked, Refusal
@@ -31,6 +32,7 @@ from teleop.remote.shoot_job import ShootJob
 from teleop.remote.told import Told
 from teleop.remote.works import Work, Works
 
+CLOCK = 2.0  # s by which the clock of a chase may have been read before
 JOG_TIME = 0.5  # s that a jog takes at least, unless it says otherwise
 WAY_TIME = 600.0  # s for a way along the path of a move
 SLACK = 1e-6
@@ -79,6 +81,7 @@ class LiveActions:
             "previous_key": lambda asked, now: self._transport(asked, now, lambda job: job.step(-1, now)),
             "to_start": lambda asked, now: self._transport(asked, now, lambda job: job.to_start(now)),
             "abort": self._abort,
+            "chase": self._chase,
             "record": self._with_no_shoot(partial(self.devices.camera, action=Action.RECORD)),
             "stop_recording": self._with_no_shoot(partial(self.devices.camera, action=Action.STOP)),
             "shutter": self._with_no_shoot(partial(self.devices.camera, action=Action.SHUTTER)),
@@ -290,6 +293,17 @@ class LiveActions:
         if isinstance(job, PlayJob):
             job.owner = asked.command.session
         self._transport(asked, now, lambda job: job.resume(now))
+
+    def _chase(self, asked: Asked, now: float) -> None:
+        """The place that the move is to have at the time of the command, by this computer's clock."""
+        job = self._jobs.job
+        if not isinstance(job, PlayJob):
+            raise Refusal("no move is playing")
+        if abs(now - asked.command.time / 1000) > CLOCK:
+            raise Refusal("chase: its time is not of this computer's clock")
+        reference = Reference(asked["at"], asked.command.time / 1000, asked.get("rate", 1.0))
+        job.chase(reference, asked.get("free", False), now)
+        asked.end()
 
     def _abort(self, asked: Asked, now: float) -> None:
         if self.shoots.job is not None:

@@ -10,6 +10,7 @@ from typing import Any
 from teleop.core.axes import Axis, Limits
 from teleop.core.errors import TeleopError
 from teleop.remote.asked import Asked
+from teleop.remote.follower import Follower
 from teleop.remote.jobs import Ended
 from teleop.remote.moves import move_file
 from teleop.remote.planning_process import PlanningProcess
@@ -31,10 +32,12 @@ class JobMaker:
         compiled = planner.plan(move_file(what, self._folder) if isinstance(what, str) else what)
         passes = float("inf") if asked.get("loop", False) else asked.get("passes", 1)
         preroll = asked.get("preroll", compiled.preroll)
-        cycle = Cycle(preroll, passes=passes, back_to_one=compiled.back_to_one)
+        follower = Follower() if asked.get("chase", False) else None
+        cycle = Cycle(preroll, passes=passes, back_to_one=compiled.back_to_one, trigger=follower)
         self._refuse_missing(compiled.title, compiled.move.tracks)
         source = SequenceSource(compiled, self._limits, asked.get("speed", 1.0), cycle=cycle)
-        return PlayJob(compiled.title, asked.command.session, source, asked.get("attended", True), asked.end)
+        attended = asked.get("attended", True)
+        return PlayJob(compiled.title, asked.command.session, source, attended, asked.end, follower)
 
     def shoot(self, asked: Asked, planner: PlanningProcess, ended: Callable[[ShootJob], Ended]) -> ShootJob:
         """The timelapse of the name that is asked for, from its first frame or from where its journal says."""

@@ -1,4 +1,4 @@
-"""A move that a client plays: the source of the pipeline as a job, with its transport.
+"""A move that a client plays: the source of the pipeline as a job, with its transport; it may follow another's clock.
 
 It pauses on its path where it can, and halts away from it where it must (a STOP, control passing on); either way it
 goes on when it is asked to, from where it was. One that is `attended` pauses when its console is gone.
@@ -15,6 +15,8 @@ from teleop.core.errors import TeleopError
 from teleop.core.events import Tick, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand
+from teleop.planner.chasing import Reference
+from teleop.remote.follower import Follower
 from teleop.remote.jobs import Ended
 from teleop.remote.move_state import move_state
 from teleop.sequence.phases import SequencePhase
@@ -28,9 +30,17 @@ class NotNowError(TeleopError):
 class PlayJob:
     """`title` is the move's. `owner` is the session that has it played."""
 
-    def __init__(self, title: str, owner: str, source: SequenceSource, attended: bool, ended: Ended) -> None:
+    def __init__(
+        self,
+        title: str,
+        owner: str,
+        source: SequenceSource,
+        attended: bool,
+        ended: Ended,
+        follower: Follower | None = None,
+    ) -> None:
         self.title, self.owner, self.attended, self.ended = title, owner, attended, ended
-        self.source = source
+        self.source, self.follower = source, follower
         self.halted = ""  # why it is away from its path
         self.left = False  # by its console: it was paused for that
         self._going = False
@@ -51,7 +61,14 @@ class PlayJob:
         if self.halted and self._going and self._rests:
             self.halted, self._going = "", False
             self.source.resume(now, feedback.motion)
-        return ({}, ()) if self.halted else self.source.read(now, feedback)
+        if self.halted:
+            return {}, ()
+        if self.follower is not None:
+            self.follower.step(self.source, now)
+            if self.follower.stuck:
+                self.halt(now, "the timecode is lost")
+                return {}, ()
+        return self.source.read(now, feedback)
 
     def done(self, tick: Tick) -> bool:
         return not self.halted and math.isinf(self.source.next_change(tick.time)) and self._rests_in(tick.motion)
@@ -61,6 +78,8 @@ class PlayJob:
         if not self.halted:
             self.source.suspend(now)
         self.halted, self._going = why, False
+        if self.follower is not None:
+            self.follower.halt()
         return False
 
     def outranked(self, now: float, why: str) -> bool:  # noqa: ARG002 - it goes on beneath the hand
@@ -111,6 +130,15 @@ class PlayJob:
 
     def to_start(self, now: float) -> None:
         self.seek(self.source.move.opening, now)
+
+    def chase(self, reference: Reference, free: bool, now: float) -> None:
+        """Follow the clock that has this place now; `free`: only begin with it, and go on by our own."""
+        if self.follower is None:
+            raise NotNowError(f"{self.title} is not played to be chased")
+        if self.halted:
+            raise NotNowError(f"it was halted ({self.halted}): resume it first")
+        self.follower.follow(reference, free, now)
+        self._refuse()
 
     def _need_pause(self, now: float) -> None:
         playback = self.source.playback

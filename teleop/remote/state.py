@@ -12,6 +12,7 @@ from teleop.core.events import Tick
 from teleop.devices.connection import Connection
 from teleop.door.ring import RingWriter
 from teleop.door.states import StatePacker
+from teleop.door.ticks import as_plain
 from teleop.manual.status import OperatorStatus
 from teleop.plots.numbers import finite
 from teleop.remote.desk import Desk
@@ -95,7 +96,8 @@ class StatePublisher:
         """The state at `now`, in a run that is "waiting", "running", "stopping", "releasing" or "over"."""
         self._tick = tick or self._tick
         status = self._parts.shown.status
-        data = self._packer.pack(self._often(run, now, status), self._seldom_now(status))
+        beside = None if tick is None else (as_plain(tick), dict(status.deflections))
+        data = self._packer.pack(self._often(run, now, status), self._seldom_now(status), beside)
         self._ring.write(data)
         self._parts.desk.tick = self._ring.number
 

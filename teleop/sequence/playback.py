@@ -16,6 +16,7 @@ from dataclasses import replace
 
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.timing import SAME_TIME
+from teleop.planner.chasing import Reference, catch_up
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.time_scaling import TimeScaling, at_most, change_rate, go_to, run_up, state_at, steady
 from teleop.planner.trajectory import Move
@@ -24,6 +25,8 @@ AHEAD = 0.08  # s from asking for a change to its beginning; the search takes 9 
 LATER = 2.0  # times further ahead when it was found too late
 WRITTEN = 1.0  # the speed that a move was written for
 FASTEST = 2.0  # times the speed that a move was written for
+CLOSE, SAME_RATE = 0.002, 1e-3  # s and s in a s by which a chase may be off
+CHASE_AGAIN, REFUSED_AGAIN = 0.1, 0.5  # s between two changes of a chase, and after one that cannot be
 ASK_AGAIN = 0.05  # s between two looks at a paused move
 
 Search = Callable[[TimeScaling, float], TimeScaling]  # from the present pace, for a change at that time
@@ -59,6 +62,7 @@ class Playback:
         self._found: Future[TimeScaling] | None = None
         self._ahead = AHEAD
         self._read = -math.inf  # when it was last asked where the axes are
+        self._chased = -math.inf  # when another change was asked for by `chase`
         self.refusal = ""  # of the last thing asked for, in a line
 
     def begin(self, now: float) -> None:
@@ -144,6 +148,19 @@ class Playback:
     def resume(self, now: float) -> None:
         rate = self._resumed = min(self._resumed, self.at_most)
         self._ask(lambda pace, start: change_rate(self._move, self._limits, pace, rate, start), now)
+
+    def chase(self, reference: Reference, now: float) -> None:
+        """Follow a clock that is not ours: another change where it is not near enough, once the last one is made.
+
+        `refusal` says where the limits keep the move from following.
+        """
+        if self.changing(now) or now < self._chased + (REFUSED_AGAIN if self.refusal else CHASE_AGAIN):
+            return
+        self._chased = now
+        here, rate, _ = self._pace.at(now)
+        off = abs(reference.place(now) - here) > CLOSE or abs(reference.rate - rate) > SAME_RATE
+        if not rate or off:
+            self._ask(lambda pace, start: catch_up(self._move, self._limits, pace, reference, start), now)
 
     def hold(self, time: float, now: float) -> tuple[float, dict[Axis, State]]:
         """Stay at the move's `time`, where it rests, until `go`: as `at`. To stop at a rest takes no search."""

@@ -14,7 +14,9 @@ from command import running
 from waiting import wait_until
 
 from teleop.cli import run
-from teleop.cli.console_options import with_console
+from teleop.cli.console_options import ConsoleOptions, with_console
+from teleop.cli.options import Options
+from teleop.config.profile import load_profile
 
 
 def ask(url: str, path: str, body: dict[str, Any] | None = None) -> tuple[int, dict[str, Any]]:
@@ -96,3 +98,16 @@ def test_what_cannot_be_is_refused_with_the_reason(
 ) -> None:
     assert run(arguments) == 2
     assert reason in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("bind", "announced"), [("127.0.0.1:0", False), ("0.0.0.0:0", True)])
+def test_only_a_console_that_others_can_reach_is_announced_on_the_network(
+    bind: str, announced: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    options, profile = Options(rig="sim"), load_profile("sim")
+    with ConsoleOptions().gateway(bind, options, profile) as gateway:
+        told = gateway.settings.get("announcement")
+        assert (told is not None) == announced
+        if told:
+            assert (told["rig"], told["host"], told["tls"]) == (profile.name, "0.0.0.0", False)
+            assert f":{told['port']}/" in capsys.readouterr().out

@@ -14,7 +14,8 @@ from mcap.reader import make_reader
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.events import Tick
 from teleop.core.setpoints import Demand, PositionTarget, StateTarget, Stop, VelocityTarget
-from teleop.recording.format import SCHEMAS, About, TakeWriter, plain
+from teleop.recording.format import About, TakeWriter
+from teleop.recording.topics import SCHEMAS, plain
 
 LIMITS = {Axis.PAN: Limits(-math.inf, math.inf, 120, 240, 1200)}
 

@@ -10,7 +10,7 @@ import pytest
 from fake_door import FakeDoor
 
 from teleop.config.exchange import ENTRIES
-from teleop.config.exchange.dfmoco import serial_line
+from teleop.config.exchange.dfmoco import DfmocoSection, serial_line
 from teleop.core.axes import Axis, Limits
 from teleop.core.errors import DeviceError
 from teleop.exchange.dfmoco import server
@@ -59,6 +59,7 @@ def test_it_is_answered_over_a_serial_line_and_its_end_is_an_error(monkeypatch: 
 
 def test_a_line_that_is_not_there_is_an_error() -> None:
     (section,) = ENTRIES.validate_python([{"type": "dfmoco", "listen": "serial:/dev/no-such-line"}])
+    assert isinstance(section, DfmocoSection)
     with pytest.raises(DeviceError, match="/dev/no-such-line"):
         asyncio.run(server.serve(section, served(FakeDoor())))
 

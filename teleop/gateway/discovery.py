@@ -1,0 +1,212 @@
+"""Rigs on this network by mDNS: a console that others can reach is announced as `_teleop._tcp`, and found by browsing.
+
+The TXT record has `rig` (its name), `api` (the path that describes its HTTP interface) and `tls` ("1" or "0"); what
+else a run can be reached by is a further key of it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import ipaddress
+import secrets
+import socket
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from contextlib import asynccontextmanager, suppress
+from dataclasses import asdict, dataclass, field
+from typing import Any, NamedTuple, Self
+
+from teleop.core.errors import TeleopError
+
+SERVICE = "_teleop._tcp.local."
+API = "/api"
+LONGEST_NAME = 57  # bytes of a label less those of the number that tells two of a name apart
+LONGEST_TEXT = 200  # bytes of a value in the TXT record
+QUIET = 1.3  # s to listen for others of a name: what was told is not told again within 1 s (RFC 6762, 6)
+MOST_OF_A_NAME = 100
+SRV, INTERNET = 33, 1  # a type and a class of DNS
+ANSWERS = 1.0  # s that one rig has to say where it is
+ANY = ("0.0.0.0", "::")
+
+
+@dataclass(frozen=True)
+class Announcement:
+    """What is announced: `host` is where it listens, a number; `more` are further keys of the TXT record."""
+
+    rig: str
+    host: str
+    port: int
+    tls: bool = False
+    more: Mapping[str, str] = field(default_factory=dict)
+
+    def as_settings(self) -> dict[str, Any]:
+        return asdict(self)
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any]) -> Self:
+        return cls(**settings)
+
+
+class Found(NamedTuple):
+    """A rig as it is announced. `name` is its own on the network: the rig's, with a number where two have the same."""
+
+    name: str
+    rig: str
+    addresses: Sequence[str]
+    port: int
+    tls: bool
+    text: Mapping[str, str]
+
+    @property
+    def url(self) -> str:
+        """Of its console, at its first address."""
+        host = self.addresses[0] if self.addresses else ""
+        return f"http{'s' if self.tls else ''}://{f'[{host}]' if ':' in host else host}:{self.port}"
+
+
+def addresses_of(host: str) -> list[str]:
+    """Where others reach what listens at `host`: for every address (0.0.0.0, ::) those of this computer."""
+    import ifaddr
+
+    if host not in ANY:
+        return [host]
+    found = []
+    for adapter in ifaddr.get_adapters():
+        for each in adapter.ips:
+            text = each.ip if isinstance(each.ip, str) else each.ip[0]
+            number = ipaddress.ip_address(text)
+            if not number.is_loopback and (number.version == 4 or (host == "::" and not number.is_link_local)):
+                found.append(text)
+    return sorted(found, key=lambda text: ":" in text)
+
+
+@asynccontextmanager
+async def announced(what: Announcement) -> AsyncIterator[str]:
+    """It is announced within, and taken back at the end; its name there. Raises TeleopError where it cannot be."""
+    addresses = addresses_of(what.host)
+    if not addresses:
+        raise TeleopError("this computer has no address on a network yet")
+    try:
+        network = _network(addresses)
+    except OSError as error:
+        raise TeleopError(f"no mDNS on this network: {error.strerror or error}") from None
+    try:
+        info = await _registered(network, what, addresses)
+        yield info.name.removesuffix(f".{SERVICE}")
+    finally:
+        await network.async_close()  # with the goodbye of what is announced by then
+
+
+async def _registered(network: Any, what: Announcement, addresses: Sequence[str]) -> Any:
+    """The service, once its name is its own: with the next number where another one has it, or takes it meanwhile."""
+    from zeroconf import Error, NonUniqueNameException
+    from zeroconf.asyncio import AsyncServiceInfo
+
+    host = _label(socket.gethostname().partition(".")[0])[:30]
+    server = f"teleop-{host}-{what.port}-{secrets.token_hex(3)}.local."  # no other responder's name for this computer
+    label = _label(what.rig)
+    browser = _browser(network, lambda **_: None)  # hears of the names that there are
+    await asyncio.sleep(QUIET)
+    try:
+        for number in range(2, MOST_OF_A_NAME):
+            facts = {"port": what.port, "properties": _text(what), "server": server, "parsed_addresses": addresses}
+            info = AsyncServiceInfo(SERVICE, f"{label}.{SERVICE}", **facts)
+            with suppress(NonUniqueNameException):
+                await (await network.async_register_service(info))
+                await asyncio.sleep(QUIET)
+                if not _rival(network, info):
+                    return info
+                network.zeroconf.registry.async_remove(info)  # without a goodbye, which would be the other one's too
+            label = f"{_label(what.rig)}-{number}"
+    except (Error, OSError, TimeoutError) as error:
+        raise TeleopError(f"no mDNS on this network: {error!r}") from None
+    finally:
+        await browser.async_cancel()
+    raise TeleopError(f"there are {MOST_OF_A_NAME} rigs called {what.rig} on this network")
+
+
+def _rival(network: Any, info: Any) -> bool:
+    """Whether another one has taken the same name at the same time, and is to keep it."""
+    from zeroconf import current_time_millis
+
+    now = current_time_millis()
+    found = network.zeroconf.cache.get_all_by_details(info.name, SRV, INTERNET)
+    return any(each.server < info.server and not each.is_expired(now) for each in found)
+
+
+async def browse(seconds: float = 1.5, interfaces: Sequence[str] = ()) -> list[Found]:
+    """The rigs that answer within so many s, by name; on all networks, unless `interfaces` are given.
+
+    Raises TeleopError where there is no mDNS.
+    """
+    from zeroconf import ServiceStateChange
+
+    try:
+        network = _network(interfaces)
+    except OSError as error:
+        raise TeleopError(f"no mDNS on this network: {error.strerror or error}") from None
+    names: dict[str, None] = {}
+
+    def changed(zeroconf: Any, service_type: str, name: str, state_change: Any) -> None:  # noqa: ARG001
+        if state_change is ServiceStateChange.Removed:
+            names.pop(name, None)
+        else:
+            names[name] = None
+
+    try:
+        browser = _browser(network, changed)
+        await asyncio.sleep(seconds)
+        await browser.async_cancel()
+        found = await asyncio.gather(*(_asked(network, name) for name in names))
+    finally:
+        await network.async_close()
+    return sorted(each for each in found if each is not None)
+
+
+async def _asked(network: Any, name: str) -> Found | None:
+    """What is announced by that name; None for one that has left, or says nothing that makes sense."""
+    from zeroconf import DNSQuestionType
+    from zeroconf.asyncio import AsyncServiceInfo
+
+    info = AsyncServiceInfo(SERVICE, name)
+    if not await info.async_request(network.zeroconf, ANSWERS * 1000, DNSQuestionType.QM) or not info.port:
+        return None
+    text = {
+        key.decode(errors="replace"): (value or b"").decode(errors="replace") for key, value in info.properties.items()
+    }
+    label = name.removesuffix(f".{SERVICE}")
+    return Found(label, text.get("rig", label), info.parsed_addresses(), info.port, text.get("tls") == "1", text)
+
+
+def _browser(network: Any, changed: Callable[..., None]) -> Any:
+    """Asks all at once and aloud: an answer to one asker alone reaches only one of the programs on a computer."""
+    from zeroconf import DNSQuestionType
+    from zeroconf.asyncio import AsyncServiceBrowser
+
+    return AsyncServiceBrowser(network.zeroconf, SERVICE, handlers=[changed], question_type=DNSQuestionType.QM)
+
+
+def _network(addresses: Sequence[str]) -> Any:
+    """mDNS on the networks of these addresses, IPv4's by preference; on all of them for none."""
+    from zeroconf import InterfaceChoice, IPVersion
+    from zeroconf.asyncio import AsyncZeroconf
+
+    if not addresses:
+        return AsyncZeroconf(interfaces=InterfaceChoice.All, ip_version=IPVersion.V4Only)
+    chosen = [each for each in addresses if ":" not in each] or list(addresses)
+    version = IPVersion.V6Only if ":" in chosen[0] else IPVersion.V4Only
+    return AsyncZeroconf(interfaces=chosen, ip_version=version)
+
+
+def _text(what: Announcement) -> dict[str, str]:
+    own = {"rig": what.rig, "api": API, "tls": "1" if what.tls else "0"}
+    return {key: _cut(value, LONGEST_TEXT) for key, value in {**what.more, **own}.items()}
+
+
+def _label(name: str) -> str:
+    """A name as one label: printable, without the point that would part it, and not too long."""
+    plain = "".join(each if each.isprintable() and each != "." else "-" for each in name).strip()
+    return _cut(plain, LONGEST_NAME) or "rig"
+
+
+def _cut(text: str, most: int) -> str:
+    return text.encode()[:most].decode(errors="ignore")
