@@ -83,6 +83,14 @@ COMMANDS: Mapping[str, CommandSchema] = {
     "focus": CommandSchema(
         "Move the focus", {"to": {"type": "number", "minimum": 0, "maximum": 1}}, {"seconds": SECONDS}
     ),
+    "track": CommandSchema(
+        "Follow a tracking source of the profile's exchange until it ends, STOP or abort",
+        {},
+        {
+            "source": {**WHOLE, "description": "its number among the entries that listen; 1 without"},
+            "attended": {"type": "boolean", "description": "false: goes on without this client"},
+        },
+    ),
     "range": CommandSchema("Choose the speed range of sticks", {"number": WHOLE}),
     "shoot": CommandSchema("Shoot a timelapse", {"move": MOVE}, SHOT),
     "message": CommandSchema("Send a message of the R SDK", {"name": TEXT}, {"fields": {"type": "object"}}),

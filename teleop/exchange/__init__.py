@@ -10,6 +10,7 @@ from collections.abc import Mapping
 SERVERS: Mapping[str, str] = {
     "dfmoco": "teleop.exchange.dfmoco",
     "freed": "teleop.exchange.freed",
+    "opentrackio": "teleop.exchange.opentrackio",
     "osc": "teleop.exchange.osc",
 }
 """The module that serves each type."""
