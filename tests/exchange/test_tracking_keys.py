@@ -36,7 +36,7 @@ def exchange(entry: str):
         ("type: freed, to: 'serial:/dev/ttyS0@fast'", "must be serial:DEVICE"),
         ("type: freed, to: 'a:0'", "must have the receiver's port"),
         ("type: freed, to: 'a:1', position: [0, 0, 132]", "131"),
-        ("type: freed, to: 'a:1', lens: {focus: [0, 16777216]}", "16777215"),
+        ("type: freed, to: 'a:1', lens: {focus: [0, 16777216]}", "must be at most"),
         ("type: freed, to: 'a:1', receiver: vizrt", "receiver"),
         ("type: opentrackio, to: '239.135.1.1:55555', interface: eth0", "this computer's address"),
         ("type: opentrackio, to: '239.135.1.1:55555', encoding: xml", "encoding"),

@@ -44,9 +44,9 @@ class TrackingBench:
         self._bench: RemoteBench | None = None
         self._bench = stack.enter_context(remote_bench(folder, SystemClock(), self, gateway))
         address = self._bench.hands.door.address
-        self._socket = stack.enter_context(client_socket(address.client(2), address.commands))
+        self._socket = client_socket(address.client(2), address.commands)
+        stack.callback(self._socket.close)
         self._socket.setblocking(True)
-        self._socket.settimeout(10)
         self._number = 0
         self._thread = threading.Thread(target=self._bench.loop.run, daemon=True)
         self._thread.start()
