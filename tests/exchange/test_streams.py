@@ -21,10 +21,11 @@ def swing(bench: TrackingBench) -> None:
     assert "ok" in bench.ask("goto", axes={"pan": 70.0, "tilt": 30.0})
 
 
-def assert_on_the_way(missed: list[float]) -> None:
-    """All but a few, which a loaded machine's uneven commands made less even than readings can show."""
-    assert sorted(missed)[int(0.95 * len(missed))] <= 0
-    assert max(missed) < 1.0
+def assert_on_the_way(bench: TrackingBench, rows: list[tuple[float, float, float]]) -> None:
+    """Each instant with its pan and tilt: where a loaded machine was uneven, it is only near the way."""
+    missed = [(bench.kept_up(at), bench.missed(at, pan, tilt)) for at, pan, tilt in rows]
+    assert max((each for even, each in missed if even), default=0.0) <= 0
+    assert max(each for _, each in missed) < 3.0
 
 
 def test_freed_messages_have_the_true_attitude_of_their_instant_at_a_rate_without_drift(tmp_path):
@@ -38,8 +39,7 @@ def test_freed_messages_have_the_true_attitude_of_their_instant_at_a_rate_withou
         begin = min(at - number / RATE for (at, _), number in zip(rows, numbers, strict=True))
         messages = [decode(data).message for _, data in rows]
         instants = [begin + number / RATE - LATENCY for number in numbers]
-        missed = [bench.missed(at, each.pan, each.tilt) for at, each in zip(instants, messages, strict=True)]
-        assert_on_the_way(missed)
+        assert_on_the_way(bench, [(at, each.pan, each.tilt) for at, each in zip(instants, messages, strict=True)])
         for message in messages:
             assert (message.camera, message.x, message.y, message.z, message.zoom) == (7, 1.0, -2.0, 1.6, 99)
     assert max(after.pan - before.pan for before, after in pairwise(messages)) * RATE > 50
@@ -55,13 +55,13 @@ def test_opentrackio_samples_have_the_true_attitude_of_their_timestamp(tmp_path,
         packets = [parsed(data) for _, data in bench.receive(2.2)]
         wall = time.time() - time.monotonic()
         samples = [json.loads(each.data) if encoding == "json" else cbor2.loads(each.data) for each in packets]
-        missed = []
+        found = []
         for made in samples:
             stamp, (transform,) = made["timing"]["sampleTimestamp"], made["transforms"]
             instant = stamp["seconds"] + stamp["nanoseconds"] / 1e9 - wall
-            missed.append(bench.missed(instant, -transform["rotation"]["pan"], transform["rotation"]["tilt"]))
+            found.append((instant, -transform["rotation"]["pan"], transform["rotation"]["tilt"]))
             assert transform["translation"] == {"x": 1.0, "y": -2.0, "z": 1.6}
-        assert_on_the_way(missed)
+        assert_on_the_way(bench, found)
     assert 1 <= sum("static" in made for made in samples) <= 2
     assert all(after.sequence == before.sequence + 1 for before, after in pairwise(packets))
     assert len({made["sourceId"] for made in samples}) == 1

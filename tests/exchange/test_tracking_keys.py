@@ -28,7 +28,7 @@ def exchange(entry: str):
         ("type: freed, listen: 'a:1', as: target, rate: 30", "rate only goes with to"),
         ("type: freed, listen: 'a:1', as: target, lens: {zoom: 1}", "lens only goes with to"),
         ("type: opentrackio, listen: 'a:1', as: target, encoding: cbor", "encoding only goes with to"),
-        ("type: freed, listen: 'a:1'", "what is tracked there"),
+        ("type: freed, listen: 'a:1'", "write as: target or as: base"),
         ("type: freed, listen: 'a:1', as: base", "needs the point"),
         ("type: freed, listen: 'a:1', as: target, target: [1, 2, 3]", "does not go with as: target"),
         ("type: freed, listen: 'a:1', as: base, target: [1, 2, 3], position: [0, 0, 0]", "does not go with as: base"),

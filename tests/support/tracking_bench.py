@@ -27,8 +27,8 @@ from teleop.sim.gimbal.gimbal_axes import Angles
 
 RESOLUTION = 0.1  # deg, of a gimbal's angles on its wire
 ON_ITS_WAY = 0.06  # deg that the bench's axes move in the ms that a question is on its way
-ACCELERATION = 240.0  # deg/s2, of the bench's axes
-EVEN = 0.05  # s between two readings of a machine that keeps up
+AROUND = 0.15  # s
+EVEN, EVEN_TICKS = 0.05, 0.015  # s between two questions and two ticks of a machine that keeps up
 
 
 class TrackingBench:
@@ -78,16 +78,16 @@ class TrackingBench:
         return found
 
     def missed(self, instant: float, pan: float, tilt: float) -> float:
-        """By how many degrees an attitude is off the true one, beyond what a message can know.
-
-        A machine that does not keep up asks seldom: then the way between two readings bends by more.
-        """
+        """By how many degrees an attitude is off the true one, beyond what a message can know."""
         true = self.true_at(instant)
+        return max(abs(pan - true.yaw), abs(tilt - true.pitch)) - RESOLUTION - ON_ITS_WAY
+
+    def kept_up(self, instant: float) -> bool:
+        """Whether the machine did, around `instant`: questions and commands came evenly."""
         assert self._bench is not None
-        asked = [at for at, _ in self._bench.tap.of(gimbal.Angles) if abs(at - instant) < 0.3]
-        gap = max(after - before for before, after in pairwise([*asked, *self.times[-1:]]) if before < instant + EVEN)
-        bent = ACCELERATION * gap * gap / 8 if gap > EVEN else 0.0
-        return max(abs(pan - true.yaw), abs(tilt - true.pitch)) - RESOLUTION - ON_ITS_WAY - bent
+        asked = [at for at, _ in self._bench.tap.of(gimbal.Angles) if abs(at - instant) < AROUND]
+        ticks = [at for at in self.times if abs(at - instant) < AROUND]
+        return _even(asked, EVEN) and _even(ticks, EVEN_TICKS)
 
     def true_at(self, instant: float) -> Angles:
         """The gimbal's own attitude, from the ticks around `instant`."""
@@ -107,6 +107,10 @@ class TrackingBench:
         assert self._bench is not None
         self._bench.loop.interrupt("the test is over")
         self._thread.join(10)
+
+
+def _even(times: list[float], most: float) -> bool:
+    return len(times) > 2 and max(after - before for before, after in pairwise(times)) <= most
 
 
 @contextmanager

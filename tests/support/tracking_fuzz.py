@@ -7,6 +7,7 @@ import math
 import random
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from copy import deepcopy
 from pathlib import Path
 from typing import Any, cast
 
@@ -70,7 +71,7 @@ def _spoil(made: dict[str, Any], chance: random.Random) -> None:
         if key is None:
             return
         if not isinstance(part[key], dict | list) or chance.random() < 0.2:
-            part[key] = chance.choice(VALUES)
+            part[key] = deepcopy(chance.choice(VALUES))
             return
         part = part[key]
 

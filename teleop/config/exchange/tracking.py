@@ -41,7 +41,7 @@ class TrackingSection(Section):
     position: Place = Field(default_factory=lambda: [0.0, 0.0, 0.0])
     """Where the camera is, in m: X right, Y forward, Z up."""
     listen: Listen | None = None
-    """HOST:PORT where what is tracked arrives, instead of `to`."""
+    """HOST:PORT where a tracker's messages arrive, instead of `to`."""
     as_: Annotated[Literal["target", "base"] | None, Field(alias="as")] = None
     """What arrives is the target that the camera looks at, or the base that carries the gimbal."""
     target: Place | None = None
@@ -51,7 +51,7 @@ class TrackingSection(Section):
     offset: LookBesideSection = LookBesideSection()
     """How far beside its target the camera looks."""
     smoothing: Annotated[float, Field(ge=0.05, le=1)] = 0.2
-    """Over how much of the stream the motion of what is tracked is averaged, in s."""
+    """Over how much of a tracker's stream its motion is averaged, in s."""
     allow: list[Allowed] = Field(default_factory=list)
     """Addresses or networks whose messages may move the rig; those of this computer always may."""
 
@@ -81,7 +81,7 @@ def _wrong(entry: Mapping[str, Any], out: tuple[str, ...]) -> Iterator[tuple[str
         return
     kind = entry.get("as")
     if kind is None:
-        yield "as", ": what is tracked there? write as: target or as: base"
+        yield "as", ": write as: target or as: base, for the tracked point"
     if kind == "base" and entry.get("target") is None:
         yield "target", ": needs the point [x, y, z] that the camera looks at, in m"
     for key in ("target", "mount") if kind == "target" else ("position",) if kind == "base" else ():
