@@ -73,7 +73,11 @@ class TrackingBench:
         self.receiver.settimeout(30)
         found: list[tuple[float, bytes]] = []
         while not found or found[-1][0] - found[0][0] < seconds:
-            data = self.receiver.recv(65536)
+            try:
+                data = self.receiver.recv(65536)
+            except TimeoutError:
+                assert self._bench is not None
+                raise AssertionError("; ".join([*map(str, self._bench.loop.faults), *self.lines])) from None
             found.append((time.monotonic(), data))
         return found
 
