@@ -10,12 +10,15 @@ from fake_served import FakeServed
 
 from teleop.config.exchange.freed import FreeDSection
 from teleop.config.exchange.opentrackio import OpenTrackIOSection
+from teleop.core.axes import Axis
 from teleop.exchange import following, freed, opentrackio
 from teleop.exchange.freed.codec import D1, encode
 from teleop.exchange.freed.following import FreeDFollower
 from teleop.exchange.opentrackio.following import OpenTrackIOFollower
 from teleop.exchange.opentrackio.packets import JSON, packets
 from teleop.exchange.opentrackio.sample import Moment, Pose, Source, encoded, identity, sample
+from teleop.exchange.osc.commands import command
+from teleop.links.osc_packets import Message
 
 HOME = ("127.0.0.1", 5000)
 
@@ -203,3 +206,15 @@ def test_a_serial_line_gets_whole_messages():
         os.close(other)
     one = encode(D1(1, 1.0, 2.0, 0, 0, 0, 0))
     assert got[:58] == one * 2
+
+
+@pytest.mark.parametrize(
+    ("address", "arguments", "asks"),
+    [
+        ("/teleop/track", (), {"do": "track"}),
+        ("/teleop/track/2", ("unattended",), {"do": "track", "source": 2, "attended": False}),
+        ("/teleop/track/2", (0.0,), None),
+    ],
+)
+def test_a_button_of_osc_asks_for_it(address, arguments, asks):
+    assert command(Message(address, arguments), [Axis.PAN]) == asks
