@@ -41,7 +41,7 @@ STREAMS = (
     "  - {type: opentrackio, to: 'TO', rate: 100}\n"
     "  - {type: opentrackio, to: 'TO', rate: 100, source: 2, encoding: cbor}\n"
 )
-QUIET = "  - {type: osc}\n"
+QUIET = "  - {type: osc, listen: '127.0.0.1:0'}\n"
 TICKS = os.sysconf("SC_CLK_TCK")
 
 
