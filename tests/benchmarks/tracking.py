@@ -15,7 +15,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from itertools import pairwise
 from pathlib import Path
 
@@ -89,7 +89,10 @@ def run(entries: str) -> tuple[Watch, float, list[tuple[float, bytes]]]:
         bench = stack.enter_context(remote_bench(folder, SystemClock(), watch, gateway))
         thread = threading.Thread(target=bench.loop.run, daemon=True)
         thread.start()
-        time.sleep(3.0)
+        warm = time.monotonic() + 3.0
+        while time.monotonic() < warm:  # what arrives before is not counted
+            with suppress(TimeoutError):
+                receiver.recv(4096)
         watch.late.clear()
         watch.times.clear()
         before, began, rows = gateway_time(), time.monotonic(), []
