@@ -19,7 +19,7 @@ from teleop.config.documents.base_model import Finite, Section
 from teleop.config.documents.document import Document, DocumentError, Wrong, mapping, number
 from teleop.config.documents.yaml_loader import parse_document, read_document
 from teleop.config.enable_rules import enable_rules
-from teleop.config.exchange import ExchangeSection
+from teleop.config.exchange import ExchangeSection, exchange_rules
 from teleop.config.file_kinds import refuse_other_kind
 from teleop.config.inputs_section import InputSection, input_rules
 from teleop.config.operator_settings import PresetsSection, SticksSection
@@ -180,6 +180,7 @@ def _rules(data: Any) -> Iterator[Wrong]:
     yield from sink_rules(data)
     yield from input_rules(data)
     yield from enable_rules(data)
+    yield from exchange_rules(data)
 
 
 def _axis_rules(name: str, section: Any) -> Iterator[Wrong]:

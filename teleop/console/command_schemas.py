@@ -93,6 +93,14 @@ COMMANDS: Mapping[str, CommandSchema] = {
     "focus_mark_store": CommandSchema("Keep the focus as a mark", {"name": MARK}),
     "focus_mark_recall": CommandSchema("Move the focus to a mark", {"name": MARK}, {"seconds": SECONDS}),
     "focus_mark_delete": CommandSchema("Delete a mark of the focus", {"name": MARK}),
+    "track": CommandSchema(
+        "Follow a tracking source of the profile's exchange until it ends, STOP or abort",
+        {},
+        {
+            "source": {**WHOLE, "description": "its number among the entries that listen; 1 without"},
+            "attended": {"type": "boolean", "description": "false: goes on without this client"},
+        },
+    ),
     "range": CommandSchema("Choose the speed range of sticks", {"number": WHOLE}),
     "manual": CommandSchema("Turn manual control on or off, of inputs without an enable button", {"on": TRUTH}),
     "drone": CommandSchema("Have the drone do something, as `drone WORD` in a file", {"command": TEXT}),

@@ -255,9 +255,10 @@ class ControlLoop:
             self.supervisor.handle(RunEvent.RELEASED)
 
     def _report(self, now: float) -> None:
-        """Where the axes are, asked while the tick of `now` is prepared."""
+        """Where the axes are, asked while the tick of `now` is prepared; a tick that is late asks late."""
         for reporter in self._reporters:
-            self._reported = {**self._reported, **self._calls.guarded(reporter.report, now - LEAD, default={})}
+            asked = max(now - LEAD, self._clock.now())
+            self._reported = {**self._reported, **self._calls.guarded(reporter.report, asked, default={})}
 
     def _emit(self, now: float, demand: Demand, actions: Sequence[TickEvent]) -> None:
         self._report(now)

@@ -50,6 +50,7 @@ def _ages(value: Any) -> dict[str, float]:
 PRESET = whole(0, 999)
 NUMBER = whole(1, 999)
 MARK = text(1, "[ABC]")
+SOURCE = whole(1, 16)
 SECONDS = number(0.0, LONGEST)
 SHAPES: Mapping[str, Shape] = {
     "take_control": Shape(optional={"ask": truth}),
@@ -111,13 +112,16 @@ SHAPES: Mapping[str, Shape] = {
     "shoot": Shape({"move": text(120, FILE_NAME)}, {"resume": truth, "restart": truth}),
     "commission": Shape({"device": text(8)}),
     "commission_key": Shape({"page": whole(1, MOST_ID), "key": text(12)}, {"text": text(40), "agrees": truth}),
+    "track": Shape(optional={"source": SOURCE, "attended": truth}),
     "message": Shape({"name": text(60, r"[a-z][a-z0-9 _-]*")}, {"fields": plain_fields}),
     "alive": Shape(optional={"seen": _ages}),
     "closed": Shape(),
+    "aim": Shape({"source": SOURCE, "axes": axes(-FAR, FAR)}),
 }
-"""Every command by its name. `alive` and `closed` are for the gateway itself: who is there, and who has left."""
+"""Every command by its name. `alive`, `closed` and `aim` are for the gateway itself: who is there, who has left, and
+where the camera would look at what a tracker reports."""
 
-INTERNAL = ("alive", "closed")
+INTERNAL = ("alive", "closed", "aim")
 _ENVELOPE: Mapping[str, Check] = {
     "do": text(24),
     "id": whole(0, MOST_ID),

@@ -12,6 +12,7 @@ SERVERS: Mapping[str, str] = {
     "foxglove": "teleop.exchange.foxglove",
     "freed": "teleop.exchange.freed",
     "midi": "teleop.exchange.midi",
+    "opentrackio": "teleop.exchange.opentrackio",
     "osc": "teleop.exchange.osc",
     "timecode": "teleop.exchange.timecode",
 }

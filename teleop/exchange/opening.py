@@ -39,7 +39,7 @@ def opened(profile: Profile) -> Iterator[Exchange]:
         listeners = [_listener(stack, number, entry) for number, entry in enumerate(profile.exchange)]
         descriptors = [None if each is None else each.fileno() for each in listeners]
         told = {
-            "entries": ENTRIES.dump_python(profile.exchange, mode="json"),
+            "entries": ENTRIES.dump_python(profile.exchange, mode="json", by_alias=True),
             "listeners": descriptors,
             "rig": {
                 "name": profile.name,
@@ -69,7 +69,7 @@ def _bound(place: Address, kind: socket.SocketKind) -> socket.socket:
     family, _, protocol, _, where = socket.getaddrinfo(*place, type=kind, flags=socket.AI_PASSIVE)[0]
     listener = socket.socket(family, kind, protocol)
     try:
-        if kind is socket.SOCK_STREAM:
+        if kind is socket.SOCK_STREAM or place.is_group:
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind(where)
         if kind is socket.SOCK_STREAM:

@@ -22,10 +22,11 @@ class Rig:
 class Served:
     """`listener` is bound to the entry's `listen` already, non-blocking; None for an entry without one.
 
-    `notify` passes a line on to the operator.
+    `notify` passes a line on to the operator. `tracker` is the number, from 1, of an entry that tracks.
     """
 
     door: DoorClient
     rig: Rig
     listener: socket.socket | None
     notify: Callable[[str], None]
+    tracker: int = 0

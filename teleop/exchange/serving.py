@@ -10,7 +10,7 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
-from teleop.config.exchange import ENTRIES, ExchangeSection
+from teleop.config.exchange import ENTRIES, ExchangeSection, tracks
 from teleop.core.axes import Axis, Limits
 from teleop.core.errors import TeleopError
 from teleop.exchange import SERVERS
@@ -25,9 +25,11 @@ async def serve(settings: Mapping[str, Any], door: DoorClient) -> None:
     limits = {Axis(name): Limits(*values) for name, values in settings["rig"]["limits"].items()}
     rig = Rig(settings["rig"]["name"], limits)
     entries = ENTRIES.validate_python(settings["entries"])
+    tracker = 0
     async with asyncio.TaskGroup() as tasks:
         for entry, number in zip(entries, settings["listeners"], strict=True):
-            tasks.create_task(_kept(entry, Served(door, rig, _listener(number), _notify)))
+            tracker += tracks(entry)
+            tasks.create_task(_kept(entry, Served(door, rig, _listener(number), _notify, tracker)))
 
 
 def _listener(number: int | None) -> socket.socket | None:

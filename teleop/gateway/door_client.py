@@ -46,7 +46,7 @@ class DoorClient:
         self._unpacker = StateUnpacker()
         self._number, self._decoded = 0, {}
         self._outbox: deque[bytes] = deque()
-        self._sticks: dict[str, bytes] = {}  # the newest of each session that could not leave yet
+        self._sticks: dict[str, bytes] = {}  # the newest of each stream that could not leave yet
         self._writing = False
         self._seen: dict[str, float] = {}
         self._tasks: set[asyncio.Task[None]] = set()
@@ -78,6 +78,10 @@ class DoorClient:
         self._ring.close()
 
     # --- state
+
+    def newest(self) -> Mapping[str, Any]:
+        """The newest state as the rig wrote it, its ages as of its `time`; {} before there is one. Never waits."""
+        return self._newest()
 
     def state(self) -> dict[str, Any]:
         """The newest state, with every age as of now. Never waits. {} before there is one."""
@@ -183,13 +187,20 @@ class DoorClient:
     def stick(self, message: Mapping[str, Any], session: str) -> None:
         """Pass a stick's message on; there is no answer. Raises CommandError for a malformed one."""
         self.seen(session)
-        whole = {"time": monotonic() * 1000, **message, "do": "stick", "id": 0, "session": session}
-        checked(whole)
-        data = packed(whole)
+        self._send_newest(session, {"time": monotonic() * 1000, **message, "do": "stick", "id": 0, "session": session})
+
+    def aim(self, source: int, axes: Mapping[str, float], time: float) -> None:
+        """Where the camera would look at what tracking source `source` reported at `time` (s, monotonic clock)."""
+        message = {"do": "aim", "id": 0, "session": "gateway", "time": time * 1000, "source": source, "axes": axes}
+        self._send_newest(f"aim {source}", message)
+
+    def _send_newest(self, stream: str, message: Mapping[str, Any]) -> None:
+        checked(message)
+        data = packed(message)
         if self._outbox or self._sticks:
-            self._sticks[session] = data
+            self._sticks[stream] = data
         elif not self._sent(data):
-            self._sticks[session] = data
+            self._sticks[stream] = data
             self._watch()
 
     async def finished(self, number: int) -> dict[str, Any]:

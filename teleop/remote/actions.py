@@ -30,6 +30,7 @@ from teleop.remote.play_job import NotNowError, PlayJob
 from teleop.remote.shoot_actions import ShootActions
 from teleop.remote.shoot_job import ShootJob
 from teleop.remote.told import Told
+from teleop.remote.track_job import TrackJob
 from teleop.remote.works import Work, Works
 
 CLOCK = 2.0  # s by which the clock of a chase may have been read before
@@ -86,6 +87,7 @@ class LiveActions:
             "stop_recording": self._with_no_shoot(partial(self.devices.camera, action=Action.STOP)),
             "shutter": self._with_no_shoot(partial(self.devices.camera, action=Action.SHUTTER)),
             "commission": self._commission,
+            "track": self._with_no_shoot(self._track),
             "follow": self._with_no_shoot(self.devices.follow),
             "message": self._with_no_shoot(self.devices.message),
             **KeyActions(keys, lambda: self._motion).do,
@@ -120,6 +122,9 @@ class LiveActions:
         self.shoots.look()
         self._due.look(now)
         job = self._jobs.job
+        if isinstance(job, TrackJob) and job.attended and sessions(job.owner):
+            self._jobs.end("its console is gone")
+            self.operator.notify("tracking ends: its console is gone")
         if isinstance(job, PlayJob) and job.attended and not job.left and not job.paused and sessions(job.owner):
             job.left = True
             job.pause(now, "its console is gone")
@@ -232,6 +237,21 @@ class LiveActions:
     def _recenter(self, asked: Asked, now: float) -> None:  # noqa: ARG002
         targets = {axis: 0.0 for axis in CENTERED if axis in self._limits}
         self._go("recenter", asked, targets, asked.get("seconds", self._profile.presets.recall))
+
+    def _track(self, asked: Asked, now: float) -> None:
+        self._may_begin()
+        source = asked.get("source", 1)
+        stream = self.desk.aims.get(source)
+        if stream is None or not stream.fresh(now):
+            raise Refusal(f"nothing arrives from tracking source {source}")
+        missing = [axis.value for axis in stream.axes if axis not in self._limits]
+        if missing:
+            raise Refusal(f"track: this run has no {' and '.join(missing)}")
+        attended = asked.get("attended", True)
+        asked.accept()
+        self._jobs.begin(
+            TrackJob(source, asked.command.session, stream, self._limits, attended, self.operator.notify, asked.end)
+        )
 
     # --- moves
 

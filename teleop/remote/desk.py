@@ -16,6 +16,7 @@ from teleop.core.events import DeviceCommand
 from teleop.core.operator_input import Command, Held, Press
 from teleop.door.messages import INTERNAL, CommandError, DoorCommand, checked, packed, unpacked
 from teleop.door.sockets import CommandSocket, Datagram
+from teleop.remote.aims import Aims
 from teleop.remote.asked import Actions, Asked, Counts, Refusal
 from teleop.remote.control import Control, Denied
 from teleop.remote.stick import RemoteStick
@@ -44,6 +45,7 @@ class Desk:
         self._socket, self.stick, self.actions, self._gone = socket, stick, actions, gone
         self.control = Control(notify)
         self.counts = Counts()
+        self.aims = Aims()
         self.tick, self.polled_at = 0, -math.inf
         self.gateway_at = -math.inf  # when the gateway was heard last
         self._answers: OrderedDict[tuple[str, int], bytes] = OrderedDict()
@@ -155,6 +157,9 @@ class Desk:
     def _internal(self, command: DoorCommand, now: float) -> None:
         if command.do == "closed":
             self._close(command.session, now)
+            return
+        if command.do == "aim":
+            self.aims.take(command.fields["source"], command.time / 1000, command.fields["axes"], now)
             return
         self.gateway_at = now
         for session, age in command.fields.get("seen", {}).items():

@@ -26,7 +26,7 @@ HUNG = 5.0  # s without a word, after which it is ended
 STARTING = 20.0  # s for its first word
 LOOK = 0.1  # s between two looks
 LEAVING = 0.5  # s that it has to end by itself
-LINES = 20  # of its errors that are passed on, at most
+LINES = 20  # of what it has to say that are passed on within that time, at most
 
 
 class Gateway(NamedTuple):
@@ -60,7 +60,7 @@ class GatewayChild:
         self._notify, self._ended = notify, ended
         self._over = threading.Event()
         self._starts: deque[float] = deque()  # of the last minute
-        self._lines = 0
+        self._lines: deque[float] = deque()  # when those of the last minute were passed on
         self.process: subprocess.Popen[bytes] | None = None
         self._thread = threading.Thread(target=self._run, name="gateway", daemon=True)
 
@@ -137,9 +137,12 @@ class GatewayChild:
         text = os.read(process.stderr.fileno(), 65536).decode(errors="replace")
         if not text:
             self._over.wait(wait)  # closed, while it still runs
+        now = monotonic()
+        while self._lines and now - self._lines[0] > WITHIN:
+            self._lines.popleft()
         for line in text.splitlines():
-            if line.strip() and self._lines < LINES:
-                self._lines += 1
+            if line.strip() and len(self._lines) < LINES:
+                self._lines.append(now)
                 self._notify(f"gateway: {line.strip()[:200]}")
 
     def _end(self) -> None:

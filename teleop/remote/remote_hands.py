@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from teleop.app.run import RunReport
+from teleop.config.exchange import tracks
 from teleop.config.operator_settings import EXPO
 from teleop.config.presets import Presets
 from teleop.config.profile import Profile
@@ -24,6 +25,7 @@ from teleop.devices.shutter import ShutterSink
 from teleop.inputs.stick_shaping import shape
 from teleop.manual.operator import Operator
 from teleop.remote.actions import LiveActions
+from teleop.remote.aims import Aims
 from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway
 from teleop.remote.jobs import JobSource
@@ -71,6 +73,7 @@ class RemoteHands:
         stack.callback(self._actions.shoots.close)
         stack.callback(self._works.close)
         self.desk = Desk(self.door.socket, stick, self._notify, self._actions)
+        self.desk.aims = Aims([each.smoothing for each in profile.exchange if tracks(each)])
         self._actions.commissions = self._commissions
         for actions in (self._actions, self._actions.devices, self._actions.by_operator):
             actions.desk = self.desk

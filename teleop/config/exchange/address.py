@@ -21,6 +21,14 @@ class Address(NamedTuple):
         """Whether only this computer can reach it."""
         return self.host == "localhost" or _is_loopback(self.host)
 
+    @property
+    def is_group(self) -> bool:
+        """Whether it is a multicast group."""
+        try:
+            return ipaddress.ip_address(self.host).is_multicast
+        except ValueError:
+            return False
+
 
 def address(text: str) -> Address:
     """The address that `HOST:PORT` is, an IPv6 host in brackets. Raises ValueError."""

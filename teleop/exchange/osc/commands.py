@@ -102,8 +102,17 @@ def _speed(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> Co
     return {"do": "speed", "share": numbers[0]}
 
 
+def _track(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> Command:  # noqa: ARG001
+    """`/teleop/track`, or `/teleop/track/N`, with the text `unattended` where it goes on in silence."""
+    if len(parts) > 1 or (parts and not (parts[0].isascii() and parts[0].isdigit() and len(parts[0]) < 3)):
+        raise Invalid("track: needs the number of a tracking source, as in /teleop/track/1")
+    source = {"source": int(parts[0])} if parts else {}
+    return {"do": "track", **source, **({"attended": False} if UNATTENDED in arguments else {})}
+
+
 MAKERS: Mapping[str, Callable[[list[str], Arguments, Collection[Axis]], Command]] = {
     "goto": _goto,
+    "track": _track,
     "jog": _jog,
     "preset": _preset,
     "play": _play,
