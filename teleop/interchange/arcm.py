@@ -90,7 +90,7 @@ def read(raw: bytes, name: str, hints: Hints) -> Motion:
     end = max(element.points[-1][0] for element in chosen.values())
     if end - begin >= MOST_FRAMES:
         raise DocumentError([f"{name}: is too long: at most {MOST_FRAMES} frames"])
-    frames = begin + np.arange(math.floor(end - begin + 1e-9) + 1)
+    frames = begin + np.arange(math.floor(end - begin + 1e-9) + 1, dtype=np.float64)
     if frames[-1] < end - 1e-9:
         frames = np.append(frames, end)
     positions = {axis: curve(element.points, element.handles, frames) for axis, element in chosen.items()}

@@ -123,7 +123,7 @@ def number_rows(rows: Any, width: int, name: str, what: str) -> np.ndarray:
         found = np.array(rows, dtype=float)
     except (TypeError, ValueError, OverflowError):
         found = np.empty(0)
-    if found.ndim != 2 or found.shape[1] != width or not 0 < len(found) <= MOST_FRAMES:
+    if found.shape[1:] != (width,) or not 0 < len(found) <= MOST_FRAMES:
         raise DocumentError([f"{name}: {what} must be 1 to {MOST_FRAMES} rows of {width} numbers"])
     if not (np.abs(found) < 1e9).all() or (np.diff(found[:, 0]) <= 0).any():
         raise DocumentError([f"{name}: {what} must be numbers, each row later than the one before"])

@@ -14,7 +14,7 @@ from teleop.config.frame_rates import shown_rate
 from teleop.core.axes import Axis
 from teleop.planner.polynomial import Array
 
-CAMERA = (Axis.PAN, Axis.TILT, Axis.ROLL)
+CAMERA: tuple[Axis, ...] = (Axis.PAN, Axis.TILT, Axis.ROLL)
 """What turns a camera; a format of cameras has these three in every row."""
 MOST_FRAMES = 20_000  # of an import, as of a table in a sequence: 14 minutes at 24 fps
 MOST_DEGREES = 36_000.0  # a hundred turns: more is no camera's path

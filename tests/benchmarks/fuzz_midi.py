@@ -11,9 +11,9 @@ import sys
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "exchange" / "midi"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
-from test_surface import LIMITS, OWN, section, state
+from midi_bench import LIMITS, OWN, section, state
 
 from teleop.exchange.midi.feedback import Feedback
 from teleop.exchange.midi.messages import read

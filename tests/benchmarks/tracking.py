@@ -135,6 +135,7 @@ def main() -> None:
         (packet,) = make()
         read = cost(lambda: received(parsed(packet).data, encoding))  # noqa: B023
         print(f"OpenTrackIO {name}: {cost(make):.0f} us to make, {read:.0f} us to read, {len(packet)} bytes")
+    rows: list[tuple[float, bytes]] = []
     for _ in range(2):
         without, share_without, _rows = run(QUIET)
         shown("no stream", without, share_without)

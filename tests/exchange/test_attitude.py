@@ -71,7 +71,8 @@ def test_a_focus_is_waited_for_and_then_done_without(clock):
     fake = FakeServed(FOCUS)
     feed = AttitudeFeed(fake.served, "freed", 0.0)
     fake.door.measure(pan=10.0, tilt=-5.0)
-    assert feed.at(clock.now + 0.01) is None
+    found = feed.at(clock.now + 0.01)
+    assert found is None
     for _ in range(4):
         clock.now += LENS / 4
         fake.door.measure(time.monotonic() - clock.now, pan=10.0, tilt=-5.0)

@@ -14,7 +14,7 @@ ZEROS = bytes.fromhex("d1" + 27 * "00" + "6f")
 
 
 def test_a_message_of_zeros_ends_with_the_sum_of_the_document():
-    assert encode(D1(0, *6 * [0.0])) == ZEROS
+    assert encode(D1(0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)) == ZEROS
 
 
 def test_each_field_has_its_place_and_unit():

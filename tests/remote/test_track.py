@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from itertools import pairwise
+from typing import Any
 
 import pytest
 from remote_bench import ANNA, BOB, RemoteBench, remote_bench
@@ -40,7 +41,7 @@ class Tracker:
         message = {"do": "aim", "id": 0, "session": "gateway", "source": source, "time": now * 1000}
         self.bench.send(packed({**message, "axes": {"pan": math.remainder(pan, 360), "tilt": tilt}}))
 
-    def track(self, **fields: object) -> dict:
+    def track(self, **fields: Any) -> dict:
         assert "ok" in self.bench.ask("take_control")
         self.run(0.3)
         answer = self.bench.ask("track", **fields)

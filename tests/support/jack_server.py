@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import shutil
 import subprocess
@@ -43,7 +44,7 @@ class JackController:
     """A controller: ports of this name, through which it sends, and keeps what it is sent."""
 
     def __init__(self, name: str) -> None:
-        import rtmidi
+        rtmidi: Any = importlib.import_module("rtmidi")
 
         self._out, self._in = rtmidi.MidiOut(rtmidi.API_UNIX_JACK, name), rtmidi.MidiIn(rtmidi.API_UNIX_JACK, name)
         self._lock, self._got = threading.Lock(), []

@@ -36,7 +36,8 @@ SOURCE = Source(1, identity("a", "b", 1), 50.0, "rig", "1")
 def freed_message(chance: random.Random) -> bytes:
     if chance.random() < 0.2:
         return chance.randbytes(chance.choice([0, 1, 28, 29, 29, 30, 58]))
-    data = bytearray(encode(D1(chance.choice([1, 1, 2]), *(chance.uniform(-400, 400) for _ in range(6)))))
+    pan, tilt, roll, x, y, z = (chance.uniform(-400, 400) for _ in range(6))
+    data = bytearray(encode(D1(chance.choice([1, 1, 2]), pan, tilt, roll, x, y, z)))
     for _ in range(chance.choice([0, 0, 1, 3])):
         data[chance.randrange(29)] = chance.randrange(256)
     if chance.random() < 0.7:
@@ -126,7 +127,7 @@ def fuzzed(folder: Path, amount: int, seed: int = 1, tracks: bool = False) -> in
                 opentrackio_packet,
             ),
         ]
-        speed = dict.fromkeys((Axis.PAN, Axis.TILT), 0.0)
+        speed: dict[Axis, float] = {Axis.PAN: 0.0, Axis.TILT: 0.0}
         for number in range(amount):
             follower, make = both[number % 2]
             follower.datagram_received(make(chance), (chance.choice(PEERS), 5000))
