@@ -123,6 +123,7 @@ class Fleet:
             entry = self._rigs.setdefault(rig, RigState(rig))
             if alive or entry.link in (link, None):
                 entry.token = alive
+                entry.gone = entry.gone if alive else monotonic()
             if alive:
                 entry.link = entry.link or link
 

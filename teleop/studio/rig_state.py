@@ -29,6 +29,7 @@ class RigState:
     state: Mapping[str, Any] = field(default_factory=dict)
     arrived: float = -1e9
     token: bool = False
+    gone: float = -1e9  # when its token went last: an older state tells nothing any more
     seen: float = 0.0
     link: Link | None = None
     offset: Offset | None = None
@@ -36,7 +37,8 @@ class RigState:
     @property
     def alive(self) -> bool:
         """Whether it was heard just now."""
-        return self.token and not self.ended and monotonic() - self.arrived < LOST
+        fresh = self.arrived > self.gone and monotonic() - self.arrived < LOST
+        return self.token and not self.ended and fresh
 
     @property
     def ended(self) -> bool:
