@@ -26,6 +26,7 @@ if TYPE_CHECKING:
         TeleopError,
         UnplayableError,
         UsageError,
+        fleet,
         open,  # noqa: A004 - `teleop.open` reads well
         plan,
         read_take,
@@ -50,6 +51,7 @@ __all__ = [
     "TeleopError",
     "UnplayableError",
     "UsageError",
+    "fleet",
     "open",
     "plan",
     "read_take",

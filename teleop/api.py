@@ -16,10 +16,10 @@ thread at a time moves a rig. Nothing is printed, and no terminal or signal hand
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self, cast
+from typing import TYPE_CHECKING, Any, Self, cast
 
 from teleop.app.clocks import real_links
 from teleop.app.move import Move, Samples
@@ -35,6 +35,9 @@ from teleop.core.events import Action
 from teleop.core.response import Response
 from teleop.planner.shortest import shortest_seconds
 from teleop.recording.reader import Take
+
+if TYPE_CHECKING:
+    from teleop.studio.api import Rigs
 
 __all__ = [
     "AxisReport",
@@ -53,6 +56,7 @@ __all__ = [
     "TeleopError",
     "UnplayableError",
     "UsageError",
+    "fleet",
     "open",
     "plan",
     "read_take",
@@ -77,6 +81,17 @@ def read_take(file: str | Path) -> Take:
     from teleop.recording.reader import read_take as read
 
     return read(Path(file))
+
+
+def fleet(connect: Sequence[str], *, credentials: str | Path | None = None, name: str = "") -> Rigs:
+    """Several rigs, at the endpoints in `connect` (rigs and routers), to be used in a `with` block.
+
+    `credentials` is the operator's file from `teleop fleet keys`; rigs on this computer need none. `name` is what the
+    holder of control is called. Raises UsageError without the packages: `pip install 'rs-teleop[fleet]'`.
+    """
+    from teleop.studio.api import Rigs
+
+    return Rigs(connect, credentials, name)
 
 
 def open(  # noqa: A001 - `teleop.open` reads well, and nothing here opens files

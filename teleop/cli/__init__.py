@@ -39,6 +39,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "copy": ("teleop.cli.shipped_files:copy", "Copy a shipped move, rig or pad to a file of yours."),
     "export": ("teleop.cli.export:export", "Write a move or a take for another program."),
     "import": ("teleop.cli.import_:import_", "Make a sequence of another program's file."),
+    "fleet": ("teleop.cli.fleet.commands:app", "Watch and command several rigs."),
     "take": ("teleop.cli.take.commands:app", "List, report, export and repair recorded runs."),
     "commission": ("teleop.cli.commission:commission", "Find out what a gimbal does, and write its profile."),
     "calibrate": ("teleop.cli.calibration.delay:app", "Measure how the axes of a gimbal answer, or its signs."),
@@ -59,6 +60,7 @@ _GROUPS = (
     "teleop.cli.take.commands:app",
     "teleop.cli.calibration.delay:app",
     "teleop.cli.record_device:app",
+    "teleop.cli.fleet.commands:app",
     "teleop.cli.codec.decode:app",
     "teleop.cli.codec.encode:app",
 )

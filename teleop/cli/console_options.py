@@ -107,7 +107,10 @@ class ReachedOptions:
         folder = self.served or results
         tokens = self.token or "", self.watch_token or ""
         rig = planned_for(profile)
-        asked = ConsoleSettings(host, port, *tokens, moves=folder, takes=folder, results=results, rig=rig)
+        zenoh = next((entry.model_dump(mode="json") for entry in profile.exchange if entry.type == "zenoh"), None)
+        asked = ConsoleSettings(
+            *(host, port, *tokens), moves=folder, takes=folder, results=results, rig=rig, fleet=zenoh
+        )
         if self.tls or self.certificate or self.key:
             from teleop.console.certificate import with_tls
 

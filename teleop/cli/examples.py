@@ -24,6 +24,21 @@ EXAMPLES: Mapping[str, Sequence[str]] = {
         "teleop console --rig rs2 --bind 0.0.0.0:8470 --moves shots/",
         "teleop console --bind 127.0.0.1:0 --json",
     ],
+    "fleet": [
+        "teleop fleet",
+        "teleop fleet --json --once --connect tcp/127.0.0.1:7447",
+        "teleop fleet --connect tls/192.168.1.20:7447 --credentials keys/operator.yaml",
+    ],
+    "fleet stop": ["teleop fleet stop", "teleop fleet stop cam-a cam-b", "teleop fleet stop --all"],
+    "fleet play": [
+        "teleop fleet play cam-a=wide.yaml cam-b=close.yaml --at now+5s",
+        "teleop fleet play cam-a=wide.yaml --at 18:30:00 --attended",
+    ],
+    "fleet sticks": ["teleop fleet sticks cam-a"],
+    "fleet keys": [
+        "teleop fleet keys keys/ --rig cam-a --rig cam-b --operator anna",
+        "teleop fleet keys keys/ --watcher monitor --router studio",
+    ],
     "check": ["teleop check reveal", "teleop check ./mine.yaml --rig rs2"],
     "preview": [
         "teleop preview reveal -o move.html",

@@ -18,6 +18,7 @@ from starlette.websockets import WebSocket
 from teleop.console.answers import answer, fault, http_error, refused
 from teleop.console.commands import CommandRoutes
 from teleop.console.door import Door
+from teleop.console.fleet import FleetRoutes
 from teleop.console.gate import Gate, client_address
 from teleop.console.json_body import Refusal, read_object
 from teleop.console.login import Logins
@@ -50,6 +51,7 @@ class Console:
         self._moves = MoveRoutes(Path(settings.moves), settings.rig, self._workers[0])
         self._logins = Logins(settings)
         self._sessions = HttpSessions(door)
+        self._fleet = FleetRoutes(settings.fleet_section)
         self._clients = 0
         self._routes = self._all_routes()
         starlette = Starlette(
@@ -68,6 +70,8 @@ class Console:
             Route("/api/state", commands.state, methods=["GET"]),
             Route("/api/command", commands.command, methods=["POST"]),
             Route("/api/stop", commands.stop, methods=["POST"]),
+            Route("/api/fleet", self._fleet.rigs, methods=["GET"]),
+            Route("/api/fleet/stop", self._fleet.stop, methods=["POST"]),
             Route("/api/login", self._login, methods=["POST"]),
             Route("/api/moves", self._moves.list, methods=["GET"]),
             Route("/api/moves/{name}", self._moves.read, methods=["GET"]),
@@ -89,7 +93,8 @@ class Console:
         await self._moves.warm()
 
     async def close(self) -> None:
-        """End the workers."""
+        """End the workers, and leave the fleet."""
+        await self._fleet.close()
         for worker in self._workers:
             await worker.close()
 

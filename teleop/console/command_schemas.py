@@ -44,6 +44,8 @@ PLAYED = {
     "speed": {"type": "number", "description": "share of the written speed"},
     "preroll": SECONDS,
     "chase": {"type": "boolean", "description": "true: wait for the clock of `chase`, and follow it"},
+    "held": {"type": "boolean", "description": "only planned, and kept until `start`"},
+    "sent": {"type": "integer", "minimum": 1, "description": "of a move that came by Zenoh"},
 }
 SHOT = {
     "resume": {"type": "boolean", "description": "true: go on with the shoot that its journal knows"},
@@ -74,6 +76,7 @@ COMMANDS: Mapping[str, CommandSchema] = {
         {"at": {"type": "number", "description": "s of the move"}},
         {"rate": {"type": "number", "minimum": 0.9, "maximum": 1.1}, "free": TRUTH},
     ),
+    "start": CommandSchema("Begin the held move", {"at": {"type": "number", "description": "s, `time` of the state"}}),
     "pause": CommandSchema("Pause the move"),
     "resume": CommandSchema("Go on with the move"),
     "speed": CommandSchema("Change the speed of the move", {"share": NUMBER}),

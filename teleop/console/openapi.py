@@ -104,6 +104,10 @@ def _paths() -> dict[str, Any]:
         "/api/state": {"get": _operation("state", "The newest state", {"$ref": "#/components/schemas/State"})},
         "/api/command": {"post": _operation("command", "Give a command", body=command)},
         "/api/stop": {"post": _operation("stop", "STOP, for every role; sent until the state shows it")},
+        "/api/fleet": {"get": _operation("fleet", "The rigs of this rig's fleet")},
+        "/api/fleet/stop": {
+            "post": _operation("fleet_stop", "STOP for all rigs, for every role; names those not reached")
+        },
         "/api/login": {"post": {**_operation("login", "A token for a cookie", body=LOGIN_BODY), "security": [{}]}},
         "/api/moves": {"get": _operation("moves", "The moves that there are")},
         "/api/moves/{name}": {

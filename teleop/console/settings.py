@@ -12,9 +12,11 @@ import json
 import pickle
 import secrets
 import socket
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
+from teleop.config.exchange.zenoh import ZenohSection
 from teleop.console import DEFAULT_BIND
 from teleop.core.errors import DeviceError, UsageError
 
@@ -36,7 +38,7 @@ class ConsoleSettings:
     the only folders that are served, and of `results` the three files of a commissioning. `certificate` and `key` are
     files (PEM) for TLS, "" without. `rig` is what plans are made for: a shipped profile's name, a file, or the profile
     itself as `planned_for` writes it, which is what a run gives: its limits are then those that the rig keeps, whatever
-    has become of the file since.
+    has become of the file since. `fleet` is the rig's zenoh entry, None for a rig that is alone.
     """
 
     host: str = "127.0.0.1"
@@ -49,6 +51,7 @@ class ConsoleSettings:
     rig: str = "sim"
     certificate: str = ""
     key: str = ""
+    fleet: Mapping[str, Any] | None = None
 
     @property
     def is_open(self) -> bool:
@@ -58,6 +61,10 @@ class ConsoleSettings:
     @property
     def has_tls(self) -> bool:
         return bool(self.certificate)
+
+    @property
+    def fleet_section(self) -> ZenohSection | None:
+        return None if self.fleet is None else ZenohSection.model_validate(self.fleet)
 
     def as_json(self) -> str:
         return json.dumps(asdict(self))

@@ -33,6 +33,10 @@ class DoorAddress(NamedTuple):
         """A socket for the answers to a client, which is the process with this number."""
         return str(self.folder / f"c{number}")
 
+    def sent(self, number: int) -> Path:
+        """A folder for one move that a client has sent as text."""
+        return self.folder / "sent" / str(number)
+
 
 @contextmanager
 def new_door() -> Iterator[DoorAddress]:

@@ -6,6 +6,7 @@ unknown, malformed or too large is a `CommandError`, which has the reason and wh
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -22,6 +23,7 @@ MOST_SEEN = 24  # sessions in one word about who is there
 MOST_ID = 2**53  # what JavaScript counts up to
 SESSION, NAME = text(40, r"[\w.:-]+"), text(40)
 FILE_NAME = r"[\w][\w. -]*"  # of a move: no separator, and nothing that begins with a point
+MOVE_NAME = re.compile(rf"(?=.{{1,120}}$){FILE_NAME}")
 
 
 class CommandError(ValueError):
@@ -85,9 +87,12 @@ SHAPES: Mapping[str, Shape] = {
             "speed": number(0.01, 2.0),
             "preroll": number(0.0, 600.0),
             "chase": truth,
+            "sent": whole(1, MOST_ID),
+            "held": truth,
         },
     ),
     "chase": Shape({"at": number(-FAR, FAR)}, {"rate": number(0.9, 1.1), "free": truth}),
+    "start": Shape({"at": number(0.0, 1e12)}),
     "pause": Shape(),
     "resume": Shape(),
     "speed": Shape({"share": number(0.01, 2.0)}),
@@ -118,8 +123,9 @@ SHAPES: Mapping[str, Shape] = {
     "closed": Shape(),
     "aim": Shape({"source": SOURCE, "axes": axes(-FAR, FAR)}),
 }
-"""Every command by its name. `alive`, `closed` and `aim` are for the gateway itself: who is there, who has left, and
-where the camera would look at what a tracker reports."""
+"""Every command by its name. `sent` of a play is the number of a move that came as text; `held` has it planned and
+kept until `start` names a moment of the rig's own clock. `alive`, `closed` and `aim` are for the gateway itself: who is
+there, who has left, and where the camera would look at what a tracker reports."""
 
 INTERNAL = ("alive", "closed", "aim")
 _ENVELOPE: Mapping[str, Check] = {

@@ -15,5 +15,6 @@ SERVERS: Mapping[str, str] = {
     "opentrackio": "teleop.exchange.opentrackio",
     "osc": "teleop.exchange.osc",
     "timecode": "teleop.exchange.timecode",
+    "zenoh": "teleop.exchange.zenoh",
 }
 """The module that serves each type."""

@@ -39,7 +39,7 @@ class DoorClient:
     """A client of the door at `address`; enter it in the event loop. Raises TeleopError where there is no door."""
 
     def __init__(self, address: DoorAddress) -> None:
-        self._address = address
+        self.address = address
         self._ids = itertools.count(1)
         self._answers: dict[int, asyncio.Future[dict[str, Any]]] = {}
         self._ends: OrderedDict[int, asyncio.Future[dict[str, Any]]] = OrderedDict()
@@ -53,14 +53,14 @@ class DoorClient:
 
     async def __aenter__(self) -> Self:
         self._loop = asyncio.get_running_loop()
-        own = self._address.client(os.getpid())
+        own = self.address.client(os.getpid())
         with suppress(FileNotFoundError):
             os.unlink(own)  # of a process that had the same number
         try:
-            self._ring = RingReader(self._address.ring)
-            self._socket = client_socket(own, self._address.commands)
+            self._ring = RingReader(self.address.ring)
+            self._socket = client_socket(own, self.address.commands)
         except OSError as error:
-            raise TeleopError(f"{self._address.folder}: {error.strerror or error}: is the rig still running?") from None
+            raise TeleopError(f"{self.address.folder}: {error.strerror or error}: is the rig still running?") from None
         self._loop.add_reader(self._socket, self._receive)
         self._start(self._tell_alive())
         return self
@@ -74,7 +74,7 @@ class DoorClient:
             self._loop.remove_writer(self._socket)
         self._socket.close()
         with suppress(OSError):
-            os.unlink(self._address.client(os.getpid()))
+            os.unlink(self.address.client(os.getpid()))
         self._ring.close()
 
     # --- state

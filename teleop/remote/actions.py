@@ -20,6 +20,7 @@ from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.device_actions import DeviceActions, Due, DueList
 from teleop.remote.go_motion_job import GoMotionJob
+from teleop.remote.held_move import HeldMove
 from teleop.remote.jobs import JobSource, WayJob
 from teleop.remote.key_actions import KeyActions
 from teleop.remote.keys import HandKeys
@@ -61,6 +62,7 @@ class LiveActions:
         self.commissions: Sequence[str] = ()  # devices that this run may end for
         self.commissioned = ""  # that for which it does
         self._due = DueList()
+        self._held = HeldMove()
         has_gimbal = any(sink.type == "gimbal" for sink in profile.sinks)
         self.devices = DeviceActions(jobs, told, self._due, lambda: self.rests, has_gimbal)
         self.shoots = ShootActions(jobs, works, maker, self._due, self._begin, lambda text: self.operator.notify(text))
@@ -73,6 +75,7 @@ class LiveActions:
             "focus": lambda asked, _now: self._go("focus", asked, {Axis.FOCUS: asked["to"]}, asked.get("seconds")),
             "recenter": self._recenter,
             "play": self._play,
+            "start": self._start,
             "shoot": self._shoot,
             "pause": self._pause,
             "resume": self._resume,
@@ -103,7 +106,7 @@ class LiveActions:
     def busy(self, session: str) -> bool:
         job = self._jobs.job
         own = job is not None and job.owner == session and not (isinstance(job, PlayJob | ShootJob) and job.paused)
-        return own or self._works.planning or self._due.of(session)
+        return own or self._works.planning or self._due.of(session) or self._held.owner == session
 
     def do(self, asked: Asked, now: float) -> None:
         try:
@@ -112,12 +115,15 @@ class LiveActions:
             raise Refusal(str(error)) from None
 
     def passing(self, now: float) -> None:
+        self._held.drop("control passes to another one")
         if self.shoots.job is None:  # which goes on
             self._jobs.halt(now, "control passes to another one")
 
     def gone(self, sessions: Callable[[str], bool], now: float) -> None:
         """Also what each tick has to look at."""
         self._take_stop(now)
+        if self._held.owner and not self._keeps_control(self._held.owner):
+            self._held.drop("control was lost before its start")
         self._works.deliver()
         self.shoots.look()
         self._due.look(now)
@@ -129,6 +135,9 @@ class LiveActions:
             job.left = True
             job.pause(now, "its console is gone")
             self.operator.notify(f"{job.title} pauses: its console is gone")
+
+    def _keeps_control(self, session: str) -> bool:
+        return self.desk.control.holds(session) and not self.desk.control.leaving
 
     def observe(self, tick: Tick) -> None:
         self._motion = tick.motion
@@ -142,6 +151,7 @@ class LiveActions:
         if stopped and not self._halted:
             self._jobs.halt(now, f"STOP by {self.operator.stopped_by}")
             self._works.drop("STOPPED")
+            self._held.drop(f"STOP by {self.operator.stopped_by}")
         self._halted = stopped
 
     # --- ways
@@ -282,11 +292,24 @@ class LiveActions:
         except Refusal as refusal:
             asked.refuse(refusal)
             return False
+        if isinstance(job, PlayJob) and asked.get("held", False):
+            self._held.hold(asked, job, self._motion)
+            return False
         asked.accept()
+        self._play_on(job)
+        return True
+
+    def _play_on(self, job: PlayJob | ShootJob) -> None:
         self._jobs.begin(job)
         if isinstance(job, PlayJob):
             self.passes.watch(job.title, job.source, job.axes, lambda: job.halted)
-        return True
+
+    def _start(self, asked: Asked, now: float) -> None:
+        self._may_begin()
+        if not self.rests:
+            raise Refusal("the axes still move: try again")
+        self._play_on(self._held.start(asked.command.session, asked["at"], now, self._motion))
+        asked.end()
 
     def _transport(self, asked: Asked, now: float, does: Callable[[PlayJob], object]) -> None:
         """Done once the change of speed, or the way along the path, is."""
@@ -329,7 +352,9 @@ class LiveActions:
         if self.shoots.job is not None:
             self.shoots.abort(self.shoots.job, asked, now)
             return
-        if self._jobs.job is None:
+        if self._held.owner:
+            self._held.drop(f"aborted by {asked.command.name}")
+        elif self._jobs.job is None:
             raise Refusal("nothing moves that could be aborted")
         self._jobs.end(f"aborted by {asked.command.name}")
         asked.end()

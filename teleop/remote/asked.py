@@ -47,10 +47,11 @@ class Asked:
     def get(self, key: str, default: Any = None) -> Any:
         return self.command.fields.get(key, default)
 
-    def accept(self) -> None:
+    def accept(self, **facts: float) -> None:
+        """It will be done; `facts` are what else the answer has."""
         if not self.accepted and not self.over:
             self.accepted = True
-            self.desk.answer(self, {"ok": True})
+            self.desk.answer(self, {"ok": True, **facts})
 
     def planning(self) -> None:
         """It cannot be told yet whether it is accepted."""

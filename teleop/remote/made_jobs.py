@@ -12,28 +12,37 @@ from teleop.core.errors import TeleopError
 from teleop.remote.asked import Asked
 from teleop.remote.follower import Follower
 from teleop.remote.jobs import Ended
-from teleop.remote.moves import move_file
+from teleop.remote.moves import Sent, move_file
 from teleop.remote.planning_process import PlanningProcess
 from teleop.remote.play_job import PlayJob
 from teleop.remote.shoot_job import ShootJob
+from teleop.sequence.common_start import CommonStart
 from teleop.sequence.cycle import Cycle
 from teleop.sequence.source import SequenceSource
 from teleop.timelapse.journal import ENDING, Shoot, open_journal
 
 
 class JobMaker:
-    """`folder` has the moves that clients may name, and the journals of shoots. All raise TeleopError."""
+    """`folder` has the moves that clients may name, and the journals of shoots. All raise TeleopError.
 
-    def __init__(self, limits: Mapping[Axis, Limits], folder: Path) -> None:
-        self._limits, self._folder = limits, folder
+    `sent` is the folder of a move that came as text, by its number.
+    """
+
+    def __init__(self, limits: Mapping[Axis, Limits], folder: Path, sent: Callable[[int], Path]) -> None:
+        self._limits, self._folder, self._sent = limits, folder, sent
 
     def play(self, asked: Asked, what: str | Mapping[str, Any], planner: PlanningProcess) -> PlayJob:
-        """A move of that name, or with that content."""
-        compiled = planner.plan(move_file(what, self._folder) if isinstance(what, str) else what)
+        """A move of that name, one that was sent, or one with that content."""
+        if (number := asked.get("sent")) is not None:
+            compiled = planner.plan(Sent(self._sent(number) / f"{what}.yaml"))
+        else:
+            compiled = planner.plan(move_file(what, self._folder) if isinstance(what, str) else what)
         passes = float("inf") if asked.get("loop", False) else asked.get("passes", 1)
         preroll = asked.get("preroll", compiled.preroll)
-        follower = Follower() if asked.get("chase", False) else None
-        cycle = Cycle(preroll, passes=passes, back_to_one=compiled.back_to_one, trigger=follower)
+        held = asked.get("held", False)
+        follower = Follower() if asked.get("chase", False) and not held else None
+        trigger = CommonStart() if held else follower
+        cycle = Cycle(0.0 if held else preroll, passes=passes, back_to_one=compiled.back_to_one, trigger=trigger)
         self._refuse_missing(compiled.title, compiled.move.tracks)
         source = SequenceSource(compiled, self._limits, asked.get("speed", 1.0), cycle=cycle)
         attended = asked.get("attended", True)

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import NamedTuple
 
+from teleop.config.documents.document import mapping, sequence
 from teleop.config.documents.messages import nearest
+from teleop.config.documents.yaml_loader import read_document
 from teleop.config.named_files import NAME, NamedFiles
-from teleop.config.resources import described
-from teleop.core.errors import TeleopError
+from teleop.config.resources import described, is_bare
+from teleop.core.errors import TeleopError, UsageError
 
 ENDINGS = (".yaml", ".yml", ".mcap")
+
+
+class Sent(NamedTuple):
+    """A move that a client has sent as text, which is in this file now. The files that it names were not sent."""
+
+    file: Path
 
 
 def move_file(name: str, folder: Path) -> str:
@@ -23,3 +32,14 @@ def move_file(name: str, folder: Path) -> str:
         return name
     near = nearest(name, [*described("sequences"), *(path.stem for path in files.files())])
     raise TeleopError(f"there is no move {name!r} in the folder of moves, and none is shipped{near}")
+
+
+def refuse_files(file: Path) -> None:
+    """Raises TeleopError where the move in `file`, which was sent, needs another file, which was not."""
+    document = read_document(file)
+    for entry in sequence(document.data, "include"):
+        name = mapping(entry).get("move")
+        if isinstance(name, str) and not is_bare(name):
+            raise UsageError(f"it includes the file {name[:80]}, which is not sent: include shipped moves only")
+    if (name := mapping(document.data, "source").get("file")) is not None:
+        raise UsageError(f"its rows are in {str(name)[:80]}, which is not sent: give keyframes")

@@ -18,6 +18,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 from teleop.config.profile import Profile
 from teleop.core.errors import TeleopError
+from teleop.remote.moves import Sent, refuse_files
 
 if TYPE_CHECKING:
     from teleop.app.planning import Plan
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
 
 HEAD = struct.Struct("!I")
 NICE = 5
+
+What = str | Sent | Mapping[str, Any]
+"""A move: a file or a shipped one's name, one that was sent, or its content."""
 
 
 def send(stream: IO[bytes], what: object) -> None:
@@ -58,7 +62,7 @@ class PlanningProcess:
         """Have it load what it needs before the first plan is asked for."""
         self._running()
 
-    def plan(self, what: str | Mapping[str, Any]) -> CompiledSequence:
+    def plan(self, what: What) -> CompiledSequence:
         """The move in a file, or with this content. Raises TeleopError with the reason."""
         return self._answer(False, what)
 
@@ -66,7 +70,7 @@ class PlanningProcess:
         """The timelapse in a file. Raises TeleopError with the reason."""
         return self._answer(True, file)
 
-    def _answer(self, shoots: bool, what: str | Mapping[str, Any]) -> Any:
+    def _answer(self, shoots: bool, what: What) -> Any:
         process = self._running()
         assert process.stdin is not None
         assert process.stdout is not None
@@ -113,12 +117,18 @@ def main() -> None:
     with suppress(EOFError, OSError):
         profile = receive(reading)
         while True:
-            shoots, what = receive(reading)
+            shoots, given = receive(reading)
             try:
+                what = given
+                if isinstance(given, Sent):
+                    refuse_files(given.file)
+                    what = str(given.file)
                 plan = plan_file(what, profile) if isinstance(what, str) else plan_content(what, profile)
                 found = shot_of(plan) if shoots else played_of(plan)
             except TeleopError as error:
                 found = why(error)
+                if isinstance(given, Sent):
+                    found = found.replace(f"{given.file.parent}/", "")
             send(writing, found)
 
 

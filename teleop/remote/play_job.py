@@ -19,6 +19,7 @@ from teleop.planner.chasing import Reference
 from teleop.remote.follower import Follower
 from teleop.remote.jobs import Ended
 from teleop.remote.move_state import move_state
+from teleop.sequence.common_start import CommonStart
 from teleop.sequence.phases import SequencePhase
 from teleop.sequence.source import SequenceSource
 
@@ -77,6 +78,8 @@ class PlayJob:
         """Away from its path, until it is resumed: never over with that."""
         if not self.halted:
             self.source.suspend(now)
+        if isinstance(trigger := self.source.cycle.trigger, CommonStart):
+            trigger.call_off()
         self.halted, self._going = why, False
         if self.follower is not None:
             self.follower.halt()

@@ -67,7 +67,7 @@ class RemoteHands:
         expo = EXPO if profile.sticks.expo is None else profile.sticks.expo
         moved = [axis for axis in limits if not axis.is_stick]
         stick = RemoteStick(moved, lambda value: shape(value, 0.0, expo))
-        self._works, maker = Works(profile), JobMaker(limits, self._folder)
+        self._works, maker = Works(profile), JobMaker(limits, self._folder, self.door.address.sent)
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
         self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, maker, self.told)
         stack.callback(self._actions.shoots.close)

@@ -20,6 +20,7 @@ from teleop.core.setpoints import Demand, StateTarget
 from teleop.core.timing import KEEP_ALIVE, SAME_TIME, whole_ticks
 from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
+from teleop.sequence.common_start import CommonStart
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue, Wait, cues_from
 from teleop.sequence.cycle import Cycle, Trigger
@@ -106,7 +107,10 @@ class SequenceSource:
         if self.phase in (SequencePhase.PLAYING, SequencePhase.OVER):
             back = self.phase is SequencePhase.OVER and self.cycle.back_to_one
             return self._ease.at(time - self._ease_begin) if back else self.playback.foreseen(time)
-        if self.phase in BEFORE_THE_MOVE and self.cycle.trigger is None:
+        if self.phase in BEFORE_THE_MOVE and isinstance(self.cycle.trigger, CommonStart):
+            if time > self.cycle.trigger.at:
+                return self.playback.foreseen(time, self.cycle.trigger.at)
+        elif self.phase in BEFORE_THE_MOVE and self.cycle.trigger is None:
             begin = self.until if self.phase is SequencePhase.PREROLL else self._after_preroll(self.until)
             if time > begin:
                 return self.playback.foreseen(time, begin)
@@ -177,7 +181,7 @@ class SequenceSource:
         self._rest = max(self._rest, self.rest_needed())  # what was thought of the axes may have been wrong
         self.until = self._after_preroll(self.until)
         if self.number == 1 and self.cycle.trigger is None:
-            self.begin = self.until + self._lead
+            self.begin = self.until + self.lead
         if self._prepared < self.number:
             self._events += self._settings
             self._prepared = self.number
@@ -215,8 +219,10 @@ class SequenceSource:
         trigger = self.cycle.trigger
         if trigger and self.missed:  # it may come once more: a clock that is set back is not there yet
             self._arm(trigger, now)
-        if self._go_pressed or (trigger and not self.missed and trigger.fired(now)):
+        if self._go_pressed:
             self._start_pass(now)
+        elif trigger and not self.missed and trigger.fired(now):
+            self._start_pass(trigger.at if isinstance(trigger, CommonStart) else now)
 
     def _start_pass(self, now: float) -> None:
         self._handle(PhaseEvent.START)
@@ -225,7 +231,7 @@ class SequenceSource:
         self.playback.begin(now)
         self._began = now
         if self.number == 1:
-            self.begin = now + self._lead
+            self.begin = now + self.lead
 
     def _rejoin(self, now: float) -> None:
         self._handle(PhaseEvent.ARRIVED)
@@ -266,17 +272,24 @@ class SequenceSource:
         """To where the move is at its own `time`, from rest where the axes are."""
         self._ease_to({axis: State(row[0]) for axis, row in self.move.at(time).items()}, now, motion)
 
-    def _ease_to(self, target: Motion, now: float, motion: Motion) -> None:
+    def ease_time(self, motion: Motion) -> float:
+        """How long the way from rest at `motion` to where the move begins takes, in s."""
+        return whole_ticks(self._eased(self.move.at(self.playback.opening), motion).duration)
+
+    def _eased(self, target: Motion, motion: Motion) -> Move:
         positions = {axis: state.position for axis, state in target.items()}
-        self._ease = rest_to_rest({axis: motion[axis] for axis in positions}, positions, self._limits, EASE_SHARE)
+        return rest_to_rest({axis: motion[axis] for axis in positions}, positions, self._limits, EASE_SHARE)
+
+    def _ease_to(self, target: Motion, now: float, motion: Motion) -> None:
+        self._ease = self._eased(target, motion)
         self._ease_begin, self.until = now, now + whole_ticks(self._ease.duration)
 
     def _foresee_begin(self) -> None:
         if self.cycle.trigger is None:
-            self.begin = self._after_preroll(self.until) + self._lead
+            self.begin = self._after_preroll(self.until) + self.lead
 
     @property
-    def _lead(self) -> float:
+    def lead(self) -> float:
         """How long after the start of a pass the move's own zero is, in s."""
         return 0.0 if self.cycle.start_at else -self.move.opening
 

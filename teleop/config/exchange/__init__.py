@@ -17,9 +17,17 @@ from teleop.config.exchange.opentrackio import OpenTrackIOSection
 from teleop.config.exchange.osc import OscSection
 from teleop.config.exchange.timecode import TimecodeSection
 from teleop.config.exchange.tracking import TrackingSection, tracking_rules
+from teleop.config.exchange.zenoh import ZenohSection
 
 ExchangeSection = Annotated[
-    DfmocoSection | FoxgloveSection | FreeDSection | MidiSection | OpenTrackIOSection | OscSection | TimecodeSection,
+    DfmocoSection
+    | FoxgloveSection
+    | FreeDSection
+    | MidiSection
+    | OpenTrackIOSection
+    | OscSection
+    | TimecodeSection
+    | ZenohSection,
     Field(discriminator="type"),
 ]
 

@@ -4,6 +4,7 @@ import { start } from "./connection.js";
 import { fresh, link, tab } from "./store.js";
 import { Banners, Bar, TABS } from "./bar.js";
 import { Closed, Commission, closed, commission, watchCommission } from "./commission.js";
+import { FleetTiles } from "./fleet.js";
 import { watchGamepads } from "./gamepad.js";
 import { Help, watchKeyboard } from "./keyboard.js";
 import { Live } from "./live.js";
@@ -24,7 +25,7 @@ function App() {
     history.replaceState(null, "", `${location.search}#${tab.value}`);
     document.title = `${commissions ? "Commissioning" : TABS.find(([id]) => id === tab.value)?.[1]} - teleop console`;
   }, [tab.value, commissions]);
-  return html`<div class="app link-${link.value} ${commissions || over ? "commissions" : ""}"><${Bar} />${!over && html`<${Banners} />`}<${Page} /><${Help} /></div>`;
+  return html`<div class="app link-${link.value} ${commissions || over ? "commissions" : ""}"><${Bar} />${!over && html`<${Banners} /><${FleetTiles} />`}<${Page} /><${Help} /></div>`;
 }
 
 const first = location.hash.slice(1);

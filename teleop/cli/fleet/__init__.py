@@ -1,0 +1,1 @@
+"""`teleop fleet` and its commands."""

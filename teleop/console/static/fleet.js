@@ -1,0 +1,51 @@
+// The other rigs of a fleet: a tile for each with its state, and STOP ALL for everybody who is logged in.
+import { html, useEffect, signal } from "./vendor/preact/preact.min.js";
+
+/** @typedef {{name: string, alive: boolean, state: string, holder: string?, error: string?, move: {title: string, at: number?}?, link_age_ms: number?}} Rig */
+const EVERY = 500, ALONE = 5000; // ms between two looks: at a fleet, and where there is none
+const rigs = signal(/** @type {Rig[]} */ ([])), own = signal(""), told = signal("");
+
+async function look() {
+  const answer = await fetch("/api/fleet", { cache: "no-store" }).catch(() => null);
+  const found = answer?.ok ? await answer.json().catch(() => null) : null;
+  if (found) [rigs.value, own.value] = [found.rigs ?? [], found.name ?? ""];
+  else rigs.value = rigs.value.map((rig) => ({ ...rig, alive: false, state: "unknown" }));
+}
+
+export async function stopAll() {
+  told.value = "STOP is sent to all rigs";
+  const answer = await fetch("/api/fleet/stop", { method: "POST", keepalive: true }).catch(() => null);
+  const found = answer ? await answer.json().catch(() => null) : null;
+  if (!found) told.value = "STOP ALL: no answer. Switch the rigs off.";
+  else if (found.ok) told.value = "";
+  else told.value = found.not_reached ? `NOT REACHED: ${found.not_reached.join(", ")}. Switch them off.` : found.error;
+}
+
+/** Nothing for a rig that is alone. */
+export function FleetTiles() {
+  useEffect(() => {
+    let timer = 0, over = false;
+    const again = () => look().then(() => {
+      if (!over) timer = setTimeout(again, rigs.value.length > 1 ? EVERY : ALONE);
+    });
+    again();
+    return () => {
+      over = true;
+      clearTimeout(timer);
+    };
+  }, []);
+  if (rigs.value.length < 2) return null;
+  return html`<section class="fleet" aria-label="Fleet" data-testid="fleet">
+    <ul>${rigs.value.map((rig) => html`<${FleetTile} key=${rig.name} rig=${rig} />`)}</ul>
+    <button class="stop-all" data-testid="stop-all" onClick=${stopAll}>STOP ALL</button>
+    ${told.value && html`<p role="alert" data-testid="fleet-told">${told.value}</p>`}
+  </section>`;
+}
+
+/** @param {{rig: Rig}} props */
+function FleetTile({ rig }) {
+  const what = [rig.holder && `by ${rig.holder}`, rig.move && rig.move.title, rig.error].filter(Boolean).join(" · ");
+  return html`<li class=${`fleet-tile is-${rig.state}`} data-testid=${`fleet-${rig.name}`}>
+    <b>${rig.name}${rig.name === own.value ? " (here)" : ""}</b> <span class="fleet-state">${rig.state}</span> <small>${what}</small>
+  </li>`;
+}

@@ -1,0 +1,49 @@
+"""What arrives in Zenoh's threads, on its way to the event loop: bounded in number and rate, and never waited for."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections import deque
+from collections.abc import Callable
+from contextlib import suppress
+from time import monotonic
+from typing import Any
+
+
+class Intake:
+    """`handle` gets each item in the event loop. At most `most` wait, and `rate` a second are taken; others are
+    counted in `dropped`."""
+
+    def __init__(
+        self, loop: asyncio.AbstractEventLoop, handle: Callable[[Any], object], most: int, rate: float
+    ) -> None:
+        self._loop, self._handle, self._most, self._rate = loop, handle, most, rate
+        self._items: deque[Any] = deque()
+        self._lock = threading.Lock()
+        self._left, self._at = float(most), monotonic()
+        self._woken = False
+        self.dropped = 0
+
+    def offer(self, item: Any) -> bool:
+        """Whether it is taken; from any thread."""
+        with self._lock:
+            now = monotonic()
+            self._left, self._at = min(float(self._most), self._left + (now - self._at) * self._rate), now
+            if self._left < 1 or len(self._items) >= self._most:
+                self.dropped += 1
+                return False
+            self._left -= 1
+            self._items.append(item)
+            if self._woken:
+                return True
+            self._woken = True
+        with suppress(RuntimeError):  # the loop is closed: all is over
+            self._loop.call_soon_threadsafe(self._drain)
+        return True
+
+    def _drain(self) -> None:
+        with self._lock:
+            items, self._items, self._woken = self._items, deque(), False
+        for item in items:
+            self._handle(item)

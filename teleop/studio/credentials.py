@@ -1,0 +1,80 @@
+"""A member's certificate, its key and the access list of its fleet, as `teleop fleet keys` has written them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import Field
+
+from teleop.config.documents.base_model import Section
+from teleop.config.documents.yaml_loader import read_document
+from teleop.core.errors import UsageError
+from teleop.studio.access import access_control
+
+Role = Literal["rig", "watch", "operate", "router"]
+
+
+class CredentialsFile(Section):
+    """What a credentials file has; files in it are seen from its own folder."""
+
+    name: str
+    """The common name in the certificate."""
+    ca: str
+    """Certificate of the fleet's own authority (PEM)."""
+    certificate: str
+    """The member's certificate (PEM)."""
+    key: str
+    """The key of the certificate (PEM)."""
+    access: str | None = None
+    """The access list: who watches, operates, or routes."""
+
+
+class AccessFile(Section):
+    """The access list of a fleet: whoever is not in it can do nothing."""
+
+    members: dict[str, Role] = Field(default_factory=dict)
+    """The role of each member, by the common name of its certificate."""
+
+
+class Credentials:
+    """Raises DocumentError and UsageError for files that cannot be used."""
+
+    def __init__(self, file: Path) -> None:
+        document = read_document(file)
+        found = document.check(CredentialsFile)
+        self.name, folder = found.name, file.parent
+        self._ca, self._certificate, self._key = (
+            _there(folder, each) for each in (found.ca, found.certificate, found.key)
+        )
+        self.members: dict[str, Role] = {}
+        if found.access is not None:
+            self.members = read_document(folder / found.access).check(AccessFile).members
+
+    def tls(self) -> dict[str, Any]:
+        """Zenoh's settings of TLS: both sides show a certificate of the fleet's own authority."""
+        return {
+            "root_ca_certificate": self._ca,
+            "enable_mtls": True,
+            "verify_name_on_connect": False,  # addresses of rigs change; the authority signs members only
+            "listen_certificate": self._certificate,
+            "listen_private_key": self._key,
+            "connect_certificate": self._certificate,
+            "connect_private_key": self._key,
+        }
+
+    def access(self) -> dict[str, Any]:
+        """Zenoh's access control for this member's own session."""
+        return access_control(self.members)
+
+
+def load(file: str) -> Credentials:
+    """The credentials in a file. Raises DocumentError and UsageError."""
+    return Credentials(Path(file).expanduser())
+
+
+def _there(folder: Path, name: str) -> str:
+    file = folder / name
+    if not file.is_file():
+        raise UsageError(f"{file}: there is no such file; make it with `teleop fleet keys`")
+    return str(file.resolve())

@@ -1,0 +1,105 @@
+"""The parts of a fleet without a network: messages, clocks, what arrives too fast, the memory, what is missing."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from teleop.cli.fleet.play import start_time
+from teleop.core.errors import UsageError
+from teleop.exchange.zenoh.intake import Intake
+from teleop.studio import clocks, memory, wire
+from teleop.studio.access import access_control
+from teleop.studio.fleet import Fleet
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    st.binary(max_size=300)
+    | st.recursive(st.none() | st.text(), lambda of: st.lists(of)).map(lambda v: json.dumps(v).encode())
+)
+def test_any_bytes_are_a_map_or_refused(data: bytes):
+    with suppress(ValueError):
+        assert isinstance(wire.decoded(data), dict)
+
+
+@pytest.mark.parametrize("data", [b'{"a":' * 50 + b"1" + b"}" * 50, b'{"a":NaN}', b"[]", b"x" * 5000, b"[" * 4000])
+def test_what_is_too_deep_too_large_or_no_number_is_refused(data: bytes):
+    with pytest.raises(ValueError):
+        wire.decoded(data)
+
+
+def test_an_offset_is_known_to_half_of_the_round_trip_and_the_best_one_counts():
+    here = time.monotonic()
+    answer = {"time": here + 100.004, "clock": time.time() + 5, "clock_error": None}
+    found = clocks.measured(answer, here, here + 0.008)
+    assert (found.loop, found.doubt) == (pytest.approx(100.0), pytest.approx(0.004))
+    worse = found._replace(doubt=0.006, at=here + 1)
+    assert clocks.better(found, worse) is found
+    much_later = worse._replace(at=here + 100)  # by then a drift of 100 ppm has made the old one worse
+    assert clocks.better(found, much_later) is much_later
+    for bad in ({}, {"time": "x", "clock": 1}):
+        with pytest.raises(ValueError):
+            clocks.measured(bad, here, here)
+
+
+def test_clocks_that_ntp_keeps_are_equal_to_within_its_errors(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(clocks, "clock_error", lambda: 0.0005)
+    here, date = time.monotonic(), time.time()
+    answer = {"time": here + 50.02, "clock": date + 0.02, "clock_error": 0.0003}
+    found = clocks.measured(answer, here, here + 0.040)  # a slow way tells nothing better
+    assert (found.date, found.doubt) == (0.0, pytest.approx(0.0008))
+    assert found.loop == pytest.approx(50.0, abs=1e-3)
+
+
+def test_a_flood_is_dropped_and_counted():
+    async def flooded() -> tuple[int, int]:
+        taken: list[int] = []
+        intake = Intake(asyncio.get_running_loop(), taken.append, most=10, rate=1.0)
+        for number in range(1000):
+            intake.offer(number)
+        await asyncio.sleep(0)
+        return len(taken), intake.dropped
+
+    assert asyncio.run(flooded()) == (10, 990)
+
+
+def test_a_rig_is_remembered_for_a_day(tmp_path: Path):
+    file = tmp_path / "fleet" / "rigs.json"
+    now = time.time()
+    memory.remember(file, {"cam-a": now, "old": now - 90_000})
+    assert list(memory.recalled(file)) == ["cam-a"]
+    file.write_text("[]")
+    assert memory.recalled(file) == {}
+
+
+@pytest.mark.parametrize(("text", "seconds"), [("now", 0), ("now+5s", 5), ("now+2.5s", 2.5), ("now+1m", 60)])
+def test_a_start_is_so_far_from_now(text: str, seconds: float):
+    assert start_time(text)() == seconds
+
+
+@pytest.mark.parametrize("text", ["", "5", "now-1s", "25:00", "tomorrow", "now+5h"])
+def test_no_start_is_refused(text: str):
+    with pytest.raises(UsageError, match="--at"):
+        start_time(text)
+
+
+def test_whoever_is_not_in_the_access_list_can_do_nothing():
+    found = access_control({"anna": "operate"})
+    assert (found["enabled"], found["default_permission"]) == (True, "deny")
+    assert [each["cert_common_names"] for each in found["subjects"]] == [["anna"]]
+    assert access_control({})["policies"] == []
+
+
+def test_without_the_package_the_extra_is_named(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setitem(sys.modules, "zenoh", None)
+    with pytest.raises(UsageError, match=r"pip install 'rs-teleop\[fleet\]'"):
+        Fleet([])
