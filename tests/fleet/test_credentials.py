@@ -73,8 +73,9 @@ def test_keys_are_for_their_owner_alone_and_made_once(tmp_path: Path):
 def test_an_operator_operates_a_watcher_stops_and_a_stranger_does_nothing(tmp_path: Path):
     made = KeyFolder(tmp_path / "keys")
     made.add("cam-a", "rig", serves=True)
-    for name, role in (("anna", "operate"), ("wim", "watch"), ("odd", "watch")):
-        made.add(name, role, serves=False)
+    made.add("anna", "operate", serves=False)
+    made.add("wim", "watch", serves=False)
+    made.add("odd", "watch", serves=False)
     made.members.pop("odd")  # of this authority, and no member any more
     made._write_access()
     foreign = KeyFolder(tmp_path / "foreign")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from remote_bench import ANNA, BOB, RemoteBench, remote_bench
@@ -17,7 +18,7 @@ def bench(tmp_path: Path):
         yield made
 
 
-def held(bench: RemoteBench, text: str = MOVE, **options: object) -> dict:
+def held(bench: RemoteBench, text: str = MOVE, **options: Any) -> dict:
     """The answer to a move that was sent as text."""
     folder = bench.hands.door.address.sent(1)
     folder.mkdir(parents=True)
@@ -37,7 +38,7 @@ def test_it_begins_at_the_moment_itself_and_not_at_a_tick(bench: RemoteBench):
     answer = held(bench)
     assert (answer["ok"], answer["duration"], answer["ease"]) == (True, 2.0, 0.0)
     bench.run(0.5)
-    assert bench.state["move"] is None  # nothing begins by itself
+    assert not bench.state["move"]  # nothing begins by itself
     at = round(bench.now, 2) + 1.0037
     assert bench.ask("start", at=at)["ok"]
     bench.run(0.9)
@@ -49,7 +50,7 @@ def test_it_begins_at_the_moment_itself_and_not_at_a_tick(bench: RemoteBench):
         bench.tick()
         assert bench.state["time"] - bench.state["move"]["at"] == pytest.approx(at, abs=0.0006)  # `at` has 3 digits
     bench.run(3)
-    assert bench.state["move"] is None
+    assert not bench.state["move"]
     assert bench.at() == pytest.approx(20, abs=1e-3)
 
 
