@@ -15,6 +15,7 @@ from playwright.sync_api import expect
 from real_commission import RealCommission, click
 
 from teleop.config.profile import load_profile
+from teleop.config.sinks_section import GimbalSection
 
 URL = "udp_multicast:239.74.163.67"
 STALLED = "the computer stalled"
@@ -144,5 +145,7 @@ def test_a_gimbal_is_commissioned_by_clicks_on_a_phone_to_the_right_profile(brow
         finally:
             browser.close()
     assert (code, report["ok"], report["profile"]) == (0, True, "mine.yaml")
-    assert load_profile(str(tmp_path / "mine.yaml")).sinks[0].signs == {"pan": -1}
+    gimbal = load_profile(str(tmp_path / "mine.yaml")).sinks[0]
+    assert isinstance(gimbal, GimbalSection)
+    assert gimbal.signs == {"pan": -1}
     assert "# commission: signs.pan -1: the operator saw" in (tmp_path / "mine.yaml").read_text()
