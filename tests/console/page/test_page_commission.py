@@ -71,6 +71,7 @@ def test_stop_of_a_watcher_stops_what_another_moves(moving, visit, console):
 
 HIDDEN = """Object.defineProperty(document, "hidden", {value: true});
 document.dispatchEvent(new Event("visibilitychange"));"""
+HANGS = "() => void setTimeout(() => { const end = Date.now() + 4000; while (Date.now() < end); }, 0)"
 
 
 @pytest.mark.parametrize(
@@ -78,10 +79,11 @@ document.dispatchEvent(new Event("visibilitychange"));"""
     [
         (lambda page, _: page.evaluate(HIDDEN), "STOPPED by anna"),
         (lambda page, _: page.close(), "stopped"),
+        (lambda page, _: page.evaluate(HANGS), "is gone"),
         (lambda _, console: os.kill(console.gateway, signal.SIGKILL), "is gone"),
         (lambda _, console: os.kill(console.gateway, signal.SIGSTOP), "is gone"),
     ],
-    ids=["hidden", "closed", "gateway killed", "gateway stopped"],
+    ids=["hidden", "closed", "hanging", "gateway killed", "gateway stopped"],
 )
 def test_a_step_ends_with_the_page_that_let_it_go(moving, console, lose, why):
     gateway = console.gateway
