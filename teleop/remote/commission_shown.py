@@ -14,6 +14,7 @@ class CommissionShown:
 
     keys: Sequence[Mapping[str, float]] = ()
     changes = 0
+    errors = None
     battery = None
 
     def __init__(self) -> None:
@@ -25,6 +26,10 @@ class CommissionShown:
 
     @property
     def presets(self) -> Mapping[str, Mapping[str, Any]]:
+        return {}
+
+    @property
+    def focus_marks(self) -> Mapping[str, float]:
         return {}
 
     @property

@@ -44,5 +44,7 @@ def test_without_a_terminal_nothing_is_opened_and_nothing_left(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert run(["commission", "--rig", "sim-drone"]) == 2
-    assert capsys.readouterr().err == ("teleop: teleop commission asks before anything moves: run it on a terminal\n")
+    assert capsys.readouterr().err == (
+        "teleop: teleop commission asks before anything moves: run it on a terminal, or with --console\n"
+    )
     assert list(tmp_path.iterdir()) == []

@@ -161,8 +161,16 @@ def test_a_flood_of_requests_is_refused_and_a_stop_is_not(bench):
     assert bench.post("/api/stop").status_code == 200
 
 
-def test_a_watcher_gives_no_command(locked):
-    answer = locked.post("/api/command", json={"do": "goto", "axes": {"pan": 1}}, headers=WATCHING)
+@pytest.mark.parametrize(
+    "command",
+    [
+        {"do": "goto", "axes": {"pan": 1}},
+        {"do": "commission", "device": "gimbal"},
+        {"do": "commission_key", "page": 1, "key": "enter"},
+    ],
+)
+def test_a_watcher_gives_no_command(locked, command):
+    answer = locked.post("/api/command", json=command, headers=WATCHING)
     assert answer.status_code == 403
     assert locked.door.commands == []
 

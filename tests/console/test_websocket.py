@@ -149,7 +149,8 @@ def test_what_is_too_large_or_no_text_ends_the_connection(bench, message, code):
 def test_a_watcher_only_stops(bench):
     with ConsoleBench(LOCKED) as locked, locked.page(WATCHING) as socket:
         assert socket.receive_json()["role"] == "watch"
-        for command in ({"do": "take_control"}, {"do": "goto", "axes": {"pan": 1}}):
+        key = {"do": "commission_key", "page": 1, "key": "enter"}
+        for command in ({"do": "take_control"}, {"do": "goto", "axes": {"pan": 1}}, key):
             socket.send_json({"id": 1, **command})
             assert until(socket, "answer")["kind"] == "forbidden"
         socket.send_json({"do": "stick", "seq": 1, "axes": {"pan": 1.0}})

@@ -15,6 +15,7 @@ from playwright.sync_api import expect
 from real_commission import RealCommission, click
 
 from teleop.config.profile import load_profile
+from teleop.config.sinks_section import GimbalSection
 
 URL = "udp_multicast:239.74.163.67"
 STALLED = "the computer stalled"
@@ -70,6 +71,7 @@ def test_stop_of_a_watcher_stops_what_another_moves(moving, visit, console):
 
 HIDDEN = """Object.defineProperty(document, "hidden", {value: true});
 document.dispatchEvent(new Event("visibilitychange"));"""
+HANGS = "() => void setTimeout(() => { const end = Date.now() + 4000; while (Date.now() < end); }, 0)"
 
 
 @pytest.mark.parametrize(
@@ -77,10 +79,11 @@ document.dispatchEvent(new Event("visibilitychange"));"""
     [
         (lambda page, _: page.evaluate(HIDDEN), "STOPPED by anna"),
         (lambda page, _: page.close(), "stopped"),
+        (lambda page, _: page.evaluate(HANGS), "is gone"),
         (lambda _, console: os.kill(console.gateway, signal.SIGKILL), "is gone"),
         (lambda _, console: os.kill(console.gateway, signal.SIGSTOP), "is gone"),
     ],
-    ids=["hidden", "closed", "gateway killed", "gateway stopped"],
+    ids=["hidden", "closed", "hanging", "gateway killed", "gateway stopped"],
 )
 def test_a_step_ends_with_the_page_that_let_it_go(moving, console, lose, why):
     gateway = console.gateway
@@ -144,5 +147,7 @@ def test_a_gimbal_is_commissioned_by_clicks_on_a_phone_to_the_right_profile(brow
         finally:
             browser.close()
     assert (code, report["ok"], report["profile"]) == (0, True, "mine.yaml")
-    assert load_profile(str(tmp_path / "mine.yaml")).sinks[0].signs == {"pan": -1}
+    gimbal = load_profile(str(tmp_path / "mine.yaml")).sinks[0]
+    assert isinstance(gimbal, GimbalSection)
+    assert gimbal.signs == {"pan": -1}
     assert "# commission: signs.pan -1: the operator saw" in (tmp_path / "mine.yaml").read_text()
