@@ -8,7 +8,7 @@ import threading
 import pytest
 
 from teleop.app.program import MoveJob
-from teleop.app.session import Session, shortest_seconds
+from teleop.app.session import Session
 from teleop.app.switch_interval import SWITCH_INTERVAL
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
@@ -88,9 +88,3 @@ def test_a_rig_of_sticks_alone_needs_an_operator():
     sticks = {name: each for name, each in profile.axes.items() if name.startswith("stick_")}
     with pytest.raises(UsageError, match="no axis that a program can move"):
         Session(profile.model_copy(update={"axes": sticks}), virtual=True)
-
-
-def test_the_shortest_time_is_that_of_the_slowest_axis_and_no_legal_move_is_faster(session: Session):
-    pan, both = ({Axis.PAN: 90.0}, {Axis.PAN: 90.0, Axis.FOCUS: 1.0})
-    assert shortest_seconds(session, both) > shortest_seconds(session, pan) > 90 / 120
-    assert shortest_seconds(session, {Axis.PAN: 0.0}) == 0

@@ -48,7 +48,7 @@ class DfmocoSection(Section):
     type: Literal["dfmoco"]
     """Commands of DFMoco 2.0.0 over TCP or a serial line: Dragonframe drives the rig."""
     listen: Annotated[str, AfterValidator(_checked)]
-    """tcp:HOST:PORT (Dragonframe's is 10001), or serial:DEVICE@BAUD (57600 8N1)."""
+    """As tcp:HOST:PORT (Dragonframe's is 10001), or serial:DEVICE@BAUD (57600 8N1)."""
     steps_per_degree: Annotated[float, Field(gt=0, le=5000)] = 1000.0
     """Steps of a degree; a position is a whole number of them."""
     focus_steps: Annotated[int, Field(gt=0, le=5000)] = 4000

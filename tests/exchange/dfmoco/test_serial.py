@@ -42,6 +42,7 @@ def test_it_is_answered_over_a_serial_line_and_its_end_is_an_error(monkeypatch: 
     async def run() -> None:
         door = FakeDoor()
         (section,) = ENTRIES.validate_python([{"type": "dfmoco", "listen": f"serial:{os.ttyname(near)}@57600"}])
+        assert isinstance(section, DfmocoSection)
         task = asyncio.create_task(server.serve(section, served(door)))
         await asyncio.sleep(0)  # it opens the line, which drops what came before
         os.write(far, b"hi\r\nmm 1 5000\r\n")
