@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 import re
-import socket
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -101,6 +100,7 @@ class ReachedOptions:
         from teleop.console.invitation import as_json as reached
         from teleop.console.invitation import greeting, invitation
         from teleop.console.settings import ConsoleSettings, listen, parse_bind, planned_for, with_tokens
+        from teleop.gateway.announcing import ConsoleAt, announcement
         from teleop.remote.gateway_child import Gateway
 
         host, port = parse_bind(bind)
@@ -125,9 +125,11 @@ class ReachedOptions:
                     tell(line)
             number = listener.fileno()
             console = {"settings": settings.as_json(), "listener": number}
-            announcement = _announcement(profile.name, listener, settings.has_tls)
+            where = listener.getsockname()
+            at = ConsoleAt(where[0], where[1], settings.has_tls)
+            mdns = announcement(profile.name, at, () if results else profile.exchange)
             greetings = [greeting(settings), *([exchange.greeting] if exchange.greeting else [])]
-            told = {"console": console, **announcement, **exchange.settings}
+            told = {"console": console, **mdns, **exchange.settings}
             yield Gateway(told, (number, *exchange.passed), greetings, invited)
 
     @contextmanager
@@ -153,10 +155,12 @@ class ReachedOptions:
         if replaced or not profile.exchange:
             yield None
             return
+        from teleop.gateway.announcing import announcement
         from teleop.remote.gateway_child import Gateway
 
         with opened(profile) as exchange:
-            yield Gateway(exchange.settings, exchange.passed, [exchange.greeting])
+            settings = {**announcement(profile.name, None, profile.exchange), **exchange.settings}
+            yield Gateway(settings, exchange.passed, [exchange.greeting])
 
 
 @Parameter(name="*")
@@ -174,17 +178,6 @@ class ConsoleOptions(ReachedOptions):
         if not self.moves.is_dir():
             raise UsageError(f"--moves {self.moves}: is no folder")
         return str(self.moves.resolve())
-
-
-def _announcement(rig: str, listener: socket.socket, tls: bool) -> dict[str, Any]:
-    """What the gateway announces of it on the network: nothing of a console that only this computer reaches."""
-    from teleop.console.settings import is_loopback
-    from teleop.gateway.discovery import Announcement
-
-    host, port = listener.getsockname()[:2]
-    if is_loopback(host):
-        return {}
-    return {"announcement": Announcement(rig, host, port, tls).as_settings()}
 
 
 NOT_REACHED, NO_CONSOLE = ReachedOptions(), ConsoleOptions()

@@ -1,7 +1,7 @@
-"""Rigs on this network by mDNS: a console that others can reach is announced as `_teleop._tcp`, and found by browsing.
+"""Rigs on this network by mDNS: what others can reach is announced as `_teleop._tcp`, and found by browsing.
 
-The TXT record has `rig` (its name), `api` (the path that describes its HTTP interface) and `tls` ("1" or "0"); what
-else a run can be reached by is a further key of it.
+The TXT record has `rig` (its name), `tls` ("1" or "0"), with a console `api` (the path that describes its HTTP
+interface), and in a fleet `zenoh`: where operators connect, as in `tls/192.168.1.20:7447`, one after the other.
 """
 
 from __future__ import annotations
@@ -15,10 +15,12 @@ from contextlib import asynccontextmanager, suppress
 from dataclasses import asdict, dataclass, field
 from typing import Any, NamedTuple, Self
 
+from teleop.config.exchange.endpoint import endpoint
 from teleop.core.errors import TeleopError
 
 SERVICE = "_teleop._tcp.local."
 API = "/api"
+ZENOH = "zenoh"  # the key of what a fleet connects to
 LONGEST_NAME = 57  # bytes of a label less those of the number that tells two of a name apart
 LONGEST_TEXT = 200  # bytes of a value in the TXT record
 QUIET = 1.3  # s to listen for others of a name: what was told is not told again within 1 s (RFC 6762, 6)
@@ -30,13 +32,17 @@ ANY = ("0.0.0.0", "::")
 
 @dataclass(frozen=True)
 class Announcement:
-    """What is announced: `host` is where it listens, a number; `more` are further keys of the TXT record."""
+    """What is announced: `host` is where it listens, a number; `more` are further keys of the TXT record.
+
+    Without a `console` the port is that of the fleet.
+    """
 
     rig: str
     host: str
     port: int
     tls: bool = False
     more: Mapping[str, str] = field(default_factory=dict)
+    console: bool = True
 
     def as_settings(self) -> dict[str, Any]:
         return asdict(self)
@@ -58,9 +64,16 @@ class Found(NamedTuple):
 
     @property
     def url(self) -> str:
-        """Of its console, at its first address."""
+        """Of its console, at its first address; "" without one."""
+        if "api" not in self.text:
+            return ""
         host = self.addresses[0] if self.addresses else ""
         return f"http{'s' if self.tls else ''}://{f'[{host}]' if ':' in host else host}:{self.port}"
+
+    @property
+    def endpoints(self) -> list[str]:
+        """Where a fleet connects to it; what makes no sense is left out."""
+        return [text for text in self.text.get(ZENOH, "").split() if _is_endpoint(text)]
 
 
 def addresses_of(host: str) -> list[str]:
@@ -103,12 +116,12 @@ async def _registered(network: Any, what: Announcement, addresses: Sequence[str]
 
     host = _label(socket.gethostname().partition(".")[0])[:30]
     server = f"teleop-{host}-{what.port}-{secrets.token_hex(3)}.local."  # no other responder's name for this computer
-    label = _label(what.rig)
+    label, text = _label(what.rig), _text(what, addresses)
     browser = _browser(network, lambda **_: None)  # hears of the names that there are
     await asyncio.sleep(QUIET)
     try:
         for number in range(2, MOST_OF_A_NAME):
-            facts = {"port": what.port, "properties": _text(what), "server": server, "parsed_addresses": addresses}
+            facts = {"port": what.port, "properties": text, "server": server, "parsed_addresses": addresses}
             info = AsyncServiceInfo(SERVICE, f"{label}.{SERVICE}", **facts)
             with suppress(NonUniqueNameException):
                 await (await network.async_register_service(info))
@@ -197,9 +210,33 @@ def _network(addresses: Sequence[str]) -> Any:
     return AsyncZeroconf(interfaces=chosen, ip_version=version)
 
 
-def _text(what: Announcement) -> dict[str, str]:
-    own = {"rig": what.rig, "api": API, "tls": "1" if what.tls else "0"}
-    return {key: _cut(value, LONGEST_TEXT) for key, value in {**what.more, **own}.items()}
+def _text(what: Announcement, addresses: Sequence[str]) -> dict[str, str]:
+    own = {"rig": what.rig, "tls": "1" if what.tls else "0", **({"api": API} if what.console else {})}
+    more = {**what.more}
+    if ZENOH in more:
+        more[ZENOH] = _reached(more[ZENOH], addresses)
+    return {key: _cut(value, LONGEST_TEXT) for key, value in {**more, **own}.items()}
+
+
+def _reached(listen: str, addresses: Sequence[str]) -> str:
+    """Endpoints that others connect to, as many as fit, for one that listens at every address of this computer."""
+    found = endpoint(listen)
+    if found.address.host not in ANY:
+        return listen
+    whole = ""
+    for each in addresses:
+        host = f"[{each}]" if ":" in each else each
+        longer = f"{whole} {found.protocol}/{host}:{found.address.port}".strip()
+        if len(longer) <= LONGEST_TEXT:
+            whole = longer
+    return whole
+
+
+def _is_endpoint(text: str) -> bool:
+    try:
+        return endpoint(text).address.port != 0
+    except ValueError:
+        return False
 
 
 def _label(name: str) -> str:
