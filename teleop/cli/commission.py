@@ -61,7 +61,8 @@ def commission(
         stack.enter_context(kept)
         made = opened(profile, options.rig, device, output, options.link, clock, kept)
         hands = None if gateway is None else hands_of(made, device, gateway)
-        run = CommissionRun(made, kept, clock, keyboard, hands, "" if gateway is None else gateway.greetings[0])
+        reached_by = ("", None) if gateway is None else (gateway.greetings[0], gateway.invitation)
+        run = CommissionRun(made, kept, clock, keyboard, hands, *reached_by)
         return run.run(lambda: _report(made, kept, bool(run.interrupted), results.compare, options.json))
 
 

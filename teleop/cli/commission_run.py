@@ -14,12 +14,16 @@ from teleop.app.commission.profile_file import ProfileFile
 from teleop.app.commission.session import TICK, Commissioning
 from teleop.app.operator_inputs import device_backend
 from teleop.cli.screens.commission_view import CommissionView
+from teleop.cli.screens.invitation_sheet import sheet
 from teleop.cli.signals import signals_to
 from teleop.commission.findings import Findings, Verdict
+from teleop.commission.page import STOP
 from teleop.config.profile import Profile
 from teleop.core.clock import SystemClock
 from teleop.core.errors import UsageError
+from teleop.core.invitation import Invitation
 from teleop.inputs.keyboard import Keyboard
+from teleop.inputs.keymaps import INVITE
 from teleop.inputs.named_keys import names
 
 if TYPE_CHECKING:
@@ -59,7 +63,7 @@ def counted(findings: Findings) -> str:
 class CommissionRun:
     """`keyboard` is None without a terminal, `hands` without a browser; `greeting` says how that gets here.
 
-    `interrupted` is why it was ended from outside, if it was.
+    `invitation` is shown while a key asks for it. `interrupted` is why it was ended from outside, if it was.
     """
 
     made: Made
@@ -68,12 +72,14 @@ class CommissionRun:
     keyboard: Keyboard | None
     hands: CommissionHands | None
     greeting: str = ""
+    invitation: Invitation | None = None
     interrupted: list[str] = field(default_factory=list)
+    inviting: bool = False
 
     def run(self, report: Callable[[], int]) -> int:
         """To its end, and on for as long as a browser shows that; what `report`, which prints it, returns."""
         made, hands = self.made, self.hands
-        view = CommissionView(made.profile.name, lambda: made.runner.page, self._beside)
+        view = CommissionView(made.profile.name, lambda: made.runner.page, self._beside, sheet(self.invitation, self))
         with ExitStack() as stack:
             if hands is not None:
                 hands.open(stack, self.clock)
@@ -108,11 +114,22 @@ class CommissionRun:
         held = self.keyboard.read(now)
         if held.trouble:
             self.interrupted.append(held.trouble)
-        return names(list(held.presses))
+        return [key for key in names(list(held.presses)) if not self._invites(key)]
+
+    def _invites(self, key: str) -> bool:
+        """Whether a key was for the address, or comes while that covers the page: then only STOP counts."""
+        page = self.made.runner.page
+        if self.inviting:
+            self.inviting = key != INVITE
+            return key != STOP
+        taken = self.invitation is None or page.typed is not None or INVITE in page.keys
+        self.inviting = key == INVITE and not taken
+        return self.inviting
 
     def _linger(self, hands: CommissionHands) -> None:
         """The last page stays until it is closed there, a key is pressed here, or nobody has looked at it for long."""
         clock, due = self.clock, self.clock.now()
+        self.invitation, self.inviting = None, False
         hands.finish(due, [file.name for file in self.kept.files], self._outcome())
         while not (self.interrupted or hands.is_closed(clock.now())):
             if self._pressed(clock.now()):

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from rich.text import Text
 
 from teleop.cli.screens.page_view import PageView
-from teleop.cli.screens.picture import Rows
+from teleop.cli.screens.picture import Rows, Sheet
 from teleop.commission.changes import written
 from teleop.commission.findings import Fact, Verdict
 from teleop.commission.page import Page, Stage
@@ -26,8 +26,10 @@ class CommissionView(PageView):
     `beside` is a line on who else sees it.
     """
 
-    def __init__(self, rig: str, page: Callable[[], Page], beside: Callable[[], str] = str) -> None:
-        super().__init__(self._draw)
+    def __init__(
+        self, rig: str, page: Callable[[], Page], beside: Callable[[], str] = str, sheet: Sheet | None = None
+    ) -> None:
+        super().__init__(self._draw, sheet)
         self._rig, self._page, self._beside = rig, page, beside
         self._said = ""
         self._shown = page()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from rich.text import Text
 
@@ -10,7 +11,6 @@ from teleop.cli.screens.picture import Rows
 from teleop.cli.screens.run_rows import hint_rows
 from teleop.core.invitation import Invitation
 from teleop.core.run_status import Hint
-from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.keymaps import INVITE
 
 QR = "bright_white on black"  # whatever the terminal's own colors: a phone wants dark on light, and reads this
@@ -18,12 +18,19 @@ HINTS = (Hint(INVITE, "back"), Hint("space", "STOP"))
 AROUND = 3  # rows of a terminal that are not the code's: title, banner and keys
 
 
+class Inviting(Protocol):
+    """Keys that may ask for it."""
+
+    @property
+    def inviting(self) -> bool: ...
+
+
 @dataclass(frozen=True)
 class InvitationSheet:
     """What is shown of it while the keys want it."""
 
     invitation: Invitation
-    keys: Keyboard
+    keys: Inviting
 
     def over(self, rows: Rows, width: int, height: int) -> Rows:
         """What is drawn instead of `rows`: the title and what stops everything stay."""
@@ -43,7 +50,7 @@ class InvitationSheet:
         )
 
 
-def sheet(invitation: Invitation | None, keys: Keyboard | None) -> InvitationSheet | None:
+def sheet(invitation: Invitation | None, keys: Inviting | None) -> InvitationSheet | None:
     """None where nobody can be invited, or no key asks for it."""
     return None if invitation is None or keys is None else InvitationSheet(invitation, keys)
 

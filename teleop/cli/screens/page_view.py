@@ -6,15 +6,18 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Self
 
-from teleop.cli.screens.picture import Picture, Rows
+from teleop.cli.screens.picture import Picture, Rows, Sheet
 from teleop.cli.screens.stderr_writer import StderrWriter
 
 
 class PageView:
-    """`draw` makes the picture, which is there while this is entered; without one, `_lines` take what is said."""
+    """`draw` makes the picture, which is there while this is entered; without one, `_lines` take what is said.
 
-    def __init__(self, draw: Callable[[int, int], Rows]) -> None:
-        self._picture = Picture(draw)
+    `sheet` is what may lie over it.
+    """
+
+    def __init__(self, draw: Callable[[int, int], Rows], sheet: Sheet | None = None) -> None:
+        self._picture = Picture(draw, sheet=sheet)
         self._lines = StderrWriter()
         self._stack = ExitStack()
 
