@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from page_bench import take_control, until
+from page_bench import REFUSED, take_control, until
 from playwright.sync_api import expect
 from real_commission import click
 from real_console import RealConsole
@@ -22,6 +22,7 @@ def console(tmp_path):
 
 def test_from_the_live_page_to_a_profile_and_back_with_the_rig_in_hand(browser, console):
     browser.errors.clear()
+    browser.allowed = REFUSED  # the gateway is another one in between
     page = browser.open(console.url)
     title = page.get_by_test_id("commission-title")
     try:
