@@ -34,8 +34,8 @@ function add(s) {
 onState(add);
 onLost(clear);
 
-/** @param {number} width @param {number} height */
-function options(width, height) {
+/** @param {string[]} names @param {number} width @param {number} height */
+function options(names, width, height) {
   const rem = parseFloat(getComputedStyle(document.documentElement).fontSize), letter = Math.round(0.75 * rem);
   const axis = { stroke: MUTED, grid: { stroke: GRID, width: 1 }, ticks: { show: false }, font: `${letter}px system-ui, sans-serif` };
   const ink = (/** @type {string} */ name) => INK[/** @type {"pan"} */ (name)] ?? "#e9ecef";
@@ -47,7 +47,7 @@ function options(width, height) {
       { ...axis, size: 2.2 * letter, space: 5 * letter, values: (/** @type {any} */ _, /** @type {number[]} */ ticks) => ticks.map((t) => (t ? `${t} s` : "now")) },
       { ...axis, size: 3.8 * letter, space: 3 * letter, scale: "y", values: (/** @type {any} */ _, /** @type {number[]} */ ticks) => ticks.map((t) => `${t}°`) },
     ],
-    series: [{}, ...axes.peek().flatMap((name) => [
+    series: [{}, ...names.flatMap((name) => [
       { scale: scale(name), stroke: ink(name), width: 1, alpha: 0.45, dash: [4, 4], points: { show: false } },
       { scale: scale(name), stroke: ink(name), width: 2, points: { show: false } },
     ])],
@@ -60,20 +60,21 @@ function around(_, low, high) {
   return [a - room, b + room];
 }
 
-function data() {
+/** Of the axes that the plot was made for: the rig's may be others already. @param {string[]} names */
+function data(names) {
   const now = times[times.length - 1] ?? 0;
-  return [times.map((time) => time - now), ...axes.peek().flatMap((axis) => [rows[axis]?.commanded ?? [], rows[axis]?.measured ?? []])];
+  return [times.map((time) => time - now), ...names.flatMap((axis) => [rows[axis]?.commanded ?? [], rows[axis]?.measured ?? []])];
 }
 
 export function StripChart() {
   const place = useRef(/** @type {HTMLElement|null} */ (null)), names = axes.value.join();
   useEffect(() => {
-    const box = /** @type {HTMLElement} */ (place.current);
+    const shown = axes.peek(), box = /** @type {HTMLElement} */ (place.current);
     const size = () => ({ width: Math.max(box.clientWidth, 120), height: Math.max(box.clientHeight, 90) });
-    const first = size(), plot = new uPlot(options(first.width, first.height), data(), box);
+    const first = size(), plot = new uPlot(options(shown, first.width, first.height), data(shown), box);
     const watch = new ResizeObserver(() => plot.setSize(size()));
     watch.observe(box);
-    const timer = setInterval(() => !document.hidden && plot.setData(data()), REDRAW);
+    const timer = setInterval(() => !document.hidden && plot.setData(data(shown)), REDRAW);
     return () => (clearInterval(timer), watch.disconnect(), plot.destroy());
   }, [names]);
   return html`<section class="card chart"><h2>Last ${SPAN} s</h2><div class="plot" ref=${place} role="img" aria-label="Positions of the last 20 s"></div></section>`;
