@@ -152,6 +152,15 @@ def test_what_a_finger_presses_is_large_enough(staged, size):
     assert [each for each in sizes if min(each[1:]) < 32] == []
 
 
+def test_rec_is_in_view_on_the_smallest_phone(staged, rig):
+    """The line of chips scrolls there: what records is before what is merely well."""
+    rig.more.update(recording=True, recording_s=73.4)
+    page = staged("live", SMALL, touch=True)
+    rec, stop = (page.locator(each).bounding_box() for each in (".chip.rec", ".stop"))
+    assert rec["x"] >= 0
+    assert rec["x"] + rec["width"] <= stop["x"]
+
+
 def test_every_control_is_in_reach_of_the_keyboard(staged):
     page = staged("live")
     wanted = page.locator(CONTROLS).count()
