@@ -22,7 +22,7 @@ LOOKS = DATA / "console_looks.json"
 TABS = ("live", "move", "shoot", "takes")
 SHOOT = {
     "title": "Day to night", "frames_done": 83, "frames": 240, "eta": 1_790_003_000.0, "missed": 1, "paused": False,
-    "phase": "waiting", "why": "", "clip_s": 10.0, "battery": 78,
+    "phase": "waiting", "why": "", "clip_s": 10.0,
 }  # fmt: skip
 PICTURES = {
     "live on a laptop": "console-laptop",
@@ -68,7 +68,7 @@ def staged(visit, server, rig):
     )
 
     def open_it(tab, size=LAPTOP, touch=False):
-        rig.more["shoot"] = SHOOT if tab == "shoot" else None
+        rig.more.update(shoot=SHOOT if tab == "shoot" else None, battery=78 if tab == "shoot" else None)
         page = visit(size, touch, at=f"?name=laptop#{tab}")
         take_control(page)
         if tab == "shoot":
