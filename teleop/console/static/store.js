@@ -15,7 +15,7 @@ export const notice = signal(null);
 export const age = signal(/** @type {number|null} */ (null));
 export const tab = signal("live");
 
-/** A part of the state that renders again only when it changes; a merge patch leaves out what is null. @template T @param {(s: State) => T} part @param {T} none */
+/** A part of the state that renders again only when it changes; a merge patch leaves out what is null. @template T @param {(s: State) => T|undefined} part @param {T} none @returns {import("./vendor/preact/preact.min.js").ReadonlySignal<T>} */
 export const part = (part, none) => computed(() => (state.value ? (part(state.value) ?? none) : none));
 
 const names = computed(() => Object.keys(state.value?.axes ?? {}).filter((name) => !name.startsWith("stick_")).join());

@@ -46,7 +46,7 @@ export function Transport({ compact = false, open, blocked = "" }) {
       <label>Passes <${NumberField} min=${1} max=${999} value=${passes.value} set=${(/** @type {number} */ value) => (passes.value = Math.round(value))} /></label>
       <button aria-pressed=${loop.value} onClick=${() => (loop.value = !loop.value)}>Loop</button>
     </div>
-    ${!compact && errors.value?.passes.length > 0 && html`<${Errors} of=${errors.value} />`}
+    ${!compact && !!errors.value?.passes.length && html`<${Errors} of=${errors.value} />`}
     ${blocked && html`<p class="waits">${blocked}</p>`}
   </section>`;
 }

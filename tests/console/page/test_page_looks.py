@@ -22,7 +22,7 @@ LOOKS = DATA / "console_looks.json"
 TABS = ("live", "move", "shoot", "takes")
 SHOOT = {
     "title": "Day to night", "frames_done": 83, "frames": 240, "eta": 1_790_003_000.0, "missed": 1, "paused": False,
-    "phase": "waiting", "why": "", "clip_s": 10.0, "battery": 78,
+    "phase": "waiting", "why": "", "clip_s": 10.0,
 }  # fmt: skip
 PICTURES = {
     "live on a laptop": "console-laptop",
@@ -68,7 +68,7 @@ def staged(visit, server, rig):
     )
 
     def open_it(tab, size=LAPTOP, touch=False):
-        rig.more["shoot"] = SHOOT if tab == "shoot" else None
+        rig.more.update(shoot=SHOOT if tab == "shoot" else None, battery=78 if tab == "shoot" else None)
         page = visit(size, touch, at=f"?name=laptop#{tab}")
         take_control(page)
         if tab == "shoot":
@@ -150,6 +150,15 @@ def test_what_a_finger_presses_is_large_enough(staged, size):
     page = staged("live", size, touch=True)
     sizes = page.evaluate(SIZES)
     assert [each for each in sizes if min(each[1:]) < 32] == []
+
+
+def test_rec_is_in_view_on_the_smallest_phone(staged, rig):
+    """The line of chips scrolls there: what records is before what is merely well."""
+    rig.more.update(recording=True, recording_s=73.4)
+    page = staged("live", SMALL, touch=True)
+    rec, stop = (page.locator(each).bounding_box() for each in (".chip.rec", ".stop"))
+    assert rec["x"] >= 0
+    assert rec["x"] + rec["width"] <= stop["x"]
 
 
 def test_every_control_is_in_reach_of_the_keyboard(staged):

@@ -148,7 +148,7 @@ def test_a_focus_mark_is_the_rigs_every_page_has_it_and_so_has_the_file(visit, c
         expect(each.get_by_test_id("focus-mark-B")).to_contain_text("0.300")
     (file,) = (console.folder / "state").rglob("presets-*.yaml")
     until(lambda: "focus_marks: {B: 0.3}" in file.read_text())
-    page.get_by_label("Seconds of a focus pull").fill("0.2")
+    page.get_by_label("Seconds of a focus pull").fill("1.5")
     page.get_by_label("Focus, 0 near").fill("0.6")
     until(lambda: abs(console.axis("focus")["commanded"] - 0.6) < 1e-6 and console.rests)
     page.get_by_test_id("focus-mark-B").click()
