@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from fleet_bench import RigProcess
 from hands import FakeInput
+from terminal_screen import screen
 
 from teleop.core.axes import Axis
 from teleop.core.errors import TeleopError
@@ -58,3 +59,19 @@ def test_a_stick_moves_a_distant_rig_and_silence_stops_it(tmp_path: Path):
                 with pytest.raises(TeleopError, match="has control"):
                     refused.__enter__()
         assert fleet.until(lambda: seen.state["holder"] is None, 60)
+
+
+def test_the_keys_of_a_terminal_move_a_distant_rig_and_stop_it(tmp_path: Path):
+    with RigProcess(tmp_path, "cam-a") as rig, Fleet([rig.endpoint], memory=False) as fleet:
+        words = ["fleet", "sticks", "cam-a", "--connect", rig.endpoint]
+        with screen(*words, folder=tmp_path, size=(100, 24)) as term:
+            term.wait_for("the stick moves it")
+            term.type("\x1b[C")  # to the right
+            assert fleet.until(lambda: fleet.rig("cam-a").state["axes"]["pan"]["commanded"] > 0.5, 60)
+            term.type(" ")
+            assert fleet.until(lambda: fleet.rig("cam-a").stopped, 60)
+            term.look(term.wait_for("stopped"))
+            term.type("q")
+            assert term.end() == 0, term.text
+            term.look()
+        assert fleet.until(lambda: fleet.rig("cam-a").state["holder"] is None, 60)
