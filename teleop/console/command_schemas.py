@@ -9,6 +9,7 @@ Schema = Mapping[str, Any]
 
 TEXT: Schema = {"type": "string"}
 TRUTH: Schema = {"type": "boolean"}
+STRETCH: Schema = {"type": "boolean", "description": "takes longer than `seconds` where the limits need it"}
 NUMBER: Schema = {"type": "number"}
 WHOLE: Schema = {"type": "integer", "minimum": 1}
 PRESET: Schema = {"type": "integer", "minimum": 0, "maximum": 999}
@@ -64,7 +65,7 @@ COMMANDS: Mapping[str, CommandSchema] = {
         "Move through one exposure, from where its run begins",
         {"axes": POSITIONS, "before": POSITIONS, "after": POSITIONS, "exposure": SECONDS, "blur": SHARE},
     ),
-    "preset_recall": CommandSchema("Go to a preset", {"number": PRESET}, {"seconds": SECONDS}),
+    "preset_recall": CommandSchema("Go to a preset", {"number": PRESET}, {"seconds": SECONDS, "stretch": STRETCH}),
     "preset_store": CommandSchema("Keep the positions as a preset", {"number": PRESET}, {"name": TEXT}),
     "preset_delete": CommandSchema("Delete a preset", {"number": PRESET}),
     "set_key": CommandSchema("Add the positions to the keys"),
@@ -91,10 +92,14 @@ COMMANDS: Mapping[str, CommandSchema] = {
     "recenter": CommandSchema("Go to the center", {}, {"seconds": SECONDS}),
     "follow": CommandSchema("Set the follow mode of the gimbal", {"mode": TEXT}),
     "focus": CommandSchema(
-        "Move the focus", {"to": {"type": "number", "minimum": 0, "maximum": 1}}, {"seconds": SECONDS}
+        "Move the focus",
+        {"to": {"type": "number", "minimum": 0, "maximum": 1}},
+        {"seconds": SECONDS, "stretch": STRETCH},
     ),
     "focus_mark_store": CommandSchema("Keep the focus as a mark", {"name": MARK}),
-    "focus_mark_recall": CommandSchema("Move the focus to a mark", {"name": MARK}, {"seconds": SECONDS}),
+    "focus_mark_recall": CommandSchema(
+        "Move the focus to a mark", {"name": MARK}, {"seconds": SECONDS, "stretch": STRETCH}
+    ),
     "focus_mark_delete": CommandSchema("Delete a mark of the focus", {"name": MARK}),
     "track": CommandSchema(
         "Follow a tracking source of the profile's exchange until it ends, STOP or abort",

@@ -186,7 +186,7 @@ class LiveActions:
         where = {axis: self._place(axis, to) for axis, to in targets.items()}
         if not where:
             raise Refusal(f"{title} has no axis of this rig")
-        if asked.get("seconds"):
+        if asked.get("seconds") and not asked.get("stretch", False):
             self._refuse_haste(title, where, asked["seconds"])
         speeds = asked.get("speeds")
         if speeds and seconds:

@@ -80,6 +80,15 @@ def test_a_way_in_less_time_than_the_limits_need_is_refused_with_the_shortest(
     assert held.now - begin == pytest.approx(1.35, abs=0.1)
 
 
+def test_a_way_that_may_be_stretched_takes_as_long_as_the_limits_need(held: RemoteBench) -> None:
+    done(held, "goto", axes={"pan": 60.0})
+    held.ask("preset_store", number=1)
+    done(held, "goto", axes={"pan": 0.0})
+    begin = held.now
+    assert done(held, "preset_recall", number=1, seconds=0.5, stretch=True)["ok"]
+    assert held.now - begin == pytest.approx(1.35, abs=0.1)
+
+
 def test_what_follows_upon_a_request_that_still_runs_has_control_too(free: RemoteBench) -> None:
     """As HTTP does it: each command takes control for itself alone."""
     free.ask("set_key", brief=True)
@@ -227,7 +236,7 @@ def test_a_move_of_the_folder_plays_to_its_end(stage: RemoteBench) -> None:
 
 
 def test_each_pass_that_is_over_is_shown_with_its_errors_by_axis_the_last_one_too(stage: RemoteBench) -> None:
-    assert stage.state["errors"] is None
+    assert not stage.state["errors"]
     number = played(stage, move="there", preroll=0.0, passes=2)
     assert stage.state["errors"] == {"title": "There and back", "passes": []}
     until(stage, lambda: len(stage.state["errors"]["passes"]) == 1)

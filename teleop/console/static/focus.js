@@ -27,10 +27,10 @@ export function FocusCard() {
       <input type="range" min=${low} max=${high} step="0.001" value=${dragged.value ?? now} disabled=${!able.value} aria-label="Focus, 0 near to 1 far"
         onPointerDown=${() => (pulled.current = true)} onKeyDown=${() => (pulled.current = false)}
         onInput=${(/** @type {any} */ e) => (dragged.value = meant(Number(e.target.value)))}
-        onChange=${(/** @type {any} */ e) => (command("focus", { to: meant(Number(e.target.value)), seconds: seconds.value }), (dragged.value = null))} />
+        onChange=${(/** @type {any} */ e) => (command("focus", { to: meant(Number(e.target.value)), seconds: seconds.value, stretch: true }), (dragged.value = null))} />
     </div>
     <div class="marks">${["A", "B", "C"].map((name) => html`<${Mark} name=${name} value=${marks[name]} set=${() => command("focus_mark_store", { name })}
-      go=${() => command("focus_mark_recall", { name, seconds: seconds.value })} />`)}</div>
+      go=${() => command("focus_mark_recall", { name, seconds: seconds.value, stretch: true })} />`)}</div>
   </section>`;
 }
 

@@ -115,7 +115,7 @@ function jog(event, axis, units) {
 
 /** @param {number} number */
 function recall(number) {
-  command("preset_recall", { number, seconds: recallSeconds() });
+  command("preset_recall", { number, seconds: recallSeconds(), stretch: true });
   return true;
 }
 

@@ -48,7 +48,7 @@ function Tile({ number, preset, seconds }) {
   const tap = () => {
     if (stored.current) return void (stored.current = false);
     if (!preset) return notify(`preset ${number} is empty: hold to store`);
-    command("preset_recall", { number, seconds });
+    command("preset_recall", { number, seconds, stretch: true });
   };
   const at = (/** @type {string} */ axis) => Number(preset?.[axis] ?? 0);
   const named = preset ? axes.value.filter((axis) => axis in preset).map((axis) => `${axis} ${short(at(axis), 1)}`).join(", ") : "empty";
