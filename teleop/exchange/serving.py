@@ -18,6 +18,7 @@ from teleop.exchange.served import Rig, Served
 from teleop.gateway.door_client import DoorClient
 
 AGAIN, LONGEST = 1.0, 30.0  # s until an entry that failed is served again: doubled each time, up to the longest
+WORKED = 60.0  # s of serving after which a failure is a new one: said, and tried again soon
 
 
 async def serve(settings: Mapping[str, Any], door: DoorClient) -> None:
@@ -45,12 +46,16 @@ async def _kept(entry: ExchangeSection, served: Served) -> None:
     """Serve an entry, again and again where it fails."""
     server = importlib.import_module(SERVERS[entry.type])
     wait, before = AGAIN, ""
+    clock = asyncio.get_running_loop().time
     while True:
+        began = clock()
         try:
             await server.serve(entry, served)
             return
         except (TeleopError, OSError) as error:
             why = str(error)
+        if clock() - began >= WORKED:
+            wait, before = AGAIN, ""
         if why != before:
             served.notify(f"exchange {entry.type}: {why}: tried again until it works")
             before = why
