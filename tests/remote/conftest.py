@@ -6,11 +6,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from at_once import AtOnce
 from remote_bench import ANNA, RemoteBench, remote_bench
 
 from teleop.app.planning import plan_content, plan_file
 from teleop.remote import made_jobs, works
 from teleop.remote.planning_process import played_of, shot_of
+from teleop.sequence.source import SequenceSource
 from teleop.timelapse.journal import open_journal
 
 MOVE = """
@@ -67,6 +69,8 @@ def planned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         def close(self) -> None: ...
 
     monkeypatch.setattr(works, "PlanningProcess", Here)
+    # A thread that looks for a change of speed takes real time, and the clock here does not wait for it.
+    monkeypatch.setattr(made_jobs, "SequenceSource", partial(SequenceSource, executor=AtOnce()))
     monkeypatch.setattr(made_jobs, "open_journal", partial(open_journal, patient=True))
     (tmp_path / "there.yaml").write_text(MOVE)
     (tmp_path / "turn.yaml").write_text(SHOOT)
