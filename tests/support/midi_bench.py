@@ -13,15 +13,15 @@ LIMITS = {
     Axis.FOCUS: Limits(0.0, 1.0, 1.0, 4.0, 40.0),
 }
 CONTROLS = [
-    {"on": "note 1", "press": "stop"},
-    {"on": "note 2", "press": "record"},
-    {"on": "cc 20", "press": "play reveal"},
-    {"on": "note 3", "press": "range 2"},
-    {"on": "cc 7", "position": "pan"},
-    {"on": "cc14 1", "position": "focus"},
-    {"on": "bend ch 2", "position": "tilt"},
-    {"on": "bend", "speed": "pan"},
-    {"on": "cc 60", "jog": "tilt", "step": 0.25},
+    {"sends": "note 1", "press": "stop"},
+    {"sends": "note 2", "press": "record"},
+    {"sends": "cc 20", "press": "play reveal"},
+    {"sends": "note 3", "press": "range 2"},
+    {"sends": "cc 7", "position": "pan"},
+    {"sends": "cc14 1", "position": "focus"},
+    {"sends": "bend ch 2", "position": "tilt"},
+    {"sends": "bend", "speed": "pan"},
+    {"sends": "cc 60", "jog": "tilt", "step": 0.25},
 ]
 OWN = "midi-1"
 

@@ -70,7 +70,7 @@ def _checked_press(text: str) -> str:
 class MidiControl(Section):
     """A fader, wheel or button, and what it does."""
 
-    on: Annotated[str, AfterValidator(_checked_control)]
+    sends: Annotated[str, AfterValidator(_checked_control)]
     """What it sends: note 60, cc 7, cc14 1 (14 bits: controllers 1 and 33) or bend; ch 2 behind it for a channel."""
     press: Annotated[str, AfterValidator(_checked_press)] | None = None
     """What a button does: stop, clear, record, shutter, set_key, preset 1, range 1, play NAME and others."""
@@ -99,12 +99,12 @@ class MidiControl(Section):
         }
         has = [name for name in kinds if getattr(self, name) is not None]
         if len(has) != 1:
-            raise ValueError(f"{self.on}: needs one of {', '.join(kinds)}")
-        kind = control(self.on).kind
+            raise ValueError(f"{self.sends}: needs one of {', '.join(kinds)}")
+        kind = control(self.sends).kind
         if kind not in kinds[has[0]]:
-            raise ValueError(f"{self.on}: {has[0]} needs {' or '.join(kinds[has[0]])}")
+            raise ValueError(f"{self.sends}: {has[0]} needs {' or '.join(kinds[has[0]])}")
         if self.low is not None and self.low == self.high:
-            raise ValueError(f"{self.on}: low and high must differ")
+            raise ValueError(f"{self.sends}: low and high must differ")
         return self
 
 
@@ -130,11 +130,11 @@ class MidiSection(Section):
     def _each_once(self) -> Self:
         seen: set[Control] = set()
         for each in self.controls:
-            own = control(each.on)
+            own = control(each.sends)
             taken = {own, own._replace(kind="cc")} if own.kind == "cc14" else {own}
             if own.kind == "cc14":
                 taken.add(Control("cc", own.number + 32, own.channel))
             if seen & taken:
-                raise ValueError(f"{each.on}: is there twice")
+                raise ValueError(f"{each.sends}: is there twice")
             seen |= taken
         return self

@@ -42,7 +42,7 @@ class Surface:
     """`limits` are those of the rig's axes; a control of an axis that the rig has not does nothing."""
 
     def __init__(self, section: MidiSection, limits: Mapping[Axis, Limits]) -> None:
-        own = [(control(each.on), each) for each in section.controls]
+        own = [(control(each.sends), each) for each in section.controls]
         has = {axis.value for axis in limits}
         self.presses = {at: pressed(each.press) for at, each in own if each.press is not None}
         self._jogs = {at: each for at, each in own if each.jog in has}

@@ -20,10 +20,10 @@ exchange:
     port: desk
     api: jack
     controls:
-      - {on: note 1, press: stop}
-      - {on: note 2, press: clear}
-      - {on: cc 7, position: pan, low: -90, high: 90}
-      - {on: cc 60, jog: tilt, step: 1}
+      - {sends: note 1, press: stop}
+      - {sends: note 2, press: clear}
+      - {sends: cc 7, position: pan, low: -90, high: 90}
+      - {sends: cc 60, jog: tilt, step: 1}
 """
 
 

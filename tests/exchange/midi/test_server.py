@@ -19,14 +19,14 @@ from teleop.exchange.midi import feedback, server
 from teleop.exchange.served import Served
 
 CONTROLS = [
-    {"on": "note 1", "press": "stop"},
-    {"on": "note 2", "press": "clear"},
-    {"on": "note 3", "press": "preset 1"},
-    {"on": "note 4", "press": "store 1"},
-    {"on": "note 5", "press": "play nudge"},
-    {"on": "cc 7", "position": "pan"},
-    {"on": "bend", "speed": "pan"},
-    {"on": "cc 60", "jog": "tilt", "step": 1.0},
+    {"sends": "note 1", "press": "stop"},
+    {"sends": "note 2", "press": "clear"},
+    {"sends": "note 3", "press": "preset 1"},
+    {"sends": "note 4", "press": "store 1"},
+    {"sends": "note 5", "press": "play nudge"},
+    {"sends": "cc 7", "position": "pan"},
+    {"sends": "bend", "speed": "pan"},
+    {"sends": "cc 60", "jog": "tilt", "step": 1.0},
 ]
 SECTION = MidiSection.model_validate({"type": "midi", "port": "desk", "controls": CONTROLS})
 

@@ -167,13 +167,13 @@ def test_a_control_that_is_none_is_refused(text: str) -> None:
 @pytest.mark.parametrize(
     ("fields", "why"),
     [
-        ({"on": "cc 1"}, "needs one of press, position"),
-        ({"on": "cc 1", "press": "stop", "jog": "pan"}, "needs one of"),
-        ({"on": "cc 1", "speed": "pan"}, "speed needs bend"),
-        ({"on": "note 1", "position": "pan"}, "position needs cc"),
-        ({"on": "note 1", "press": "jump"}, "must be one of"),
-        ({"on": "note 1", "press": "play ../x"}, "must be one of"),
-        ({"on": "cc 1", "position": "pan", "low": 1.0, "high": 1.0}, "must differ"),
+        ({"sends": "cc 1"}, "needs one of press, position"),
+        ({"sends": "cc 1", "press": "stop", "jog": "pan"}, "needs one of"),
+        ({"sends": "cc 1", "speed": "pan"}, "speed needs bend"),
+        ({"sends": "note 1", "position": "pan"}, "position needs cc"),
+        ({"sends": "note 1", "press": "jump"}, "must be one of"),
+        ({"sends": "note 1", "press": "play ../x"}, "must be one of"),
+        ({"sends": "cc 1", "position": "pan", "low": 1.0, "high": 1.0}, "must differ"),
     ],
 )
 def test_a_control_that_makes_no_sense_is_refused(fields: dict[str, Any], why: str) -> None:
@@ -183,7 +183,7 @@ def test_a_control_that_makes_no_sense_is_refused(fields: dict[str, Any], why: s
 
 def test_a_controller_has_each_message_once() -> None:
     with pytest.raises(ValueError, match="is there twice"):
-        section([{"on": "cc14 1", "position": "pan"}, {"on": "cc 33", "press": "stop"}])
+        section([{"sends": "cc14 1", "position": "pan"}, {"sends": "cc 33", "press": "stop"}])
 
 
 def test_hostile_bytes_raise_nothing() -> None:
