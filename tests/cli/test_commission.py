@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from command import teleop
 from far_gimbal import FarGimbal, far_gimbal
+from own_bus import own_bus
 from terminal_screen import TerminalScreen, screen
 
 from teleop.commission.runner import AUTOREPEAT
@@ -20,7 +21,7 @@ from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.session import Session
 
 STALLED = "the computer stalled"
-URL = "udp_multicast:239.74.163.61"
+URL = own_bus(61)
 
 
 def to_the_first_move(terminal: TerminalScreen) -> None:
