@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 from command import teleop
 from far_gimbal import FarGimbal, far_gimbal
-from own_bus import own_bus
 from terminal_screen import TerminalScreen, screen
 
 from teleop.commission.runner import AUTOREPEAT
@@ -21,7 +20,7 @@ from teleop.dji.gimbal import messages as gimbal
 from teleop.dji.gimbal.session import Session
 
 STALLED = "the computer stalled"
-URL = own_bus(61)
+URL = "udp_multicast:239.74.163.61"
 
 
 def to_the_first_move(terminal: TerminalScreen) -> None:
@@ -112,7 +111,9 @@ def test_it_refuses_to_begin_while_the_camera_records(tmp_path: Path) -> None:
 def test_it_needs_a_terminal_a_gimbal_and_a_file_of_one_s_own(tmp_path: Path) -> None:
     ran = teleop("commission", cwd=tmp_path)
     assert (ran.returncode, ran.stdout) == (2, "")
-    assert ran.stderr == "teleop: teleop commission asks before anything moves: run it on a terminal\n"
+    assert (
+        ran.stderr == "teleop: teleop commission asks before anything moves: run it on a terminal, or with --console\n"
+    )
 
 
 def test_with_json_the_findings_are_printed(tmp_path: Path) -> None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import fcntl
+import tempfile
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TypeVar
 
 from teleop.cli.sim import serve
@@ -35,8 +38,23 @@ class FarGimbal(SimulatedGimbal):
         self.turned.append((now, self.rates.yaw))
 
 
+LOCK = Path(tempfile.gettempdir()) / "teleop-tests-far-gimbal.lock"
+
+
 @contextmanager
 def far_gimbal(url: str) -> Iterator[FarGimbal]:
+    """A gimbal at the other end of a bus by multicast; one at a time on this computer.
+
+    A socket hears every group of its port that anybody here has joined, so two buses are one, whatever their groups.
+    """
+    with open(LOCK, "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # until the file is closed
+        with _far_gimbal(url) as gimbal:
+            yield gimbal
+
+
+@contextmanager
+def _far_gimbal(url: str) -> Iterator[FarGimbal]:
     gimbal, stop, clock = FarGimbal(), threading.Event(), SystemClock()
     link = open_link(url, host=False, now=clock.now)
     thread = threading.Thread(target=serve, args=({"gimbal": link}, {"gimbal": gimbal}, clock, stop))

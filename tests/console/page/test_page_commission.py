@@ -10,7 +10,6 @@ from contextlib import ExitStack
 
 import pytest
 from far_gimbal import far_gimbal
-from own_bus import own_bus
 from page_bench import PHONE, until
 from playwright.sync_api import expect
 from real_commission import RealCommission, click
@@ -18,7 +17,7 @@ from real_commission import RealCommission, click
 from teleop.config.profile import load_profile
 from teleop.config.sinks_section import GimbalSection
 
-URL = own_bus(67)
+URL = "udp_multicast:239.74.163.67"
 STALLED = "the computer stalled"
 # A computer that stalls ends a step, as it has to; what was to be seen is then seen in another try.
 pytestmark = pytest.mark.flaky(reruns=2, only_rerun=STALLED)
