@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from time import monotonic
 from typing import Any, NamedTuple
 
 from teleop.core.axes import Axis
 from teleop.core.errors import TeleopError
 from teleop.exchange.measured import Measured
+from teleop.exchange.pace import slots
 from teleop.exchange.served import Served
 
 ANGLES = (Axis.PAN, Axis.TILT, Axis.ROLL)
@@ -51,8 +52,19 @@ class AttitudeFeed:
         """The state that was taken last."""
         return self._state
 
-    async def watch(self) -> None:
-        """Take each state as it comes, until cancelled."""
+    async def each(self, rate: float, send: Callable[[float, Attitude], object]) -> None:
+        """Until cancelled: `rate` times a second `send` the instant `latency` ago, and the attitude then if known."""
+        watching = asyncio.create_task(self._watch())
+        try:
+            async for due in slots(rate):
+                instant = due - self._latency
+                if (at := self.at(instant)) is not None:
+                    send(instant, at)
+        finally:
+            watching.cancel()
+
+    async def _watch(self) -> None:
+        """Take each state as it comes."""
         while True:
             self.take()
             await asyncio.sleep(LOOK)

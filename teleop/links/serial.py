@@ -40,13 +40,18 @@ class Port(Protocol):
 
 
 class SerialPort:
-    """A Port on a serial line, 8N1, opened exclusively. Raises OSError or ValueError when it cannot be opened."""
+    """A Port on a serial line of 8 bits and one stop bit, opened exclusively; `parity` is pyserial's letter.
 
-    def __init__(self, path: str, baud: int) -> None:
-        self._port = serial.Serial(path, baud, timeout=0, write_timeout=0, exclusive=True)
+    While more than `most_waiting` bytes wait in the kernel it takes none. Raises OSError or ValueError when it cannot
+    be opened.
+    """
+
+    def __init__(self, path: str, baud: int, parity: str = serial.PARITY_NONE, most_waiting: int = _WAITING) -> None:
+        self._port = serial.Serial(path, baud, parity=parity, timeout=0, write_timeout=0, exclusive=True)
+        self._most_waiting = most_waiting
 
     def write(self, data: bytes) -> int:
-        if not select.select([], [self._port], [], 0)[1] or self._waiting() > _WAITING:
+        if not select.select([], [self._port], [], 0)[1] or self._waiting() > self._most_waiting:
             return 0
         return self._port.write(data) or 0
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import asyncio
 from typing import Protocol
+
+import serial
 
 from teleop.config.exchange.freed import RECEIVERS, SERIAL, FreeDSection, serial_place
 from teleop.core.errors import TeleopError
 from teleop.exchange.attitude import Attitude, AttitudeFeed
 from teleop.exchange.freed.codec import D1, LENGTH, encode
-from teleop.exchange.pace import slots
 from teleop.exchange.served import Served
 from teleop.exchange.udp import udp_sender
+from teleop.links.serial import SerialPort
 
 BITS = 11  # of a byte with odd parity on a serial line
 FULL = 65535  # counts of an encoder at its far end, unless the receiver's are known
@@ -40,13 +41,12 @@ async def send(section: FreeDSection, to: str, served: Served) -> None:
         f"{name}: camera {section.camera}, {rate:g} messages a second, each with the attitude of"
         f" {section.latency * 1000:g} ms before"
     )
+
+    def pass_on(_instant: float, at: Attitude) -> None:
+        sender.send(encode(D1(section.camera, at.pan, at.tilt, at.roll, x, y, z, *lens.counts(at))))
+
     try:
-        async with asyncio.TaskGroup() as tasks:
-            tasks.create_task(feed.watch())
-            async for due in slots(rate):
-                if (at := feed.at(due - section.latency)) is not None:
-                    message = D1(section.camera, at.pan, at.tilt, at.roll, x, y, z, *lens.counts(at))
-                    sender.send(encode(message))
+        await feed.each(rate, pass_on)
     finally:
         sender.close()
 
@@ -79,23 +79,17 @@ class SerialSender:
     """Raises TeleopError for a line that cannot be opened; what does not fit into its buffer is left out."""
 
     def __init__(self, to: str) -> None:
-        import serial
-
-        self._error = serial.SerialException
-        device, baud = serial_place(to)
+        self._device, baud = serial_place(to)
         try:
-            self._line = serial.Serial(
-                device, baud, serial.EIGHTBITS, serial.PARITY_ODD, serial.STOPBITS_ONE, write_timeout=0
-            )
-        except (serial.SerialException, ValueError) as error:
+            self._port = SerialPort(self._device, baud, serial.PARITY_ODD, most_waiting=2 * LENGTH - 1)
+        except (OSError, ValueError) as error:
             raise TeleopError(f"to {to}: cannot be opened: {error}") from None
 
     def send(self, data: bytes) -> None:
         try:
-            if self._line.out_waiting < 2 * LENGTH:
-                self._line.write(data)
-        except (self._error, OSError) as error:
-            raise TeleopError(f"{self._line.port}: {error}") from None
+            self._port.write(data)
+        except OSError as error:
+            raise TeleopError(f"{self._device}: {error}") from None
 
     def close(self) -> None:
-        self._line.close()
+        self._port.close()

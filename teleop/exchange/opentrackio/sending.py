@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import ctypes
 import platform
 import sys
@@ -12,10 +11,9 @@ from importlib.metadata import version
 from typing import Any
 
 from teleop.config.exchange.opentrackio import OpenTrackIOSection
-from teleop.exchange.attitude import AttitudeFeed
+from teleop.exchange.attitude import Attitude, AttitudeFeed
 from teleop.exchange.opentrackio.packets import CBOR, HEADER, JSON, packets
 from teleop.exchange.opentrackio.sample import Moment, Pose, Source, encoded, identity, sample
-from teleop.exchange.pace import slots
 from teleop.exchange.served import Served
 from teleop.exchange.udp import UdpSender, udp_sender
 
@@ -35,14 +33,12 @@ async def send(section: OpenTrackIOSection, to: str, served: Served) -> None:
     )
     samples = Samples(section, served.rig.name, sender)
     x, y, z = section.position
+
+    def pass_on(instant: float, at: Attitude) -> None:
+        samples.send(instant, Pose(x, y, z, at.pan, at.tilt, at.roll), at.focus, _status(feed.state))
+
     try:
-        async with asyncio.TaskGroup() as tasks:
-            tasks.create_task(feed.watch())
-            async for due in slots(section.rate):
-                instant = due - section.latency
-                if (at := feed.at(instant)) is not None:
-                    pose = Pose(x, y, z, at.pan, at.tilt, at.roll)
-                    samples.send(instant, pose, at.focus, _status(feed.state))
+        await feed.each(section.rate, pass_on)
     finally:
         sender.close()
 
