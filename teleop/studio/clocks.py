@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 MOST_DOUBT = 0.005  # s, above which nothing is started together
 DRIFT = 1e-4  # s of doubt that each s adds: twice what two cheap quartzes drift apart
-_UNSYNCHRONIZED = 0x40  # STA_UNSYNC of adjtimex(2)
+_FAILED, _ERROR = -1, 5  # what adjtimex(2) answers for no clock, and for one that is set by no other: TIME_ERROR
 
 
 class Offset(NamedTuple):
@@ -63,7 +63,6 @@ class _Timex(ctypes.Structure):
         ("freq", ctypes.c_long),
         ("maxerror", ctypes.c_long),
         ("esterror", ctypes.c_long),
-        ("status", ctypes.c_int),
         ("rest", ctypes.c_byte * 256),
     )
 
@@ -77,6 +76,4 @@ def clock_error() -> float | None:
         state = ctypes.CDLL(None).adjtimex(ctypes.byref(found))
     except (OSError, AttributeError):
         return None
-    if state < 0 or found.status & _UNSYNCHRONIZED:
-        return None
-    return found.maxerror / 1e6
+    return None if state in (_FAILED, _ERROR) else found.maxerror / 1e6

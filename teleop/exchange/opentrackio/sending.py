@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import ctypes
 import platform
-import sys
 import time
 from collections.abc import Mapping
 from importlib.metadata import version
@@ -16,10 +14,9 @@ from teleop.exchange.opentrackio.packets import CBOR, HEADER, JSON, packets
 from teleop.exchange.opentrackio.sample import Moment, Pose, Source, encoded, identity, sample
 from teleop.exchange.served import Served
 from teleop.exchange.udp import UdpSender, udp_sender
+from teleop.studio.clocks import clock_error
 
 STATIC = 2.0  # s between two samples with what does not change
-UNSYNCHRONIZED = 5  # what adjtimex answers of a clock that is set by no other: TIME_ERROR
-TIMEX = 512  # bytes, more than struct timex has
 
 
 async def send(section: OpenTrackIOSection, to: str, served: Served) -> None:
@@ -61,7 +58,7 @@ class Samples:
         """`instant` is by the monotonic clock, in s."""
         with_static = instant - self._static_at >= STATIC
         if with_static:
-            self._static_at, self._locked = instant, _clock_is_set()
+            self._static_at, self._locked = instant, clock_error() is not None
         moment = Moment(instant + time.time() - time.monotonic(), self._number, self._locked)
         data = encoded(sample(self._source, moment, pose, focus, status, with_static), self._encoding)
         for packet in packets(data, self._encoding, self._packet, self._room):
@@ -72,13 +69,3 @@ class Samples:
 
 def _status(state: Mapping[str, Any]) -> str:
     return "stopped" if state.get("stopped") else "measured"
-
-
-def _clock_is_set() -> bool:
-    """Whether the kernel counts this computer's clock as synchronized, by NTP or PTP; False where that is unknown."""
-    if sys.platform != "linux":
-        return False
-    try:
-        return ctypes.CDLL(None).adjtimex(ctypes.create_string_buffer(TIMEX)) not in (-1, UNSYNCHRONIZED)
-    except (OSError, AttributeError):
-        return False
