@@ -9,21 +9,17 @@ from pydantic import AfterValidator, Field
 from teleop.config.documents.base_model import Section
 from teleop.config.documents.messages import shown
 from teleop.config.exchange.address import Allowed, address
+from teleop.config.exchange.serial_place import SERIAL, SerialPlace, serial_place
 
-TCP, SERIAL = "tcp:", "serial:"
+TCP = "tcp:"
 BAUD = 57600
 
 
-def serial_line(listen: str) -> tuple[str, int] | None:
-    """The device and its baud rate, where `listen` is a serial line. Raises ValueError."""
+def serial_line(listen: str) -> SerialPlace | None:
+    """The device and its speed, where `listen` is a serial line. Raises ValueError."""
     if not listen.startswith(SERIAL):
         return None
-    device, at, baud = listen.removeprefix(SERIAL).rpartition("@")
-    if not at:
-        device, baud = baud, str(BAUD)
-    if not (device and device.isprintable() and baud.isascii() and baud.isdigit() and 0 < int(baud) <= 4_000_000):
-        raise ValueError(f"must be serial:DEVICE@BAUD, as in serial:/dev/ttyUSB0@{BAUD}, not {shown(listen)}")
-    return device, int(baud)
+    return serial_place(listen, BAUD)
 
 
 def _checked(listen: str) -> str:

@@ -8,35 +8,19 @@ from typing import Annotated, Literal, NamedTuple
 from pydantic import AfterValidator, Field
 
 from teleop.config.documents.base_model import Section
-from teleop.config.documents.messages import shown
 from teleop.config.exchange.address import address
+from teleop.config.exchange.serial_place import SERIAL, serial_place
 from teleop.config.exchange.tracking import TrackingSection
 
-SERIAL = "serial:"
 BAUD = 38400  # of FreeD on a serial line, with 8 bits, odd parity and one stop bit
 
 Raw = Annotated[int, Field(ge=0, le=0xFFFFFF)]
 Ends = Annotated[list[Raw], Field(min_length=2, max_length=2)]
 
 
-class SerialPlace(NamedTuple):
-    """A serial line: its device, and its speed in baud."""
-
-    device: str
-    baud: int
-
-
-def serial_place(text: str) -> SerialPlace:
-    """The line that `serial:DEVICE` or `serial:DEVICE@BAUD` is. Raises ValueError."""
-    device, at, baud = text.removeprefix(SERIAL).partition("@")
-    if not device or (at and not (baud.isascii() and baud.isdigit() and 0 < int(baud) <= 4_000_000)):
-        raise ValueError(f"must be serial:DEVICE or serial:DEVICE@BAUD, not {shown(text)}")
-    return SerialPlace(device, int(baud) if at else BAUD)
-
-
 def _to(text: str) -> str:
     if text.startswith(SERIAL):
-        serial_place(text)
+        serial_place(text, BAUD)
     elif address(text).port == 0:
         raise ValueError("must have the receiver's port, not 0")
     return text

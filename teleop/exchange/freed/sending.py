@@ -6,7 +6,8 @@ from typing import Protocol
 
 import serial
 
-from teleop.config.exchange.freed import RECEIVERS, SERIAL, FreeDSection, serial_place
+from teleop.config.exchange.freed import BAUD, RECEIVERS, FreeDSection
+from teleop.config.exchange.serial_place import SERIAL, serial_place
 from teleop.core.errors import TeleopError
 from teleop.exchange.attitude import Attitude, AttitudeFeed
 from teleop.exchange.freed.codec import D1, LENGTH, encode
@@ -34,7 +35,7 @@ async def send(section: FreeDSection, to: str, served: Served) -> None:
     rate = section.rate
     if to.startswith(SERIAL):
         sender: Sender = SerialSender(to)
-        rate = min(rate, int(serial_place(to).baud / (BITS * LENGTH)))
+        rate = min(rate, int(serial_place(to, BAUD).baud / (BITS * LENGTH)))
     else:
         sender = await udp_sender(to, name, served.notify)
     served.notify(
@@ -79,7 +80,7 @@ class SerialSender:
     """Raises TeleopError for a line that cannot be opened; what does not fit into its buffer is left out."""
 
     def __init__(self, to: str) -> None:
-        self._device, baud = serial_place(to)
+        self._device, baud = serial_place(to, BAUD)
         try:
             self._port = SerialPort(self._device, baud, serial.PARITY_ODD, most_waiting=2 * LENGTH - 1)
         except (OSError, ValueError) as error:
