@@ -10,15 +10,13 @@ from pydantic import AfterValidator, Field, model_validator
 
 from teleop.config.documents.base_model import Finite, Section
 from teleop.config.documents.messages import shown
+from teleop.config.exchange.presses import PRESSES
 
 MidiApi = Literal["auto", "alsa", "jack", "coremidi", "winmm"]
 MidiAxis = Literal["pan", "tilt", "roll", "focus"]
 HIGHEST = 127
 FINE = 31  # the highest controller that has a second one, 32 above it, for its lower bits
-WORDS = (
-    *("stop", "clear", "record", "stop_recording", "shutter", "pause", "resume", "abort", "recenter"),
-    *("set_key", "clear_keys", "next_key", "previous_key", "to_start"),
-)
+WORDS = ("stop", *PRESSES)
 _CONTROL = re.compile(r"(note|cc14|cc|bend)(?: (\d{1,3}))?(?: ch (\d{1,2}))?")
 _PRESS = re.compile(r"(preset|store|range) (\d{1,3})|(play) ([\w][\w. -]{0,119})")
 

@@ -15,6 +15,7 @@ from teleop.config.frame_rates import drops, is_dropped, whole_rate
 RATES = (23.976, 24.0, 25.0, 29.97, 30.0)
 _LABEL = re.compile(r"([01]\d|2[0-3]):([0-5]\d):([0-5]\d)([:;])([0-2]\d)")
 _DEVICE = re.compile(r"(alsa|pipe):(\S.*)")
+MoveName = Annotated[str, Field(min_length=1, max_length=120, pattern=r"^\w[\w. -]*$")]
 
 
 def _rate(value: Any) -> Any:
@@ -53,9 +54,9 @@ class TimecodeSection(Section):
     """A move that follows MIDI timecode or LTC, or starts with it. This is no genlock."""
     source: Literal["mtc", "ltc"]
     """MIDI timecode, or LTC, which is sound."""
-    chase: Annotated[str, Field(min_length=1, max_length=120, pattern=r"^\w[\w. -]*$")] | None = None
+    chase: MoveName | None = None
     """The move that follows the timecode, by its name."""
-    start: Annotated[str, Field(min_length=1, max_length=120, pattern=r"^\w[\w. -]*$")] | None = None
+    start: MoveName | None = None
     """The move that starts with the timecode, and goes on by this computer's clock."""
     at: Annotated[str, AfterValidator(_checked_label)] = "00:00:00:00"
     """The timecode at which the move begins."""

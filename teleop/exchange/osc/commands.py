@@ -9,16 +9,12 @@ import math
 from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
+from teleop.config.exchange.presses import PRESSES
 from teleop.core.axes import Axis
 from teleop.links.osc_packets import Argument, Message
 
 ROOT = "/teleop/"
 STOP = {"do": "stop"}
-PRESSES = (
-    *("clear", "record", "stop_recording", "shutter", "pause", "resume", "abort", "recenter"),
-    *("set_key", "clear_keys", "next_key", "previous_key", "to_start"),
-)
-"""Commands that need nothing but a press: `/teleop/record` and so on."""
 QUIET = ("alive", "state")
 """Messages that ask for nothing of the rig."""
 UNATTENDED = "unattended"
@@ -44,7 +40,7 @@ def command(message: Message, axes: Collection[Axis]) -> Command | None:
         return STOP
     if (name in QUIET and not parts) or _released(name, message.arguments):
         return None
-    if name in PRESSES and not parts:
+    if name in PRESSES and not parts:  # `/teleop/record` and so on
         return {"do": name}
     if (make := MAKERS.get(name)) is None:
         raise Invalid(f"{message.address[:60]}: there is no such message")

@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from teleop.config.exchange.presses import PRESSES
 from teleop.core.axes import Axis
 from teleop.door.messages import checked
-from teleop.exchange.osc.commands import PRESSES, Invalid, command
+from teleop.exchange.osc.commands import Invalid, command
 from teleop.links.osc_packets import Message
 
 AXES = (Axis.PAN, Axis.TILT, Axis.FOCUS)
