@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from teleop.studio.wire import ALIVES, EVENTS, STATES
+
 BOTH = ["ingress", "egress"]
-SEEN = ["teleop/*/state", "teleop/*/event"]
+SEEN = [STATES, EVENTS]
 ASKED_BY_ALL = ["teleop/*/command/stop", "teleop/*/command/clock"]
-ALIVE = ["teleop/*/alive"]
+ALIVE = [ALIVES]
 OPERATED = ["teleop/*/command/**", "teleop/*/stick", "teleop/*/alive/*"]
 EVERYTHING = [
     "put",

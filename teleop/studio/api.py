@@ -17,7 +17,6 @@ from teleop.studio.fleet import Fleet
 from teleop.studio.stopping import PATIENCE, stop
 
 ANSWER = 60.0  # s for an action that is waited for
-TITLE = "move"
 
 
 class Rigs:

@@ -52,20 +52,25 @@ class Credentials:
             self.members = read_document(folder / found.access).check(AccessFile).members
 
     def tls(self) -> dict[str, Any]:
-        """Zenoh's settings of TLS: both sides show a certificate of the fleet's own authority."""
-        return {
-            "root_ca_certificate": self._ca,
-            "enable_mtls": True,
-            "verify_name_on_connect": False,  # addresses of rigs change; the authority signs members only
-            "listen_certificate": self._certificate,
-            "listen_private_key": self._key,
-            "connect_certificate": self._certificate,
-            "connect_private_key": self._key,
-        }
+        """Zenoh's settings of TLS."""
+        return tls_settings(self._ca, self._certificate, self._key)
 
     def access(self) -> dict[str, Any]:
         """Zenoh's access control for this member's own session."""
         return access_control(self.members)
+
+
+def tls_settings(ca: str, certificate: str, key: str) -> dict[str, Any]:
+    """Zenoh's for files (PEM): both sides show a certificate of the fleet's own authority."""
+    return {
+        "root_ca_certificate": ca,
+        "enable_mtls": True,
+        "verify_name_on_connect": False,  # addresses of rigs change; the authority signs members only
+        "listen_certificate": certificate,
+        "listen_private_key": key,
+        "connect_certificate": certificate,
+        "connect_private_key": key,
+    }
 
 
 def load(file: str) -> Credentials:

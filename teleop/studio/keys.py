@@ -16,7 +16,8 @@ import yaml
 from teleop.config.documents.yaml_loader import read_document
 from teleop.core.errors import UsageError
 from teleop.studio.access import access_control
-from teleop.studio.credentials import AccessFile, Role
+from teleop.studio.credentials import AccessFile, Role, tls_settings
+from teleop.studio.transport import KEEP_ALIVES, LEASE
 
 if TYPE_CHECKING:
     from cryptography import x509
@@ -115,14 +116,8 @@ def router_settings(name: str, members: dict[str, Role]) -> str:
         "transport": {
             "link": {
                 "protocols": ["tls"],
-                "tx": {"lease": 400, "keep_alive": 4},
-                "tls": {
-                    "root_ca_certificate": f"{AUTHORITY}.pem",
-                    "enable_mtls": True,
-                    "verify_name_on_connect": False,
-                    **{f"{way}_certificate": f"{name}.pem" for way in ("listen", "connect")},
-                    **{f"{way}_private_key": f"{name}.key" for way in ("listen", "connect")},
-                },
+                "tx": {"lease": LEASE, "keep_alive": KEEP_ALIVES},
+                "tls": tls_settings(f"{AUTHORITY}.pem", f"{name}.pem", f"{name}.key"),
             }
         },
         "access_control": access,
