@@ -15,7 +15,8 @@ import threading
 from contextlib import suppress
 
 from teleop.core.errors import TeleopError
-from teleop.gateway.discovery import Announcement, addresses_of, announced
+from teleop.gateway.discovery import Announcement, announced
+from teleop.gateway.own_addresses import addresses_of
 
 LOOK = 5.0  # s between two looks at the addresses of this computer
 LEAVING = 0.45  # s for the goodbye; all three of its messages take 0.25 s

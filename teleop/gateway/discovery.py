@@ -7,7 +7,6 @@ interface), and in a fleet `zenoh`: where operators connect, as in `tls/192.168.
 from __future__ import annotations
 
 import asyncio
-import ipaddress
 import secrets
 import socket
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
@@ -17,6 +16,7 @@ from typing import Any, NamedTuple, Self
 
 from teleop.config.exchange.endpoint import endpoint
 from teleop.core.errors import TeleopError
+from teleop.gateway.own_addresses import ANY, addresses_of
 
 SERVICE = "_teleop._tcp.local."
 API = "/api"
@@ -27,7 +27,6 @@ QUIET = 1.3  # s to listen for others of a name: what was told is not told again
 MOST_OF_A_NAME = 100
 SRV, INTERNET = 33, 1  # a type and a class of DNS
 ANSWERS = 1.0  # s that one rig has to say where it is
-ANY = ("0.0.0.0", "::")
 
 
 @dataclass(frozen=True)
@@ -74,22 +73,6 @@ class Found(NamedTuple):
     def endpoints(self) -> list[str]:
         """Where a fleet connects to it; what makes no sense is left out."""
         return [text for text in self.text.get(ZENOH, "").split() if _is_endpoint(text)]
-
-
-def addresses_of(host: str) -> list[str]:
-    """Where others reach what listens at `host`: for every address (0.0.0.0, ::) those of this computer."""
-    import ifaddr
-
-    if host not in ANY:
-        return [host]
-    found = []
-    for adapter in ifaddr.get_adapters():
-        for each in adapter.ips:
-            text = each.ip if isinstance(each.ip, str) else each.ip[0]
-            number = ipaddress.ip_address(text)
-            if not number.is_loopback and (number.version == 4 or (host == "::" and not number.is_link_local)):
-                found.append(text)
-    return sorted(found, key=lambda text: ":" in text)
 
 
 @asynccontextmanager

@@ -10,7 +10,8 @@ import sys
 import pytest
 
 from teleop.gateway import discovery
-from teleop.gateway.discovery import Announcement, addresses_of, announced, browse
+from teleop.gateway.discovery import Announcement, announced, browse
+from teleop.gateway.own_addresses import addresses_of
 
 LOOPBACK = "127.0.0.1"
 

@@ -22,16 +22,18 @@ def discovered(tls: bool) -> list[str]:
     import asyncio
 
     from teleop.gateway.discovery import browse
+    from teleop.gateway.own_addresses import own_interfaces
 
     try:
         found = [each for each in asyncio.run(browse()) if each.endpoints]
+        networks = [each.network for each in own_interfaces()]
     except ImportError:
         raise UsageError(MISSING) from None
     except TeleopError as error:
         raise UsageError(f"{error}: {NAME_THEM}") from None
     if not found:
         raise UsageError(NONE)
-    chosen = [best(each, "tls/" if tls else "tcp/", own_networks()) for each in found]
+    chosen = [best(each, "tls/" if tls else "tcp/", networks) for each in found]
     if usable := sorted({each for each in chosen if each}):
         return usable
     names = ", ".join(sorted({each.rig for each in found})[:20])
@@ -52,14 +54,3 @@ def best(rig: Found, begins: str, networks: Sequence[Network]) -> str:
             if any(address in network for network in networks):
                 return text
     return usable[0] if usable else ""
-
-
-def own_networks() -> list[Network]:
-    import ifaddr
-
-    found: list[Network] = []
-    for adapter in ifaddr.get_adapters():
-        for each in adapter.ips:
-            text = each.ip if isinstance(each.ip, str) else each.ip[0]
-            found.append(ipaddress.ip_network(f"{text}/{each.network_prefix}", strict=False))
-    return found
