@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Sequence
-from time import monotonic
+from time import monotonic, sleep
 
 from teleop.studio.fleet import Fleet
 
@@ -34,7 +34,7 @@ def stop(fleet: Fleet, names: Sequence[str] | None = None, patience: float = PAT
                 with lock:
                     left.discard(name)
                 return
-            fleet.until(lambda: False, max(0.0, AGAIN - (monotonic() - sent)))
+            sleep(max(0.0, AGAIN - (monotonic() - sent)))
 
     threads = [threading.Thread(target=until_stopped, args=(name,), daemon=True) for name in chosen]
     for thread in threads:

@@ -112,8 +112,6 @@ def _announce(found: CommonStart, attended: bool, as_json: bool) -> None:
 
 def _attend(fleet: Fleet, names: Sequence[str], found: CommonStart) -> int:
     """Until every move is over; 1 where a rig was lost meanwhile or was stopped."""
-    from time import monotonic
-
     failed = dict.fromkeys(names, "")
     left = set(names)
     while left:
@@ -123,9 +121,9 @@ def _attend(fleet: Fleet, names: Sequence[str], found: CommonStart) -> int:
             if not rig.alive or rig.stopped:
                 failed[name] = "is stopped" if rig.stopped else "is lost"
                 left.discard(name)
-            elif monotonic() > found.moment and not rig.state.get("move"):
+            elif time.monotonic() > found.moment and not rig.state.get("move"):
                 left.discard(name)
-        fleet.until(lambda: False, ALIVE_EVERY)
+        time.sleep(ALIVE_EVERY)
     for name in [name for name in names if failed[name]]:
         complain(f"teleop: {name} {failed[name]}")
     return 1 if any(failed.values()) else 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from time import monotonic
+from time import monotonic, sleep
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
@@ -82,7 +82,7 @@ def _turn(stack: ExitStack, fleet: Fleet, sticks: RigSticks, name: str, lines: l
         if due - shown > EVERY:
             shown = due
             show()
-        fleet.until(lambda: False, max(0.0, due - monotonic()))
+        sleep(max(0.0, due - monotonic()))
 
 
 def _shown(stack: ExitStack, fleet: Fleet, sticks: RigSticks, name: str, lines: list[str]) -> Callable[[], object]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from time import monotonic, sleep
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
@@ -48,13 +49,11 @@ def _lines(fleet: Fleet) -> int:
     """A line a second, until it is interrupted."""
     while True:
         _print(fleet, True)
-        fleet.until(lambda: False, EVERY_LINE)
+        sleep(EVERY_LINE)
         fleet.measure_clocks()
 
 
 def _live(fleet: Fleet) -> int:
-    from time import monotonic
-
     from rich.live import Live
 
     from teleop.cli.screens.fleet_rows import fleet_table as drawn
@@ -62,7 +61,7 @@ def _live(fleet: Fleet) -> int:
     measured = monotonic()
     with Live(drawn(fleet.rigs, fleet.problems), auto_refresh=False, screen=False) as live:
         while True:
-            fleet.until(lambda: False, EVERY)
+            sleep(EVERY)
             if monotonic() - measured > CLOCKS_EVERY:
                 measured = monotonic()
                 fleet.measure_clocks()
