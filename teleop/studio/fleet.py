@@ -170,11 +170,16 @@ class Fleet:
     def measure_clocks(self, names: Sequence[str] | None = None) -> None:
         """Of all that are alive, side by side."""
         chosen = [rig.name for rig in self.rigs if rig.alive] if names is None else names
-        threads = [threading.Thread(target=self.measure_clock, args=(name,), daemon=True) for name in chosen]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
+        side_by_side(chosen, self.measure_clock)
+
+
+def side_by_side(names: Sequence[str], work: Callable[[str], object]) -> None:
+    """`work` for each name, in a thread of its own, until all are done."""
+    threads = [threading.Thread(target=work, args=(name,), daemon=True) for name in names]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
 
 
 def operator_name() -> str:

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Sequence
 from time import monotonic, sleep
 
-from teleop.studio.fleet import Fleet
+from teleop.studio.fleet import Fleet, side_by_side
 
 PATIENCE = 5.0  # s, after which a rig counts as not reached
 AGAIN = 0.1  # s between two sendings
@@ -36,9 +36,5 @@ def stop(fleet: Fleet, names: Sequence[str] | None = None, patience: float = PAT
                 return
             sleep(max(0.0, AGAIN - (monotonic() - sent)))
 
-    threads = [threading.Thread(target=until_stopped, args=(name,), daemon=True) for name in chosen]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    side_by_side(chosen, until_stopped)
     return [name for name in chosen if name in left]
