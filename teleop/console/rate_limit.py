@@ -5,28 +5,10 @@ from __future__ import annotations
 import ipaddress
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from teleop.gateway.bucket import Bucket
 
 MOST_CLIENTS = 1000  # buckets: those of the clients that asked last
-
-
-@dataclass
-class Bucket:
-    """May be taken from `burst` times at once, and `rate` times a second in the long run."""
-
-    rate: float
-    burst: float
-    level: float
-    at: float
-
-    def take(self, now: float) -> bool:
-        """Whether there was something left at `now` (s)."""
-        self.level = min(self.burst, self.level + (now - self.at) * self.rate)
-        self.at = now
-        if self.level < 1:
-            return False
-        self.level -= 1
-        return True
 
 
 class RateLimit:

@@ -20,9 +20,9 @@ from teleop.console.door import Door
 from teleop.console.json_body import MOST_BYTES, Refusal, parse_object
 from teleop.console.merge_patch import changes
 from teleop.console.moves import MoveRoutes
-from teleop.console.rate_limit import Bucket
 from teleop.console.settings import Role
 from teleop.console.stopping import stop
+from teleop.gateway.bucket import Bucket
 
 STATE_PERIOD = 1 / 30  # s from one state to the next
 LONGEST_SEND = 5.0  # s that a client may take nothing

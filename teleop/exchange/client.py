@@ -14,6 +14,7 @@ from time import monotonic
 from typing import Any, Protocol
 
 from teleop.config.exchange.address import is_allowed
+from teleop.gateway.bucket import Bucket
 
 RATE = 100.0  # commands per second of one peer
 BURST = 50  # that may come at once
@@ -47,7 +48,7 @@ class Client:
     def __init__(self, door: Door, name: str, refused: Refused, allowed: bool = True) -> None:
         self._door, self.name, self._refused, self.allowed = door, name[:40], refused, allowed
         self.session = f"{name.split(' ')[0].lower()}-{secrets.token_hex(8)}"
-        self._left, self._counted = float(BURST), monotonic()
+        self._bucket = Bucket(RATE, BURST, BURST, monotonic())
         self._unanswered = 0
         self._said = -SAID_AGAIN
         self._newest: dict[str, Command | None] = {}  # by fader: one under way, and the one that follows
@@ -109,12 +110,8 @@ class Client:
     def _why_not(self) -> str:
         if not self.allowed:
             return f"{self.name} may only stop: its address is not in allow of the rig's profile"
-        now = monotonic()
-        self._left = min(float(BURST), self._left + (now - self._counted) * RATE)
-        self._counted = now
-        if self._left < 1 or self._unanswered >= UNANSWERED:
+        if self._unanswered >= UNANSWERED or not self._bucket.take(monotonic()):
             return f"too many commands: at most {RATE:g} in a second"
-        self._left -= 1
         return ""
 
     async def _answered(self, command: Command) -> dict[str, Any]:

@@ -143,7 +143,7 @@ def dfmoco_hunt(count: int, seed: int = 1) -> int:
         for _ in range(count):
             data = dfmoco_bytes(chance)
             since = (since + data)[-200_000:]
-            before, client._left = len(door.commands), 50.0  # it is never too many
+            before, client._bucket.level = len(door.commands), 50.0  # it is never too many
             for line in reader.feed(data):
                 answers = await controller.do(client, line)
                 assert all(re.fullmatch(r"[ -~]+", answer) for answer in answers), data

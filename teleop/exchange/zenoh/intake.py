@@ -10,6 +10,8 @@ from contextlib import suppress
 from time import monotonic
 from typing import Any
 
+from teleop.gateway.bucket import Bucket
+
 
 class Intake:
     """`handle` gets each item in the event loop. At most `most` wait, and `rate` a second are taken; others are
@@ -18,22 +20,19 @@ class Intake:
     def __init__(
         self, loop: asyncio.AbstractEventLoop, handle: Callable[[Any], object], most: int, rate: float
     ) -> None:
-        self._loop, self._handle, self._most, self._rate = loop, handle, most, rate
+        self._loop, self._handle, self._most = loop, handle, most
         self._items: deque[Any] = deque()
         self._lock = threading.Lock()
-        self._left, self._at = float(most), monotonic()
+        self._bucket = Bucket(rate, most, most, monotonic())
         self._woken = False
         self.dropped = 0
 
     def offer(self, item: Any) -> bool:
         """Whether it is taken; from any thread."""
         with self._lock:
-            now = monotonic()
-            self._left, self._at = min(float(self._most), self._left + (now - self._at) * self._rate), now
-            if self._left < 1 or len(self._items) >= self._most:
+            if len(self._items) >= self._most or not self._bucket.take(monotonic()):
                 self.dropped += 1
                 return False
-            self._left -= 1
             self._items.append(item)
             if self._woken:
                 return True
