@@ -148,7 +148,7 @@ class Controller:
             self._client.newest(goto)
         for axis, jog in self._surface.jogs().items():
             if axis in self._jogging:
-                self._surface.turned_back(axis, jog["by"])
+                self._surface.turned(axis, jog["by"])
             else:
                 self._jogging[axis] = self._loop.create_task(self._jog(axis, jog))
         if now - self._stepped >= STEP - EARLY:

@@ -33,9 +33,6 @@ class Sprung:
         """The controller has said that it is there."""
         self._sensed = now
 
-    def lost(self) -> None:
-        self.late = bool(self._value)
-
     def deflection(self, now: float) -> float:
         """-1..1 at `now`."""
         if self._value and now - self._moved > REPEATS and now - self._sensed > SENSING:

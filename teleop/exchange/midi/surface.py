@@ -77,7 +77,8 @@ class Surface:
         if at in self.presses:
             return self._pressed(at, value)
         if at in self._jogs:
-            self._turned(self._jogs[at], value)
+            each = self._jogs[at]
+            self.turned(str(each.jog), clicks(value, each.clicks) * each.step)
         elif at in self._sprung:
             self._sprung[at][1].moved(value, now)
         else:
@@ -89,11 +90,6 @@ class Surface:
         down = value > 0 if at.kind == "note" else value >= PUSHED
         (self._down.add if down else self._down.discard)(at)
         return self.presses[at] if down and (at.kind == "note" or not before) else None
-
-    def _turned(self, wheel: MidiControl, value: int) -> None:
-        axis = str(wheel.jog)
-        by = self._clicks.get(axis, 0.0) + clicks(value, wheel.clicks) * wheel.step
-        self._clicks[axis] = min(max(by, -MOST_JOG), MOST_JOG)
 
     def _faded(self, at: Control, value: int, now: float) -> None:
         if (fader := self._lower.get(at)) is not None:
@@ -143,8 +139,8 @@ class Surface:
         turned, self._clicks = self._clicks, {}
         return {axis: {"do": "jog", "axis": axis, "by": by, "within": JOG_TIME} for axis, by in turned.items() if by}
 
-    def turned_back(self, axis: str, by: float) -> None:
-        """Clicks that could not be passed on yet."""
+    def turned(self, axis: str, by: float) -> None:
+        """Clicks that are to be passed on, by how far they move the axis."""
         self._clicks[axis] = min(max(self._clicks.get(axis, 0.0) + by, -MOST_JOG), MOST_JOG)
 
     def deflections(self, now: float) -> Mapping[str, float]:

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from teleop.config.exchange.timecode import TimecodeSection
 from teleop.exchange.timecode.ltc import LtcDecoder
-from teleop.exchange.timecode.mtc import MtcDecoder
+from teleop.exchange.timecode.mtc import QUARTER, MtcDecoder
 from teleop.exchange.timecode.sound import SampleClock, Sound
 from teleop.exchange.timecode.tracker import Tracker
 from teleop.links.midi_ports import MidiPort
@@ -40,7 +40,7 @@ class MtcInput:
         self._port = MidiPort(section.port, "", section.api, section.virtual, self._hear, listens_only=True)
 
     def _hear(self, data: Sequence[int]) -> None:
-        if data and data[0] == 0xF1:
+        if data and data[0] == QUARTER:
             self._heard.append((monotonic(), data))
 
     def understand(self, tracker: Tracker) -> None:

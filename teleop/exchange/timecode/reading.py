@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from teleop.config.frame_rates import DROPPED, frame_of, is_dropped
+from teleop.config.frame_rates import DROPPED, exact, frame_of, is_dropped
 
 Label = tuple[int, int, int, int]
 HOURS = 24
@@ -52,8 +52,6 @@ def wrapped(frames: float, whole: int, drop: bool) -> float:
 
 def exact_fps(rate: float | None, whole: int, drop: bool) -> Fraction:
     """Frames per second: as the profile says, or as the code does."""
-    from teleop.config.frame_rates import exact
-
     if rate is not None:
         return exact(rate)
     return Fraction(30000, 1001) if drop else Fraction(whole)
