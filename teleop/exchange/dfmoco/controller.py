@@ -1,61 +1,35 @@
 """What each command of DFMoco does with the rig, and its answer, word for word as the maker's firmware gives it.
 
-The motors are one device, whoever is connected. Each motor has a way and a rate of its own: together they are one way
-of the door, with a speed for each axis. What the rig refuses stays where it is, and the answer is its position.
+The motors are one device, whoever is connected. What the rig refuses stays where it is, and the answer is its position.
 """
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
-from teleop.core.axes import Axis
 from teleop.exchange.client import Client
 from teleop.exchange.dfmoco.exposure import Exposure, exposure_of
 from teleop.exchange.dfmoco.lines import PARSE_ERROR, Line
 from teleop.exchange.dfmoco.motors import Motor
+from teleop.exchange.dfmoco.ways import EXPOSING, INCHING, JOGGING, Goal, Ways
 from teleop.exchange.served import Served
 
 VERSION = "2.0.0"
 FULL = 10_000  # of a jog: all of its motor's rate
 INCH = 2  # steps
 RAMP_MS = 1000  # from `go` to the exposure
-JOGGING, INCHING, EXPOSING = "jog", "inch", "exposure"
 Numbers = tuple[int, ...]
 Answers = Sequence[str]
-
-
-class Goal(NamedTuple):
-    """Where an axis goes, and at most how fast, in units; `kind` is "" for a plain move."""
-
-    place: float
-    speed: float
-    kind: str = ""
-
-
-@dataclass
-class Way:
-    """What moves for a client: `number` is the action at the door."""
-
-    client: Client
-    number: int
-    goals: Mapping[Axis, Goal]
 
 
 class Controller:
     """`notify` gets why the rig has refused something."""
 
     def __init__(self, served: Served, motors: Sequence[Motor], notify: Callable[[str], object]) -> None:
-        self._door, self._limits, self._notify = served.door, served.rig.limits, notify
-        self.motors = motors
-        self._way: Way | None = None
+        self._door, self._limits = served.door, served.rig.limits
+        self.motors, self._ways = motors, Ways(motors, notify)
         self._exposure: Exposure | None = None
-        self.reported: set[Motor] = set()  # whose position is due once more, though they rest
-        self._moved: set[Motor] = set()
-        self._said = ""
-        self._tasks: set[asyncio.Task[None]] = set()
         self._commands: Mapping[str, Callable[[Client, Numbers], Any]] = {
             "mm": self._move,
             "mp": self._ask,
@@ -74,13 +48,7 @@ class Controller:
         state = self._door.state()
         for motor in self.motors:
             motor.update(state)
-        moving = {motor for motor in self.motors if self.is_moving(motor)}
-        self.reported |= self._moved - moving
-        self._moved = moving
-
-    def is_moving(self, motor: Motor) -> bool:
-        goal = self._way.goals.get(motor.axis) if self._way is not None else None
-        return bool(motor.speed) or (goal is not None and (goal.kind == EXPOSING or not motor.is_at(goal.place)))
+        self._ways.look()
 
     @property
     def knows(self) -> bool:
@@ -90,8 +58,8 @@ class Controller:
     def due(self) -> Answers:
         """What is sent unasked, twice a second: the positions of what moves, and of what has come to rest since."""
         self.look()
-        found = [motor for motor in self.motors if motor in self.reported or self.is_moving(motor)]
-        self.reported.clear()
+        found = [motor for motor in self.motors if motor in self._ways.reported or self._ways.is_moving(motor)]
+        self._ways.reported.clear()
         return [self._at(motor) for motor in found] if self.knows else ()
 
     # --- commands
@@ -103,9 +71,9 @@ class Controller:
             case "hi":
                 return [f"hi 2 {len(self.motors)} {VERSION}"]
             case "ms":
-                return [f"ms {''.join(str(int(self.is_moving(motor))) for motor in self.motors)}"]
+                return [f"ms {''.join(str(int(self._ways.is_moving(motor))) for motor in self.motors)}"]
             case "sa":
-                await self._stop_all(client)
+                await self._ways.stop_all(client)
                 return ["sa"]
             case _ if line.numbers is None:
                 return [PARSE_ERROR]
@@ -130,9 +98,9 @@ class Controller:
 
     async def _move(self, client: Client, numbers: Numbers) -> Answers:
         motor = self.motors[numbers[0] - 1]
-        if numbers[1] == motor.position and not self.is_moving(motor):
+        if numbers[1] == motor.position and not self._ways.is_moving(motor):
             return [self._at(motor)]
-        if await self._send(client, motor, Goal(motor.target(numbers[1]), motor.fastest)):
+        if await self._ways.send(client, motor, Goal(motor.target(numbers[1]), motor.fastest)):
             return [f"mm {numbers[0]} {numbers[1]}"]
         return [self._at(motor)]
 
@@ -142,26 +110,26 @@ class Controller:
             return [PARSE_ERROR]
         goal = motor.jog(numbers[1], share / FULL)
         if goal is None:
-            await self._stop(motor)
-        elif goal[0] != motor.place or self.is_moving(motor):
-            await self._send(client, motor, Goal(*goal, JOGGING))
+            await self._ways.stop(motor)
+        elif goal[0] != motor.place or self._ways.is_moving(motor):
+            await self._ways.send(client, motor, Goal(*goal, JOGGING))
         return [f"jm {numbers[0]}"]
 
     async def _inch(self, client: Client, numbers: Numbers) -> Answers:
-        motor, goal = self.motors[numbers[0] - 1], self._goal(self.motors[numbers[0] - 1])
+        motor, goal = self.motors[numbers[0] - 1], self._ways.goal(self.motors[numbers[0] - 1])
         goes = goal is not None and goal.kind == INCHING
-        if self.is_moving(motor) and not goes:
-            await self._stop(motor)
+        if self._ways.is_moving(motor) and not goes:
+            await self._ways.stop(motor)
         else:
             start = motor.steps(goal.place) if goes and goal else motor.position
             step = min(max(numbers[1] - start, -INCH), INCH)
             if step:
-                await self._send(client, motor, Goal(motor.target(start + step), motor.fastest, INCHING))
+                await self._ways.send(client, motor, Goal(motor.target(start + step), motor.fastest, INCHING))
         return [f"im {numbers[0]}"]
 
     async def _stop_motor(self, client: Client, numbers: Numbers) -> Answers:  # noqa: ARG002 - everybody may stop
         motor = self.motors[numbers[0] - 1]
-        await self._stop(motor)
+        await self._ways.stop(motor)
         return [f"sm {numbers[0]}", self._at(motor)]
 
     async def _set_rate(self, client: Client, numbers: Numbers) -> Answers:
@@ -171,7 +139,7 @@ class Controller:
         return [f"pr {numbers[0]} {motor.rate}"]
 
     async def _zero(self, client: Client, numbers: Numbers) -> Answers:
-        self.reported.add(self.motors[numbers[0] - 1])
+        self._ways.reported.add(self.motors[numbers[0] - 1])
         return await self._renumber(client, (numbers[0], 0))
 
     async def _renumber(self, client: Client, numbers: Numbers) -> Answers:
@@ -187,7 +155,7 @@ class Controller:
 
     async def _prepare(self, client: Client, numbers: Numbers) -> str:
         """Go to where the exposure begins; a run that the limits do not allow, or that may not begin, is -1."""
-        if any(map(self.is_moving, self.motors)) or len(numbers) < 6 or (len(numbers) - 2) % 4:
+        if any(map(self._ways.is_moving, self.motors)) or len(numbers) < 6 or (len(numbers) - 2) % 4:
             return PARSE_ERROR
         if not client.allowed:
             return self._refused(client, "its address is not in allow of the rig's profile")
@@ -201,112 +169,27 @@ class Controller:
         motors = [motor for motor in self.motors if motor.axis in starts]
         goals = {motor.axis: Goal(starts[motor.axis], motor.fastest) for motor in motors}
         there = all(motor.is_at(starts[motor.axis]) for motor in motors)
-        if not there and not await self._goto(client, goals):
+        if not there and not await self._ways.goto(client, goals):
             return "bf -1"
         self._exposure = exposure
         return f"bf {RAMP_MS}"
 
     def _refused(self, client: Client, why: str) -> str:
-        self._say(f"{client.name}: {why}")
+        self._ways.say(f"{client.name}: {why}")
         return "bf -1"
 
     async def _go(self, client: Client) -> str:
         exposure = self._exposure
-        if exposure is None or any(map(self.is_moving, self.motors)):
+        if exposure is None or any(map(self._ways.is_moving, self.motors)):
             return PARSE_ERROR
         self._exposure = None
         goals = {axis: Goal(start, 0.0, EXPOSING) for axis, start in exposure.starts(self._limits).items()}
-        return "go" if await self._give(client, exposure.command(), goals) else PARSE_ERROR
-
-    # --- ways
-
-    def _goal(self, motor: Motor) -> Goal | None:
-        return None if self._way is None else self._way.goals.get(motor.axis)
-
-    async def _send(self, client: Client, motor: Motor, goal: Goal) -> bool:
-        """One motor there, beside those that are on their way already."""
-        if not motor.reaches(goal.place):
-            missing = motor.limits is None
-            where = "the rig has no such axis" if missing else f"{goal.place:g} is outside the soft limits"
-            self._say(f"{client.name}: {motor.axis}: {where}")
-            return False
-        return await self._goto(client, {**self._going(client, motor), motor.axis: goal})
-
-    def _going(self, client: Client, but: Motor) -> Mapping[Axis, Goal]:
-        """The other motors of that client that are still on their way."""
-        way = self._way
-        if way is None or way.client is not client:
-            return {}
-        others = {each.axis: way.goals[each.axis] for each in self.motors if each is not but and each.axis in way.goals}
-        far = {each.axis for each in self.motors if self.is_moving(each)}
-        return {axis: goal for axis, goal in others.items() if axis in far and goal.kind != EXPOSING}
-
-    async def _goto(self, client: Client, goals: Mapping[Axis, Goal]) -> bool:
-        axes = {axis.value: goal.place for axis, goal in goals.items()}
-        speeds = {axis.value: goal.speed for axis, goal in goals.items()}
-        return await self._give(client, {"do": "goto", "axes": axes, "speeds": speeds}, goals)
-
-    async def _give(self, client: Client, command: Mapping[str, Any], goals: Mapping[Axis, Goal]) -> bool:
-        answer = await client.command(command)
-        if "ok" not in answer:
-            self._say(f"{client.name}: {answer.get('error', '')}")
-            return False
-        self._said = ""
-        way = self._way = Way(client, answer["id"], goals)
-        task = asyncio.get_running_loop().create_task(self._follow(way))
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
-        return True
-
-    async def _follow(self, way: Way) -> None:
-        end = await way.client.finished(way.number)
-        if self._over(way) and (why := end.get("error", "")):
-            self._say(f"{way.client.name}: {why}")
-
-    def _over(self, way: Way) -> bool:
-        """Whether it was the way in hand, which is over: its last positions are due."""
-        if self._way is not way:
-            return False
-        self._way = None
-        self.reported |= {motor for motor in self.motors if motor.axis in way.goals}
-        return True
-
-    # --- stops
-
-    async def _stop(self, motor: Motor) -> None:
-        """This motor comes to rest; the others of its way go on."""
-        way = self._way
-        if way is None or motor.axis not in way.goals:
-            return
-        if others := self._going(way.client, motor):
-            await self._goto(way.client, others)
-        else:
-            await self._abort(way)
-
-    async def _stop_all(self, client: Client) -> None:
-        """What moves for DFMoco comes to rest; what moves for another one is a STOP's to end."""
-        if self._way is not None:
-            await self._abort(self._way)
-        elif any(motor.speed for motor in self.motors):
-            client.stop()
-
-    async def _abort(self, way: Way) -> None:
-        answer = await way.client.command({"do": "abort"})
-        if answer.get("kind") == "lost":
-            way.client.stop()
-        self._over(way)
+        return "go" if await self._ways.give(client, exposure.command(), goals) else PARSE_ERROR
 
     async def gone(self, client: Client) -> None:
         """A jog does not go on without the one who jogs; what is bounded does."""
-        way = self._way
-        if way is not None and way.client is client and any(goal.kind == JOGGING for goal in way.goals.values()):
-            await self._abort(way)
+        await self._ways.end_jog(client)
         client.close()
-
-    def _say(self, why: str) -> None:
-        if why != self._said:
-            self._said = why
-            self._notify(why)
 
 
 COUNTS: Mapping[str, tuple[int, int]] = {
