@@ -13,7 +13,8 @@ import ssl
 from collections.abc import Sequence
 from pathlib import Path
 
-from teleop.console.settings import ConsoleSettings, Role, is_loopback
+from teleop.config.exchange.address import is_loopback
+from teleop.console.settings import ConsoleSettings, Role
 from teleop.core.invitation import Invitation
 
 QUIET = 2  # modules around a QR code: enough for every phone on a dark terminal, and 80x24 has room for it

@@ -10,7 +10,8 @@ from __future__ import annotations
 import socket
 from collections.abc import Mapping
 
-from teleop.console.settings import ConsoleSettings, is_loopback
+from teleop.config.exchange.address import is_loopback
+from teleop.console.settings import ConsoleSettings
 
 DEFAULT_PORTS = {"http": 80, "https": 443}
 

@@ -7,7 +7,6 @@ when the gateway is started again. Nothing here imports a server.
 from __future__ import annotations
 
 import base64
-import ipaddress
 import json
 import pickle
 import secrets
@@ -16,6 +15,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
+from teleop.config.exchange.address import is_loopback
 from teleop.config.exchange.zenoh import ZenohSection
 from teleop.console import DEFAULT_BIND
 from teleop.core.errors import DeviceError, UsageError
@@ -93,16 +93,6 @@ def parse_bind(text: str) -> tuple[str, int]:
     if not (port.isascii() and port.isdigit() and int(port) < 65536):
         raise UsageError(f"--bind {text}: write HOST:PORT, as in {DEFAULT_BIND}; port 0 picks one")
     return host, int(port)
-
-
-def is_loopback(host: str) -> bool:
-    """Whether only this computer can reach the address."""
-    if host == "localhost":
-        return True
-    try:
-        return ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        return False
 
 
 def with_tokens(settings: ConsoleSettings) -> ConsoleSettings:

@@ -12,9 +12,10 @@ from pathlib import Path
 import pytest
 import segno
 
+from teleop.config.exchange.address import is_loopback
 from teleop.console.certificate import with_tls
 from teleop.console.invitation import as_json, fingerprint, invitation, qr_lines, reachable_host, url
-from teleop.console.settings import ConsoleSettings, is_loopback, listen, parse_bind, with_tokens
+from teleop.console.settings import ConsoleSettings, listen, parse_bind, with_tokens
 from teleop.core.errors import DeviceError, UsageError
 
 EVERYWHERE = ConsoleSettings("0.0.0.0", 8470)
