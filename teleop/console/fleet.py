@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from starlette.requests import Request
 from starlette.responses import Response
 
+from teleop.config.exchange.address import Address
 from teleop.config.exchange.endpoint import endpoint
 from teleop.config.exchange.zenoh import ZenohSection
 from teleop.console.answers import answer
@@ -76,5 +77,5 @@ def endpoints(section: ZenohSection) -> list[str]:
     if section.listen and (own := endpoint(section.listen)).address.port:
         host = own.address.host
         host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
-        found.append(f"{own.protocol}/{f'[{host}]' if ':' in host else host}:{own.address.port}")
+        found.append(f"{own.protocol}/{Address(host, own.address.port)}")
     return found
