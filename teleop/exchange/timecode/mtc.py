@@ -8,10 +8,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from teleop.exchange.timecode.reading import Fault, Reading
+from teleop.sequence.triggers.midi_timecode import DROP, PIECES, RATES, WHOLE, spelled
 
 QUARTER = 0xF1
-PIECES = 8
-RATES = ((24, False), (25, False), (30, True), (30, False))  # by the two bits of the code
 BACKWARDS = 4  # pieces in falling order
 
 
@@ -45,8 +44,7 @@ class MtcDecoder:
 
     def _spelled(self) -> Reading:
         pieces, times, self._pieces, self._times = self._pieces, self._times, [], []
-        frames, seconds, minutes, hours = (pieces[k] | pieces[k + 1] << 4 for k in (0, 2, 4, 6))
-        whole, drop = RATES[hours >> 5 & 3]
-        quarter = 1 / (4 * (self._fps or (30000 / 1001 if drop else whole)))
+        rate, label = spelled(pieces)
+        quarter = 1 / (4 * (self._fps or RATES[rate]))
         began = sum(time - number * quarter for number, time in enumerate(times)) / PIECES
-        return Reading(began, (hours & 31, minutes & 63, seconds & 63, frames & 31), drop, whole)
+        return Reading(began, label, rate == DROP, WHOLE[rate])

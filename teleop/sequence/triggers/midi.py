@@ -16,10 +16,10 @@ from typing import Any
 
 from teleop.core.errors import DeviceError, UsageError
 from teleop.core.timing import PERIOD
+from teleop.links.midi_ports import SEQUENCER
 from teleop.sequence.triggers.midi_timecode import RATES, Label, MidiTimecode
 
 LATE = 0.5  # s: a timecode further past the time than that has not come to it, but jumped over it
-SEQUENCER = "/dev/snd/seq"
 
 Listener = Callable[[Any], object]
 OpenPort = Callable[[str, Listener], Any]  # a port by its name, "" for the only one; it has `close`

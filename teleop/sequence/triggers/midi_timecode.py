@@ -8,13 +8,14 @@ guessed from the rest. MIDI 1.0, "MIDI Time Code": the pieces, the rates and the
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
 from teleop.config.frame_rates import DROPPED, frame_of
 
 RATES = (24.0, 25.0, 30000 / 1001, 30.0)  # frames per s, by the two bits of the code; the third drops frame numbers
-_WHOLE = (24, 25, 30, 30)  # numbers in a second
+WHOLE = (24, 25, 30, 30)  # numbers in a second
 DROP = 2  # of RATES
 STOPPED = 0.2  # s without a quarter frame, of which there are at least 96 in a second
 JUMP = 0.1  # s by which a timecode may be off what was expected before it counts as another
@@ -35,10 +36,16 @@ class Label(NamedTuple):
 
     def time(self, rate: int) -> float:
         """Seconds since 00:00:00:00 at the rate of that code (0..3)."""
-        whole = _WHOLE[rate]
+        whole = WHOLE[rate]
         if rate != DROP:
             return float(Fraction(frame_of(self, whole), whole))
         return float(Fraction(frame_of(self, whole, DROPPED[whole]) * 1001, whole * 1000))
+
+
+def spelled(pieces: Sequence[int]) -> tuple[int, Label]:
+    """The code of the rate (0..3) and the timecode of eight quarter frames' four bits."""
+    frames, seconds, minutes, hours = (pieces[i] | pieces[i + 1] << 4 for i in range(0, PIECES, 2))
+    return hours >> 5 & 3, Label(hours & 31, minutes & 63, seconds & 63, frames & 31)
 
 
 class MidiTimecode:
@@ -68,10 +75,9 @@ class MidiTimecode:
         self.quarters += 1
         self._pieces = [*self._pieces, value] if piece == len(self._pieces) else [value] if piece == 0 else []
         if len(self._pieces) == PIECES:
-            frames, seconds, minutes, hours = (self._pieces[i] | self._pieces[i + 1] << 4 for i in (0, 2, 4, 6))
+            self.rate, label = spelled(self._pieces)
             self._pieces = []
-            self.rate = hours >> 5 & 3
-            self._runs(Label(hours & 31, minutes & 63, seconds & 63, frames & 31).time(self.rate), now)
+            self._runs(label.time(self.rate), now)
 
     def full(self, data: tuple[int, ...], now: float) -> None:
         """A full frame, as the bytes of its sysex: where a sender stands that does not run. Others are ignored."""
