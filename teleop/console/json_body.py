@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-import json
-import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast
 
 from starlette.requests import ClientDisconnect
+
+from teleop.core.finite_json import loads
 
 if TYPE_CHECKING:
     from starlette.requests import Request
@@ -30,7 +30,7 @@ class Refusal(Exception):  # noqa: N818 - the answer, not a fault
 def parse_object(text: str | bytes, most_depth: int = MOST_DEPTH) -> dict[str, Any]:
     """A JSON object with finite numbers, no deeper than `most_depth`. Raises Refusal (400)."""
     try:
-        data = json.loads(text, parse_constant=_no_number, parse_float=_finite)
+        data = loads(text)
     except RecursionError:
         raise Refusal(400, f"too deep: at most {most_depth} levels") from None
     except (ValueError, UnicodeDecodeError) as error:
@@ -84,14 +84,3 @@ def _check(value: Any, depth: int) -> None:
             inner = list(inner.values())
         for each in inner:
             _check(each, depth - 1)
-
-
-def _no_number(text: str) -> float:
-    raise ValueError(f"{text} is no number")
-
-
-def _finite(text: str) -> float:
-    number = float(text)
-    if not math.isfinite(number):
-        raise ValueError(f"{text} is too large")
-    return number

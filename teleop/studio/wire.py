@@ -12,6 +12,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from teleop.core.finite_json import loads
+
 ROOT = "teleop"
 STATES, EVENTS, ALIVES = f"{ROOT}/*/state", f"{ROOT}/*/event", f"{ROOT}/*/alive"
 LARGEST = 4096  # bytes of a message to a rig that is no move
@@ -42,16 +44,12 @@ def decoded(data: bytes, most: int = LARGEST) -> dict[str, Any]:
     if len(data) > most:
         raise ValueError(f"has {len(data)} bytes, and may have {most}")
     try:
-        found = json.loads(data, parse_constant=_refuse)
+        found = loads(data)
     except (ValueError, RecursionError):  # UnicodeDecodeError is one
         raise ValueError("is no JSON") from None
     if not isinstance(found, dict) or _depth(found) > DEEPEST:
         raise ValueError(f"must be a map of at most {DEEPEST} levels")
     return found
-
-
-def _refuse(_name: str) -> None:
-    raise ValueError
 
 
 def _depth(value: Any) -> int:

@@ -31,7 +31,9 @@ def test_any_bytes_are_a_map_or_refused(data: bytes):
         assert isinstance(wire.decoded(data), dict)
 
 
-@pytest.mark.parametrize("data", [b'{"a":' * 50 + b"1" + b"}" * 50, b'{"a":NaN}', b"[]", b"x" * 5000, b"[" * 4000])
+@pytest.mark.parametrize(
+    "data", [b'{"a":' * 50 + b"1" + b"}" * 50, b'{"a":NaN}', b'{"a":1e999}', b"[]", b"x" * 5000, b"[" * 4000]
+)
 def test_what_is_too_deep_too_large_or_no_number_is_refused(data: bytes):
     with pytest.raises(ValueError):
         wire.decoded(data)
