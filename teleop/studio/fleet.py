@@ -12,6 +12,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any, Self
@@ -164,7 +165,8 @@ class Fleet:
             answer = self.ask(name, "command/clock", {}, CLOCK_ANSWER)
             arrived = monotonic()
             if "error" not in answer:
-                rig.offset = clocks.better(rig.offset, clocks.measured(answer, sent, arrived))
+                with suppress(ValueError, OverflowError):  # it tells no time: its clock stays unknown
+                    rig.offset = clocks.better(rig.offset, clocks.measured(answer, sent, arrived))
         return rig.offset
 
     def measure_clocks(self, names: Sequence[str] | None = None) -> None:

@@ -19,6 +19,7 @@ from teleop.exchange.zenoh.intake import Intake
 from teleop.studio import clocks, memory, wire
 from teleop.studio.access import access_control
 from teleop.studio.fleet import Fleet
+from teleop.studio.link import Link
 
 
 @settings(max_examples=200, deadline=None)
@@ -51,6 +52,14 @@ def test_an_offset_is_known_to_half_of_the_round_trip_and_the_best_one_counts():
     for bad in ({}, {"time": "x", "clock": 1}):
         with pytest.raises(ValueError):
             clocks.measured(bad, here, here)
+
+
+@pytest.mark.parametrize("answer", [{"ok": True}, {"time": 10**400, "clock": 1}])
+def test_the_clock_of_a_rig_that_tells_no_time_stays_unknown(answer: dict, monkeypatch: pytest.MonkeyPatch):
+    fleet = Fleet([], memory=False)
+    fleet.heard_alive(Link("tcp/127.0.0.1:1", None, fleet), "cam-a", True)
+    monkeypatch.setattr(fleet, "ask", lambda *_: answer)
+    assert fleet.measure_clock("cam-a") is None
 
 
 def test_clocks_that_ntp_keeps_are_equal_to_within_its_errors(monkeypatch: pytest.MonkeyPatch):
