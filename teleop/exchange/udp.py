@@ -62,21 +62,26 @@ class UdpSender:
         self._socket.close()
 
 
-async def udp_sender(
-    to: str, name: str, notify: Callable[[str], None], interface: str | None = None, ttl: int = 1
-) -> UdpSender:
-    """Raises TeleopError where the host is unknown, OSError where there is no socket for it."""
-    place = address(to)
+async def socket_for(to: str) -> tuple[socket.socket, tuple[object, ...]]:
+    """A socket for datagrams to HOST:PORT, and where they go. Raises TeleopError where the host is unknown."""
     try:
-        found = await asyncio.get_running_loop().getaddrinfo(*place, type=socket.SOCK_DGRAM)
+        found = await asyncio.get_running_loop().getaddrinfo(*address(to), type=socket.SOCK_DGRAM)
     except (socket.gaierror, UnicodeError) as error:
         raise TeleopError(f"to {to}: unknown host: {getattr(error, 'strerror', None) or error}") from None
     family, kind, protocol, _, where = found[0]
     made = socket.socket(family, kind, protocol)
+    made.setblocking(False)
+    return made, where
+
+
+async def udp_sender(
+    to: str, name: str, notify: Callable[[str], None], interface: str | None = None, ttl: int = 1
+) -> UdpSender:
+    """Raises TeleopError where the host is unknown, OSError where there is no socket for it."""
+    made, where = await socket_for(to)
     try:
-        made.setblocking(False)
         made.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
-        if family == socket.AF_INET:
+        if made.family == socket.AF_INET:
             made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, ttl)
             if interface is not None:
                 made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton(interface))
@@ -85,4 +90,4 @@ async def udp_sender(
     except OSError:
         made.close()
         raise
-    return UdpSender(made, where, place.is_group, name, notify)
+    return UdpSender(made, where, address(to).is_group, name, notify)

@@ -9,13 +9,13 @@ from contextlib import ExitStack, suppress
 from time import monotonic
 from typing import Any
 
-from teleop.config.exchange.address import address
 from teleop.config.exchange.osc import OscSection
 from teleop.core.axes import Axis
 from teleop.exchange.client import Client, Peers
 from teleop.exchange.osc.commands import ROOT, STOP, Invalid, command
 from teleop.exchange.osc.feedback import Feedback
 from teleop.exchange.served import Served
+from teleop.exchange.udp import socket_for
 from teleop.links.osc_packets import OscError, messages, packet
 
 LOOK = 0.01  # s between two looks at the state
@@ -24,7 +24,7 @@ LONGEST = 160  # characters of an error
 
 
 async def serve(section: OscSection, served: Served) -> None:
-    """Serve until cancelled. Raises OSError where the receiver's host is unknown."""
+    """Serve until cancelled. Raises TeleopError where the receiver's host is unknown."""
     loop = asyncio.get_running_loop()
     with ExitStack() as stack:
         outlet = Outlet(await _receiver(section, stack))
@@ -42,11 +42,8 @@ async def serve(section: OscSection, served: Served) -> None:
 async def _receiver(section: OscSection, stack: ExitStack) -> socket.socket | None:
     if section.to is None:
         return None
-    place = address(section.to)
-    found = await asyncio.get_running_loop().getaddrinfo(*place, type=socket.SOCK_DGRAM)
-    family, kind, protocol, _, where = found[0]
-    sender = stack.enter_context(socket.socket(family, kind, protocol))
-    sender.setblocking(False)
+    sender, where = await socket_for(section.to)
+    stack.callback(sender.close)
     sender.connect(where)
     return sender
 
