@@ -12,7 +12,7 @@ from teleop.core.errors import TeleopError
 from teleop.exchange.osc import server
 
 
-def test_a_host_whose_name_can_be_nobodys_is_an_error_by_which_the_entry_is_served_again() -> None:
+def test_a_host_name_that_cannot_be_one_is_an_error_by_which_the_entry_is_served_again() -> None:
     section = OscSection(type="osc", to="studio..desk:9000")
     with pytest.raises(TeleopError, match="unknown host"):
         asyncio.run(server.serve(section, FakeServed().served))
