@@ -16,7 +16,7 @@ from typing import Any
 from teleop.config.documents.document import DocumentError
 from teleop.config.documents.read_bytes import read_bytes
 from teleop.core.axes import Axis
-from teleop.interchange.motion import Motion, rate_text
+from teleop.interchange.motion import Motion
 from teleop.interchange.rotation import HEAD, ORDERS
 from teleop.interchange.table import Format, Hints
 
@@ -37,7 +37,7 @@ def facts(motion: Motion, axes: Sequence[Axis], not_carried: Sequence[str]) -> d
         "title": motion.title,
         "origin": motion.origin,
         "kind": motion.kind,
-        "frame_rate": rate_text(motion.known_rate),
+        "frame_rate": str(motion.known_rate),  # exact: 24, 24000/1001
         "first_frame": motion.first,
         "rows": len(times),
         "row_times": "one for each frame" if motion.by_frame else "those of the recording",

@@ -21,10 +21,9 @@ from teleop.config.documents.document import DocumentError
 from teleop.config.frame_rates import exact
 from teleop.core.axes import Axis
 from teleop.core.plain import plain
-from teleop.interchange.blender import number_rows
 from teleop.interchange.companion import MARK, facts, file_rate
 from teleop.interchange.isolated import read_isolated
-from teleop.interchange.motion import Motion, TimedCue, within_reach
+from teleop.interchange.motion import Motion, TimedCue, number_rows, within_reach
 from teleop.interchange.table import Hints, WriteOptions
 from teleop.sequence.cues import KINDS, CueSection, cue_rules
 

@@ -21,10 +21,9 @@ import numpy as np
 from teleop.config.documents.document import DocumentError
 from teleop.config.frame_rates import exact
 from teleop.core.axes import Axis
-from teleop.interchange.blender import number_rows
 from teleop.interchange.companion import MARK, facts, file_rate
 from teleop.interchange.isolated import read_isolated
-from teleop.interchange.motion import CAMERA, Motion, within_reach
+from teleop.interchange.motion import CAMERA, Motion, number_rows, within_reach
 from teleop.interchange.rotation import head_angles, head_matrices, pure, y_up
 from teleop.interchange.table import Hints, WriteOptions
 
