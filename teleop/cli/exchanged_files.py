@@ -13,6 +13,7 @@ from cyclopts import Parameter
 from teleop.config.files import check_place, is_stream
 from teleop.config.frame_rates import exact
 from teleop.core.errors import UsageError
+from teleop.interchange.motion import MOST_RATE
 from teleop.interchange.table import AMBIGUOUS, BY_NAME, Format
 
 Overwrite = Annotated[bool, Parameter(help="Replace existing files.", negative=(), show_default=False)]
@@ -20,7 +21,6 @@ FormatName = Annotated[
     str | None,
     Parameter(name="--format", metavar="NAME", help=f"The format, else by the ending: {', '.join(BY_NAME)}."),
 ]
-FASTEST = 1000
 
 
 def rate_of(text: str | None) -> Fraction | None:
@@ -32,7 +32,7 @@ def rate_of(text: str | None) -> Fraction | None:
         rate = Fraction(int(found[1]), int(found[2])) if found else exact(float(text))
     except (ValueError, ZeroDivisionError, OverflowError):
         rate = Fraction(0)
-    if not 0 < rate <= FASTEST:
+    if not 0 < rate <= MOST_RATE:
         raise UsageError(f"--rate {text}: must be frames a second, as in 24, 23.976 or 24000/1001")
     return rate
 

@@ -18,6 +18,7 @@ from teleop.planner.polynomial import Array
 CAMERA: tuple[Axis, ...] = (Axis.PAN, Axis.TILT, Axis.ROLL)
 """What turns a camera; a format of cameras has these three in every row."""
 MOST_FRAMES = 20_000  # of an import, as of a table in a sequence: 14 minutes at 24 fps
+MOST_RATE = 1000  # frames a second
 MOST_DEGREES = 36_000.0  # a hundred turns: more is no camera's path
 EVEN = 1e-6  # s by which frames may be off their grid
 
