@@ -117,5 +117,5 @@ def file_rate(value: object, name: str) -> Fraction:
 
 
 def meant_rate(fps: float) -> Fraction | None:
-    """The rate that another program's number means; None where it is none."""
-    return exact(fps).limit_denominator(1001) if 0 < fps <= MOST_RATE else None
+    """The rate that another program's number means; None where it is none, as 0 and next to 0 are."""
+    return (exact(fps).limit_denominator(1001) or None) if 0 < fps <= MOST_RATE else None

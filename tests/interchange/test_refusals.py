@@ -116,6 +116,12 @@ REFUSED = [
         KNOWN,
         "file: has 2 cameras: give --camera, one of /a, /b",
     ),
+    (
+        "usd",
+        b'#usda 1.0\n(timeCodesPerSecond = 0.0001)\ndef Camera "a" {}\n',
+        Hints(),
+        "file: timeCodesPerSecond must be above 0, and 1000 at most",
+    ),
     ("otio", b"{}", KNOWN, "file: has no timeline"),
     ("otio", b"{" * 100_000, KNOWN, "file: is not OpenTimelineIO"),
 ]
