@@ -90,7 +90,7 @@ def import_(
             raise DocumentError([f"{file}: no such file"])
         chosen = format_of(file, form, "")
         chosen = certain(sniffed(file) if chosen is None else chosen, file, "")
-        check_free("-o ", output, overwrite, file)
+        check_free(output, overwrite, file)
         profile = load_profile(rig, {}, "")
         motion = read_motion(file, chosen, hints, taken, inverted)
         about = list(origin_lines(file, chosen, motion, hints, tolerance))
