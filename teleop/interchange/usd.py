@@ -25,9 +25,9 @@ from teleop.interchange.isolated import read_isolated
 from teleop.interchange.motion import CAMERA, Motion, number_rows, within_reach
 from teleop.interchange.rotation import head_angles, head_matrices, pure, y_up
 from teleop.interchange.table import Hints, WriteOptions
+from teleop.interchange.usd_extract import FOCUS
 
 CAMERA_PATH = "/camera"
-FOCUS = "teleop:focus"
 APERTURE = 15.2908  # mm: USD's own default of verticalAperture, which the focal length is relative to
 
 
