@@ -26,7 +26,7 @@ from teleop.planner.keyframes.frame_keys import Frames
 from teleop.planner.keyframes.frames import FrameFitter, FramesFit, NoRoomError, TooFastError
 from teleop.planner.polynomial import Array
 from teleop.sequence.compile import CompiledSequence, load_sequence
-from teleop.sequence.tables.fitted_table import SHIFT, within_turns
+from teleop.sequence.tables.fitted_table import furthest_outside, within_turns
 
 TIGHTER = (1.0, 0.8, 0.6)  # of the tolerance, for the fit, should the whole file be further off than its parts were
 PER_SHARE = 100.0  # a tolerance in degrees is one in per cent for focus and sticks, whose full way is 1
@@ -105,7 +105,7 @@ class Importer:
             text = f"moves {', '.join(missing)}, but {self.rig} has only {', '.join(self.limits)}"
             raise UnplayableError([f"{self.name}: {text}: give --only for the axes to take, as in --only {rest}"])
         positions = {
-            axis: within_turns(np.unwrap(column, period=360.0), self.limits[axis]) if axis.is_angle else column
+            axis: within_turns(column, self.limits[axis]) if axis.is_angle else column
             for axis, column in motion.positions.items()
         }
         return replace(motion, positions=positions)
@@ -132,13 +132,12 @@ class Importer:
     def _beyond(self, motion: Motion, axis: Axis, column: Array) -> str | None:
         """A line for an axis that leaves the soft limits: the frame at which it is furthest outside."""
         limits = self.limits[axis]
-        outside = np.nan_to_num(np.maximum(limits.minimum - column, column - limits.maximum), nan=-1.0)
-        worst = int(outside.argmax())
-        if outside[worst] <= SHIFT:
+        worst = furthest_outside(column, limits)
+        if worst is None:
             return None
-        line = f":{motion.lines[worst]}" if len(motion.lines) and motion.lines[worst] else ""
         reach = f"{limits.minimum:g}..{limits.maximum:g} ({self.rig})"
-        return f"{self.name}{line}: frame {motion.first + worst}: {axis} must be within {reach}, not {column[worst]:g}"
+        place = f"{self.name}{_line(motion, worst)}: frame {motion.first + worst}"
+        return f"{place}: {axis} must be within {reach}, not {column[worst]:g}"
 
     def _attempts(self, motion: Motion) -> Iterator[ImportedKeys]:
         grid = motion.rate or own_grid(motion.times)
@@ -187,8 +186,7 @@ class Importer:
 
     def _too_fast(self, error: TooFastError, motion: Motion, begin: int) -> str:
         place = begin + error.place
-        line = f":{motion.lines[place]}" if len(motion.lines) and motion.lines[place] else ""
-        what = f"{self.name}{line}: {error.axis} is too fast for {self.rig}"
+        what = f"{self.name}{_line(motion, place)}: {error.axis} is too fast for {self.rig}"
         if error.share > 1:
             what += f" (its {error.limit} would be {error.share:.3g} x the limit at frame {motion.first + place})"
         cure = "a higher --tolerance" if error.factor is None else "--stretch, or a higher --tolerance"
@@ -223,6 +221,11 @@ class Importer:
         keys = ImportedKeys.at_places(motion, [0], Fraction(1))
         found = self._checked(text_of(keys, motion, [*about, text]), motion, keys)
         return replace(found, remarks=[text])
+
+
+def _line(motion: Motion, place: int) -> str:
+    """As `:12`, for a frame that has a line in a text file."""
+    return f":{motion.lines[place]}" if len(motion.lines) and motion.lines[place] else ""
 
 
 def _remarks(keys: ImportedKeys, motion: Motion) -> Iterator[str]:
