@@ -21,7 +21,7 @@ from teleop.app.imported_keys import ImportedKeys, Way, keys_of_ways, rested_cue
 from teleop.app.imported_ways import fewer, own_grid, ways_of
 from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis, Limits
-from teleop.interchange.motion import MOST_FRAMES, Motion, shown
+from teleop.interchange.motion import MOST_FRAMES, Motion, TimedCue, shown
 from teleop.planner.keyframes.frame_keys import Frames
 from teleop.planner.keyframes.frames import FrameFitter, FramesFit, NoRoomError, TooFastError
 from teleop.planner.polynomial import Array
@@ -81,9 +81,8 @@ class Importer:
             raise UnplayableError(problems)
         failures: list[DocumentError] = []
         for keys in self._attempts(motion):
-            text = text_of(keys, replace(motion, cues=rested_cues(motion, keys)), about)
             try:
-                found = self._checked(text, motion, keys)
+                found = self._made(motion, keys, rested_cues(motion, keys), about)
             except DocumentError as error:
                 failures.append(error)
                 continue
@@ -195,8 +194,9 @@ class Importer:
             cure = f"--rate {slower:g} ({float(motion.rate) / slower:.2f} x slower), {cure}"
         return f"{what}; use {cure}"
 
-    def _checked(self, text: str, motion: Motion, keys: ImportedKeys) -> Imported:
-        """The file read and planned as `play` does it."""
+    def _made(self, motion: Motion, keys: ImportedKeys, cues: Sequence[TimedCue], about: Sequence[str]) -> Imported:
+        """The file of these keys and cues, read and planned as `play` does it."""
+        text = text_of(keys, replace(motion, cues=cues), about)
         with TemporaryDirectory() as folder:
             file = Path(folder) / "imported.yaml"
             file.write_text(text, encoding="utf-8")
@@ -211,7 +211,7 @@ class Importer:
             off = np.nan_to_num(np.abs(sequence.move.tracks[axis].sample(times)[0] - column))
             worst = int(off.argmax())
             deviations[axis] = Deviation(float(off[worst]), float(times[worst]), motion.first + worst)
-        return Imported(text, len(keys.lines), deviations, sequence, list(_remarks(keys, motion)))
+        return Imported(text, len(keys.lines), deviations, sequence, list(_remarks(keys, motion, cues)))
 
     def _cues_alone(self, motion: Motion, about: Sequence[str]) -> Imported:
         """Cues without a path, beside one key that stays where the rig is put: at the center."""
@@ -219,7 +219,7 @@ class Importer:
         text = "the file has cues and no path: its one keyframe is a placeholder; put your own keyframes there"
         motion = replace(motion, positions={axis: np.zeros(1) for axis in axes}, times=np.zeros(1))
         keys = ImportedKeys.at_places(motion, [0], Fraction(1))
-        found = self._checked(text_of(keys, motion, [*about, text]), motion, keys)
+        found = self._made(motion, keys, motion.cues, [*about, text])
         return replace(found, remarks=[text])
 
 
@@ -228,10 +228,10 @@ def _line(motion: Motion, place: int) -> str:
     return f":{motion.lines[place]}" if len(motion.lines) and motion.lines[place] else ""
 
 
-def _remarks(keys: ImportedKeys, motion: Motion) -> Iterator[str]:
+def _remarks(keys: ImportedKeys, motion: Motion, cues: Sequence[TimedCue]) -> Iterator[str]:
     if keys.begin > 0:
         yield f"it begins {keys.begin:.2f} s before the file's first frame, to be at speed there"
-    for cue, moved in zip(motion.cues, rested_cues(motion, keys), strict=True):
+    for cue, moved in zip(motion.cues, cues, strict=True):
         if cue.at != moved.at:
             yield f"cue {cue.name!r} is {moved.at - cue.at:+.3f} s off, to be where all axes rest"
     if keys.factor > 1:
