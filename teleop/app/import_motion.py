@@ -21,12 +21,12 @@ from teleop.app.imported_keys import ImportedKeys, Way, keys_of_ways, rested_cue
 from teleop.app.imported_ways import fewer, own_grid, ways_of
 from teleop.config.documents.document import DocumentError, UnplayableError
 from teleop.core.axes import Axis, Limits
-from teleop.interchange.motion import MOST_FRAMES, Motion, shown
+from teleop.interchange.motion import MOST_FRAMES, Motion, TimedCue, shown
 from teleop.planner.keyframes.frame_keys import Frames
 from teleop.planner.keyframes.frames import FrameFitter, FramesFit, NoRoomError, TooFastError
 from teleop.planner.polynomial import Array
 from teleop.sequence.compile import CompiledSequence, load_sequence
-from teleop.sequence.tables.fitted_table import SHIFT, within_turns
+from teleop.sequence.tables.fitted_table import furthest_outside, within_turns
 
 TIGHTER = (1.0, 0.8, 0.6)  # of the tolerance, for the fit, should the whole file be further off than its parts were
 PER_SHARE = 100.0  # a tolerance in degrees is one in per cent for focus and sticks, whose full way is 1
@@ -81,9 +81,8 @@ class Importer:
             raise UnplayableError(problems)
         failures: list[DocumentError] = []
         for keys in self._attempts(motion):
-            text = text_of(keys, replace(motion, cues=rested_cues(motion, keys)), about)
             try:
-                found = self._checked(text, motion, keys)
+                found = self._made(motion, keys, rested_cues(motion, keys), about)
             except DocumentError as error:
                 failures.append(error)
                 continue
@@ -105,7 +104,7 @@ class Importer:
             text = f"moves {', '.join(missing)}, but {self.rig} has only {', '.join(self.limits)}"
             raise UnplayableError([f"{self.name}: {text}: give --only for the axes to take, as in --only {rest}"])
         positions = {
-            axis: within_turns(np.unwrap(column, period=360.0), self.limits[axis]) if axis.is_angle else column
+            axis: within_turns(column, self.limits[axis]) if axis.is_angle else column
             for axis, column in motion.positions.items()
         }
         return replace(motion, positions=positions)
@@ -132,13 +131,12 @@ class Importer:
     def _beyond(self, motion: Motion, axis: Axis, column: Array) -> str | None:
         """A line for an axis that leaves the soft limits: the frame at which it is furthest outside."""
         limits = self.limits[axis]
-        outside = np.nan_to_num(np.maximum(limits.minimum - column, column - limits.maximum), nan=-1.0)
-        worst = int(outside.argmax())
-        if outside[worst] <= SHIFT:
+        worst = furthest_outside(column, limits)
+        if worst is None:
             return None
-        line = f":{motion.lines[worst]}" if len(motion.lines) and motion.lines[worst] else ""
         reach = f"{limits.minimum:g}..{limits.maximum:g} ({self.rig})"
-        return f"{self.name}{line}: frame {motion.first + worst}: {axis} must be within {reach}, not {column[worst]:g}"
+        place = f"{self.name}{_line(motion, worst)}: frame {motion.first + worst}"
+        return f"{place}: {axis} must be within {reach}, not {column[worst]:g}"
 
     def _attempts(self, motion: Motion) -> Iterator[ImportedKeys]:
         grid = motion.rate or own_grid(motion.times)
@@ -187,8 +185,7 @@ class Importer:
 
     def _too_fast(self, error: TooFastError, motion: Motion, begin: int) -> str:
         place = begin + error.place
-        line = f":{motion.lines[place]}" if len(motion.lines) and motion.lines[place] else ""
-        what = f"{self.name}{line}: {error.axis} is too fast for {self.rig}"
+        what = f"{self.name}{_line(motion, place)}: {error.axis} is too fast for {self.rig}"
         if error.share > 1:
             what += f" (its {error.limit} would be {error.share:.3g} x the limit at frame {motion.first + place})"
         cure = "a higher --tolerance" if error.factor is None else "--stretch, or a higher --tolerance"
@@ -197,8 +194,9 @@ class Importer:
             cure = f"--rate {slower:g} ({float(motion.rate) / slower:.2f} x slower), {cure}"
         return f"{what}; use {cure}"
 
-    def _checked(self, text: str, motion: Motion, keys: ImportedKeys) -> Imported:
-        """The file read and planned as `play` does it."""
+    def _made(self, motion: Motion, keys: ImportedKeys, cues: Sequence[TimedCue], about: Sequence[str]) -> Imported:
+        """The file of these keys and cues, read and planned as `play` does it."""
+        text = text_of(keys, replace(motion, cues=cues), about)
         with TemporaryDirectory() as folder:
             file = Path(folder) / "imported.yaml"
             file.write_text(text, encoding="utf-8")
@@ -213,7 +211,7 @@ class Importer:
             off = np.nan_to_num(np.abs(sequence.move.tracks[axis].sample(times)[0] - column))
             worst = int(off.argmax())
             deviations[axis] = Deviation(float(off[worst]), float(times[worst]), motion.first + worst)
-        return Imported(text, len(keys.lines), deviations, sequence, list(_remarks(keys, motion)))
+        return Imported(text, len(keys.lines), deviations, sequence, list(_remarks(keys, motion, cues)))
 
     def _cues_alone(self, motion: Motion, about: Sequence[str]) -> Imported:
         """Cues without a path, beside one key that stays where the rig is put: at the center."""
@@ -221,14 +219,19 @@ class Importer:
         text = "the file has cues and no path: its one keyframe is a placeholder; put your own keyframes there"
         motion = replace(motion, positions={axis: np.zeros(1) for axis in axes}, times=np.zeros(1))
         keys = ImportedKeys.at_places(motion, [0], Fraction(1))
-        found = self._checked(text_of(keys, motion, [*about, text]), motion, keys)
+        found = self._made(motion, keys, motion.cues, [*about, text])
         return replace(found, remarks=[text])
 
 
-def _remarks(keys: ImportedKeys, motion: Motion) -> Iterator[str]:
+def _line(motion: Motion, place: int) -> str:
+    """As `:12`, for a frame that has a line in a text file."""
+    return f":{motion.lines[place]}" if len(motion.lines) and motion.lines[place] else ""
+
+
+def _remarks(keys: ImportedKeys, motion: Motion, cues: Sequence[TimedCue]) -> Iterator[str]:
     if keys.begin > 0:
         yield f"it begins {keys.begin:.2f} s before the file's first frame, to be at speed there"
-    for cue, moved in zip(motion.cues, rested_cues(motion, keys), strict=True):
+    for cue, moved in zip(motion.cues, cues, strict=True):
         if cue.at != moved.at:
             yield f"cue {cue.name!r} is {moved.at - cue.at:+.3f} s off, to be where all axes rest"
     if keys.factor > 1:

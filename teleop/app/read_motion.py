@@ -45,7 +45,7 @@ def read_motion(
     hints = given if content is None else companion.hints_of(content, str(companion.beside(file)), given, form)
     motion: Motion = reader.read(read_bytes(file, name, MOST_BYTES), name, hints)
     if content is not None:
-        motion = replace(motion, title=motion.title or str(content.get("title", ""))[:200])
+        motion = replace(motion, title=motion.title or companion.title_of(content))
     if hints.axes is not None:
         known = {axis: column for axis, column in motion.positions.items() if axis in hints.axes}
         motion = replace(motion, positions=known or motion.positions)

@@ -10,9 +10,10 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.config.files import check_place, is_stream
+from teleop.cli.take.options import check_new
 from teleop.config.frame_rates import exact
 from teleop.core.errors import UsageError
+from teleop.interchange.motion import MOST_RATE
 from teleop.interchange.table import AMBIGUOUS, BY_NAME, Format
 
 Overwrite = Annotated[bool, Parameter(help="Replace existing files.", negative=(), show_default=False)]
@@ -20,7 +21,6 @@ FormatName = Annotated[
     str | None,
     Parameter(name="--format", metavar="NAME", help=f"The format, else by the ending: {', '.join(BY_NAME)}."),
 ]
-FASTEST = 1000
 
 
 def rate_of(text: str | None) -> Fraction | None:
@@ -32,7 +32,7 @@ def rate_of(text: str | None) -> Fraction | None:
         rate = Fraction(int(found[1]), int(found[2])) if found else exact(float(text))
     except (ValueError, ZeroDivisionError, OverflowError):
         rate = Fraction(0)
-    if not 0 < rate <= FASTEST:
+    if not 0 < rate <= MOST_RATE:
         raise UsageError(f"--rate {text}: must be frames a second, as in 24, 23.976 or 24000/1001")
     return rate
 
@@ -43,13 +43,11 @@ def check_vfov(vfov: float | None) -> None:
         raise UsageError(f"--vfov {vfov:g}: must be between 0 and 180 degrees")
 
 
-def check_free(option: str, path: Path, overwrite: bool, source: Path) -> None:
-    """Raises UsageError where nothing may be written, OutputError where nothing can be."""
+def check_free(path: Path, overwrite: bool, source: Path) -> None:
+    """That -o may be written: raises UsageError where it may not, OutputError where nothing can be."""
     if path.exists() and source.exists() and path.samefile(source):
-        raise UsageError(f"{option}{path}: is the file itself; choose another")
-    if path.exists() and not (overwrite or is_stream(path)):
-        raise UsageError(f"{option}{path}: already exists; give --overwrite to replace it")
-    check_place(path)
+        raise UsageError(f"-o {path}: is the file itself; choose another")
+    check_new("-o", path, overwrite)
 
 
 def certain(found: Format | None, path: Path, option: str) -> Format:

@@ -64,10 +64,10 @@ def export(
     check_vfov(vfov)
     if not is_take(file) and (commanded or number is not None):
         raise UsageError(f"{'--commanded' if commanded else '--pass'}: is for takes (.mcap), and {file} is none")
-    check_free("-o ", output, overwrite, Path(file))
+    check_free(output, overwrite, Path(file))
     side = None if chosen.notes is None or is_stream(output) else beside(output)
     if side is not None:
-        check_free("-o ", side, overwrite, Path(file))
+        check_free(side, overwrite, Path(file))
     chosen.load()
     if is_take(file):
         motion = _recorded(Path(file), chosen, frames, first_frame, commanded, number, options.json)

@@ -83,14 +83,14 @@ def import_(
     if output.suffix.lower() not in ENDINGS:
         raise UsageError(f"-o {output}: its ending must be {' or '.join(ENDINGS)}")
     order = rotation_order and rotation_order.upper()
-    hints = Hints(rate_of(rate), order, _columns(columns), camera=camera)
+    hints = Hints(rate_of(rate), order, _names("--columns", columns, [*Axis, *SKIPPED]), camera=camera)
     taken, inverted = _axes("--only", only), _axes("--invert", invert) or []
     with problems_as_json(as_json):
         if not file.is_file():
             raise DocumentError([f"{file}: no such file"])
         chosen = format_of(file, form, "")
         chosen = certain(sniffed(file) if chosen is None else chosen, file, "")
-        check_free("-o ", output, overwrite, file)
+        check_free(output, overwrite, file)
         profile = load_profile(rig, {}, "")
         motion = read_motion(file, chosen, hints, taken, inverted)
         about = list(origin_lines(file, chosen, motion, hints, tolerance))
@@ -102,25 +102,19 @@ def import_(
     return 0
 
 
-def _columns(text: str | None) -> Sequence[str | None] | None:
-    if text is None:
-        return None
-    names = [each.strip().lower() for each in text.split(",")]
-    wrong = [each for each in names if each not in [*Axis] and each not in SKIPPED]
-    if wrong:
-        known = ", ".join([*(axis.value for axis in Axis), *SKIPPED])
-        raise UsageError(f"--columns {text}: {wrong[0] or 'an empty name'} is none of {known}")
-    return names
-
-
 def _axes(option: str, text: str | None) -> Sequence[Axis] | None:
+    names = _names(option, text, [*Axis])
+    return None if names is None else [Axis(each) for each in names]
+
+
+def _names(option: str, text: str | None, known: Sequence[str]) -> Sequence[str] | None:
+    """The names in a list, each one of those known. Raises UsageError."""
     if text is None:
         return None
     names = [each.strip().lower() for each in text.split(",")]
-    if wrong := [each for each in names if each not in [*Axis]]:
-        known = ", ".join(axis.value for axis in Axis)
-        raise UsageError(f"{option} {text}: {wrong[0] or 'an empty name'} is none of {known}")
-    return [Axis(each) for each in names]
+    if wrong := [each for each in names if each not in known]:
+        raise UsageError(f"{option} {text}: {wrong[0] or 'an empty name'} is none of {', '.join(known)}")
+    return names
 
 
 def _report(done: Imported, left_out: Sequence[str], form: Format, output: Path, as_json: bool) -> None:

@@ -28,6 +28,7 @@ from teleop.interchange.motion import MOST_DEGREES, MOST_FRAMES, Motion
 from teleop.interchange.table import Hints, WriteOptions
 from teleop.interchange.text import axis_named, needed_rate, number
 from teleop.planner.polynomial import Array
+from teleop.sequence.written_values import decimal
 
 SCENE = "http://caliri.com/motion/scene"
 DEEPEST, MOST_AXES = 16, 64
@@ -37,7 +38,7 @@ MOST_ELEMENTS = 2 * MOST_AXES * MOST_FRAMES
 def write(motion: Motion, options: WriteOptions) -> bytes:
     """Frames are counted from the first frame of the path."""
     frames = motion.frames
-    last = number(float(frames[-1]), 6).rstrip("0").rstrip(".")
+    last = decimal(float(frames[-1]), 6)
     parts = [f'<?xml version="1.0" encoding="UTF-8"?>\n<scen:scene xmlns:scen="{SCENE}" endframe="{last}">\n']
     for axis in options.axes:
         unit = ' units="deg"' if axis.is_angle else ""
@@ -49,8 +50,7 @@ def write(motion: Motion, options: WriteOptions) -> bytes:
 
 
 def _element(name: str, x: float, y: float) -> str:
-    frame = number(x).rstrip("0").rstrip(".")
-    return f'    <scen:{name} x="{frame}" y="{number(y)}"/>\n'
+    return f'    <scen:{name} x="{decimal(x, 9)}" y="{number(y)}"/>\n'
 
 
 def _points(frames: Array, positions: Array) -> list[Point]:

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from teleop.config.documents.document import DocumentError
-from teleop.interchange.companion import MARK, facts, file_rate
-from teleop.interchange.motion import CAMERA, MOST_FRAMES, Motion, within_reach
+from teleop.interchange.companion import facts, file_rate, is_own, title_of
+from teleop.interchange.motion import CAMERA, Motion, number_rows, within_reach
 from teleop.interchange.rotation import head_angles, head_matrices, quaternion_matrices, quaternions, y_up, z_up
 from teleop.interchange.table import Hints, WriteOptions
 
@@ -100,7 +100,7 @@ def read(raw: bytes, name: str, hints: Hints) -> Motion:
 
 
 def _motion(data: Any, name: str, hints: Hints) -> Motion:
-    if not isinstance(data, dict) or MARK not in str(data.get("made_by")):
+    if not is_own(data):
         raise DocumentError([f"{name}: its data was not written by teleop"])
     rate = hints.rate or file_rate(data.get("frame_rate"), name)
     rows = number_rows(data.get("quaternions"), 5, name, "quaternions")
@@ -112,19 +112,5 @@ def _motion(data: Any, name: str, hints: Hints) -> Motion:
         raise DocumentError([f"{name}: {error}"]) from None
     found = dict(zip(CAMERA, head_angles(matrices, (begins[0], begins[1], begins[2])), strict=True))
     axes = [axis for axis in CAMERA if axis.value in map(str, data.get("axes") or ())] or CAMERA
-    title = str(data.get("title", ""))[:200]
     positions = within_reach({axis: found[axis] for axis in axes}, name)
-    return Motion(title, (frames - frames[0]) / float(rate), positions, rate, int(frames[0]))
-
-
-def number_rows(rows: Any, width: int, name: str, what: str) -> np.ndarray:
-    """Rows (n, width) of finite numbers; the first is a time, later from row to row. Raises DocumentError."""
-    try:
-        found = np.array(rows, dtype=float)
-    except (TypeError, ValueError, OverflowError):
-        found = np.empty(0)
-    if found.shape[1:] != (width,) or not 0 < len(found) <= MOST_FRAMES:
-        raise DocumentError([f"{name}: {what} must be 1 to {MOST_FRAMES} rows of {width} numbers"])
-    if not (np.abs(found) < 1e9).all() or (np.diff(found[:, 0]) <= 0).any():
-        raise DocumentError([f"{name}: {what} must be numbers, each row later than the one before"])
-    return found
+    return Motion(title_of(data), (frames - frames[0]) / float(rate), positions, rate, int(frames[0]))

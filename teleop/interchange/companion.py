@@ -6,17 +6,18 @@ It is JSON, so that people and programs read it; `teleop import` does when it is
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 from teleop.config.documents.document import DocumentError
 from teleop.config.documents.read_bytes import read_bytes
+from teleop.config.frame_rates import exact
 from teleop.core.axes import Axis
-from teleop.interchange.motion import Motion, rate_text
+from teleop.interchange.motion import MOST_RATE, Motion
 from teleop.interchange.rotation import HEAD, ORDERS
 from teleop.interchange.table import Format, Hints
 
@@ -37,7 +38,7 @@ def facts(motion: Motion, axes: Sequence[Axis], not_carried: Sequence[str]) -> d
         "title": motion.title,
         "origin": motion.origin,
         "kind": motion.kind,
-        "frame_rate": rate_text(motion.known_rate),
+        "frame_rate": str(motion.known_rate),  # exact: 24, 24000/1001
         "first_frame": motion.first,
         "rows": len(times),
         "row_times": "one for each frame" if motion.by_frame else "those of the recording",
@@ -72,9 +73,17 @@ def parsed(raw: bytes, name: str) -> dict[str, Any] | None:
     except (ValueError, RecursionError) as error:
         line = f":{error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
         raise DocumentError([f"{name}{line}: is not JSON; delete it and give what it said as options"]) from None
-    if not isinstance(content, dict) or MARK not in str(content.get("made_by")):
-        return None
-    return content
+    return content if is_own(content) else None
+
+
+def is_own(content: object) -> TypeGuard[dict[str, Any]]:
+    """Whether it is what teleop has put into a file, or beside it."""
+    return isinstance(content, dict) and MARK in str(content.get("made_by"))
+
+
+def title_of(content: Mapping[str, Any]) -> str:
+    """The title there."""
+    return str(content.get("title", ""))[:200]
 
 
 def hints_of(content: dict[str, Any], name: str, given: Hints, form: Format) -> Hints:
@@ -102,6 +111,11 @@ def file_rate(value: object, name: str) -> Fraction:
         rate = Fraction(str(value)[:40])
     except (ValueError, ZeroDivisionError):
         rate = Fraction(0)
-    if not 0 < rate <= 1000:
+    if not 0 < rate <= MOST_RATE:
         raise DocumentError([f"{name}: frame_rate must be frames a second, up to 1000"])
     return rate
+
+
+def meant_rate(fps: float) -> Fraction | None:
+    """The rate that another program's number means; None where it is none, as 0 and next to 0 are."""
+    return (exact(fps).limit_denominator(1001) or None) if 0 < fps <= MOST_RATE else None

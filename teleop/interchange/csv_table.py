@@ -14,6 +14,7 @@ from teleop.config.documents.document import DocumentError
 from teleop.interchange.motion import Motion
 from teleop.interchange.table import Hints, WriteOptions
 from teleop.interchange.text import bounded, columns_of, frame_times, needed_rate, number, rising, rows, values
+from teleop.sequence.written_values import decimal
 
 FRAME, TIME = "frame", "time"
 
@@ -26,7 +27,7 @@ def write(motion: Motion, options: WriteOptions) -> bytes:
     columns = np.array([motion.times, *(motion.column(axis) for axis in options.axes)]).T.tolist()
     for frame, (time, *cells) in zip(motion.frames.tolist(), columns, strict=True):
         row = [f"{frame:.0f}"] if whole else []
-        text.write(",".join([*row, f"{time:.9f}".rstrip("0").rstrip("."), *map(number, cells)]) + "\n")
+        text.write(",".join([*row, decimal(time, 9), *map(number, cells)]) + "\n")
     return text.getvalue().encode()
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from teleop.config.documents.document import DocumentError
 from teleop.config.frame_rates import shown_rate
@@ -17,6 +18,7 @@ from teleop.planner.polynomial import Array
 CAMERA: tuple[Axis, ...] = (Axis.PAN, Axis.TILT, Axis.ROLL)
 """What turns a camera; a format of cameras has these three in every row."""
 MOST_FRAMES = 20_000  # of an import, as of a table in a sequence: 14 minutes at 24 fps
+MOST_RATE = 1000  # frames a second
 MOST_DEGREES = 36_000.0  # a hundred turns: more is no camera's path
 EVEN = 1e-6  # s by which frames may be off their grid
 
@@ -85,18 +87,35 @@ class Motion:
 def within_reach(positions: Mapping[Axis, Array], name: str) -> Mapping[Axis, Array]:
     """The positions, where they are any. Raises DocumentError for a hundred turns, or a share beyond 1."""
     for axis, column in positions.items():
-        most = MOST_DEGREES if axis.is_angle else 1.0
-        wrong = ~(np.abs(column) <= most * (1 + 1e-9))
+        wrong = out_of_reach(axis, column)
         if wrong.any():
-            reach = f"within {most:g} degrees" if axis.is_angle else "from -1 to 1"
             row = int(wrong.argmax())
-            raise DocumentError([f"{name}: row {row + 1}: {axis} must be {reach}, not {column[row]:g}"])
+            raise DocumentError([f"{name}: row {row + 1}: {axis} must be {reach(axis)}, not {column[row]:g}"])
     return positions
 
 
-def rate_text(rate: Fraction) -> str:
-    """For files: exact, `24`, `24000/1001`."""
-    return str(rate)
+def out_of_reach(axis: Axis, column: Array) -> NDArray[np.bool_]:
+    """Where a position is none: more than a hundred turns, a share beyond 1, or not a number."""
+    most = MOST_DEGREES if axis.is_angle else 1.0
+    return ~(np.abs(column) <= most * (1 + 1e-9))
+
+
+def reach(axis: Axis) -> str:
+    """Where its positions must be, for people."""
+    return f"within {MOST_DEGREES:g} degrees" if axis.is_angle else "from -1 to 1"
+
+
+def number_rows(rows: Any, width: int, name: str, what: str) -> Array:
+    """Rows (n, width) of finite numbers; the first is a time, later from row to row. Raises DocumentError."""
+    try:
+        found = np.array(rows, dtype=float)
+    except (TypeError, ValueError, OverflowError):
+        found = np.empty(0)
+    if found.shape[1:] != (width,) or not 0 < len(found) <= MOST_FRAMES:
+        raise DocumentError([f"{name}: {what} must be 1 to {MOST_FRAMES} rows of {width} numbers"])
+    if not (np.abs(found) < 1e9).all() or (np.diff(found[:, 0]) <= 0).any():
+        raise DocumentError([f"{name}: {what} must be numbers, each row later than the one before"])
+    return found
 
 
 def shown(rate: Fraction) -> str:

@@ -18,13 +18,11 @@ from typing import Any
 import numpy as np
 
 from teleop.config.documents.document import DocumentError
-from teleop.config.frame_rates import exact
 from teleop.core.axes import Axis
 from teleop.core.plain import plain
-from teleop.interchange.blender import number_rows
-from teleop.interchange.companion import MARK, facts, file_rate
+from teleop.interchange.companion import facts, file_rate, is_own, meant_rate, title_of
 from teleop.interchange.isolated import read_isolated
-from teleop.interchange.motion import Motion, TimedCue, within_reach
+from teleop.interchange.motion import Motion, TimedCue, number_rows, within_reach
 from teleop.interchange.table import Hints, WriteOptions
 from teleop.sequence.cues import KINDS, CueSection, cue_rules
 
@@ -96,9 +94,9 @@ def motion_of(found: Any, name: str, hints: Hints) -> Motion:
         else:
             cues.append(cue)
     cues.sort(key=lambda cue: cue.at)
-    rate = hints.rate or (exact(found["rate"]).limit_denominator(1001) if 0 < found["rate"] <= 1000 else None)
+    rate = hints.rate or meant_rate(found["rate"])
     path = found["path"]
-    if not isinstance(path, dict) or MARK not in str(path.get("made_by")):
+    if not is_own(path):
         return Motion(found["name"][:200], np.zeros(1), {}, rate, cues=cues, remarks=strangers)
     return _with_path(path, name, rate, cues, strangers)
 
@@ -111,8 +109,7 @@ def _with_path(
     columns = within_reach({axis: rows[:, index] for index, axis in enumerate(axes, 1)}, name)
     exact_rate = file_rate(path.get("frame_rate"), name)
     rate = exact_rate if rate is None or abs(float(rate - exact_rate)) < 1e-6 else rate
-    title = str(path.get("title", ""))[:200]
-    return Motion(title, rows[:, 0] - rows[0, 0], columns, rate, cues=cues, remarks=remarks)
+    return Motion(title_of(path), rows[:, 0] - rows[0, 0], columns, rate, cues=cues, remarks=remarks)
 
 
 def _cue(marker: Mapping[str, Any]) -> TimedCue | None:

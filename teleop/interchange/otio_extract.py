@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -53,18 +52,14 @@ def _items(stack: Any, otio: Any) -> Iterator[Any]:
             yield item
 
 
-def _plain(metadata: Any) -> Any:
-    """Metadata as plain values."""
-    return json.loads(json.dumps(_unwrapped(metadata)))
-
-
-def _unwrapped(value: Any) -> Any:
+def _plain(value: Any) -> Any:
+    """Metadata as JSON has it."""
     if isinstance(value, str | int | float | bool) or value is None:
         return value
     if hasattr(value, "items"):
-        return {str(key): _unwrapped(each) for key, each in value.items()}
+        return {str(key): _plain(each) for key, each in value.items()}
     if hasattr(value, "__iter__"):
-        return [_unwrapped(each) for each in value]
+        return [_plain(each) for each in value]
     return str(value)
 
 

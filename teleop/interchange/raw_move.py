@@ -13,7 +13,7 @@ import numpy as np
 from teleop.config.documents.document import DocumentError
 from teleop.interchange.motion import Motion
 from teleop.interchange.table import Hints, WriteOptions
-from teleop.interchange.text import bounded, columns_of, needed_rate, rows, values
+from teleop.interchange.text import bounded, columns_of, needed_rate, number, rows, values
 
 WIDTH, BETWEEN = 12, 4
 DIGITS = 7
@@ -27,7 +27,7 @@ def write(motion: Motion, options: WriteOptions) -> bytes:
 
 
 def _cell(value: float) -> str:
-    text = f"{round(value, DIGITS) + 0.0:.{DIGITS}f}"[:WIDTH]
+    text = number(value, DIGITS)[:WIDTH]
     if abs(float(text) - value) > 1e-6:
         raise DocumentError([f"raw move: {value:g} does not fit into 12 characters; use another format"])
     return text.ljust(WIDTH) + " " * BETWEEN

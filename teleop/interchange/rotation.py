@@ -122,14 +122,9 @@ def quaternions(matrices: Matrices) -> Array:
 
 def quaternion_matrices(values: Array) -> Matrices:
     """Of quaternions w, x, y, z (n, 4). Raises ValueError for one that has no length."""
+    from scipy.spatial.transform import Rotation
+
     lengths = np.linalg.norm(values, axis=1)
     if not (np.isfinite(lengths) & (lengths > SQUARE)).all():
         raise ValueError("a quaternion has no length")
-    w, x, y, z = (values / lengths[:, None]).T
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    ).transpose(2, 0, 1)
+    return Rotation.from_quat(np.roll(values, -1, axis=1)).as_matrix()

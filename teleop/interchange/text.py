@@ -11,14 +11,13 @@ import numpy as np
 
 from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis
-from teleop.interchange.motion import MOST_DEGREES, MOST_FRAMES
+from teleop.interchange.motion import MOST_FRAMES, out_of_reach, reach
 from teleop.interchange.table import Hints
 from teleop.planner.polynomial import Array
 from teleop.sequence.tables.table_file import Table, decoded, parse_table
 
 LONGEST_LINE = 4096  # characters: 200 columns
 COMMENTS = 1000  # lines beside those of frames
-SKIP = "-"  # in --columns: a column that is no axis
 
 
 def bounded(raw: bytes, name: str) -> str:
@@ -45,15 +44,14 @@ def rows(text: str, name: str, *, chan: bool = False) -> Table:
     return table
 
 
-def values(table: Table, index: int, axis: Axis | None = None) -> Array:
+def values(table: Table, index: int, axis: Axis) -> Array:
     """A column (n,), finite, and of angles no more than a hundred turns. Raises DocumentError."""
     found = numbers(table, index)
-    most = MOST_DEGREES if axis is None or axis.is_angle else 1.0
-    wrong = ~(np.abs(found) <= most * (1 + 1e-9))
-    if axis is not None and wrong.any():
+    wrong = out_of_reach(axis, found)
+    if wrong.any():
         row = table.rows[int(wrong.argmax())]
-        reach = f"within {most:g} degrees" if axis.is_angle else "from -1 to 1"
-        raise DocumentError([f"{table.place(row, index)}: {axis} must be {reach}, not {row.cells[index].text[:40]}"])
+        given = row.cells[index].text[:40]
+        raise DocumentError([f"{table.place(row, index)}: {axis} must be {reach(axis)}, not {given}"])
     return found
 
 
@@ -97,7 +95,7 @@ def needed_rate(hints: Hints, name: str) -> Fraction:
 
 def columns_of(hints: Hints, table: Table, name: str, names: Sequence[str] = ()) -> Mapping[Axis, int]:
     """Which column is which axis, by the user's list, else by `names`. Raises DocumentError."""
-    listed = hints.columns if hints.columns is not None else [_axis(each) for each in names]
+    listed = hints.columns if hints.columns is not None else [axis_named(each) for each in names]
     found: dict[Axis, int] = {}
     for index, each in enumerate(listed):
         if each in [*Axis]:
@@ -114,17 +112,11 @@ def columns_of(hints: Hints, table: Table, name: str, names: Sequence[str] = ())
     return found
 
 
-def _axis(name: str) -> str | None:
+def axis_named(name: str) -> Axis | None:
     """The axis that other programs' names mean: `vPAN` is what Dragonframe and Kuper call a virtual one."""
     plain = name.strip().strip('"').lower()
     plain = plain[1:] if plain[1:] in ("pan", "tilt", "roll", "focus") and plain[0] == "v" else plain
-    return plain if plain in [*Axis] else {"yaw": "pan", "pitch": "tilt"}.get(plain)
-
-
-def axis_named(name: str) -> Axis | None:
-    """As an axis."""
-    found = _axis(name)
-    return None if found is None else Axis(found)
+    return Axis(plain) if plain in [*Axis] else {"yaw": Axis.PAN, "pitch": Axis.TILT}.get(plain)
 
 
 def number(value: float, digits: int = 9) -> str:

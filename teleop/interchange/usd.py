@@ -19,17 +19,15 @@ from typing import Any
 import numpy as np
 
 from teleop.config.documents.document import DocumentError
-from teleop.config.frame_rates import exact
 from teleop.core.axes import Axis
-from teleop.interchange.blender import number_rows
-from teleop.interchange.companion import MARK, facts, file_rate
+from teleop.interchange.companion import facts, file_rate, is_own, meant_rate, title_of
 from teleop.interchange.isolated import read_isolated
-from teleop.interchange.motion import CAMERA, Motion, within_reach
+from teleop.interchange.motion import CAMERA, Motion, number_rows, within_reach
 from teleop.interchange.rotation import head_angles, head_matrices, pure, y_up
 from teleop.interchange.table import Hints, WriteOptions
+from teleop.interchange.usd_extract import FOCUS
 
 CAMERA_PATH = "/camera"
-FOCUS = "teleop:focus"
 APERTURE = 15.2908  # mm: USD's own default of verticalAperture, which the focal length is relative to
 
 
@@ -86,7 +84,7 @@ def read(raw: bytes, name: str, hints: Hints) -> Motion:
 def motion_of(found: Any, name: str, hints: Hints) -> Motion:
     """The path of what `usd_extract` found in a file."""
     camera = _camera(found["cameras"], name, hints.camera)
-    own = found["own"] if MARK in str(found["own"].get("made_by")) else {}
+    own = found["own"] if is_own(found["own"]) else {}
     rate = hints.rate or _rate(found["rate"], own, name)
     rows = number_rows(camera["rows"], 18, name, f"time samples of {camera['path']}")
     try:
@@ -103,7 +101,7 @@ def motion_of(found: Any, name: str, hints: Hints) -> Motion:
     times = (rows[:, 0] - rows[0, 0]) / float(rate)
     remarks = ["positions: the camera travels, and a head only turns"] if np.ptp(rows[:, 13:16], axis=0).any() else []
     kept = within_reach({axis: positions[axis] for axis in axes}, name)
-    return Motion(str(own.get("title", ""))[:200], times, kept, rate, round(rows[0, 0]), remarks=remarks)
+    return Motion(title_of(own), times, kept, rate, round(rows[0, 0]), remarks=remarks)
 
 
 def _camera(cameras: Any, name: str, wanted: str | None) -> Any:
@@ -123,9 +121,10 @@ def _rate(found: float, own: Any, name: str) -> Fraction:
         rate = file_rate(own["frame_rate"], name)
         if abs(float(rate) - found) < 1e-6:
             return rate
-    if not 0 < found <= 1000:
+    meant = meant_rate(found)
+    if meant is None:
         raise DocumentError([f"{name}: timeCodesPerSecond must be above 0, and 1000 at most: give --rate"])
-    return exact(found).limit_denominator(1001)
+    return meant
 
 
 def _begin(own: Any) -> tuple[float, float, float] | None:

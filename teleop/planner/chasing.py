@@ -15,7 +15,7 @@ import numpy as np
 from teleop.core.axes import Axis, Limits
 from teleop.planner.keyframes.findings import PlanError
 from teleop.planner.polynomial import HERMITE
-from teleop.planner.time_scaling import TimeScaling
+from teleop.planner.time_scaling import TimeScaling, at_most, keeps_limits
 from teleop.planner.trajectory import Move
 
 HEADROOM = 0.998  # of V, A and J: what checking each few ms can miss
@@ -62,15 +62,7 @@ def catch_up(
 
 def steady_limit(move: Move, limits: Mapping[Axis, Limits]) -> float:
     """The highest rate at which the whole move may be followed: its own at least."""
-    rate = FASTEST
-    for axis, peaks in move.peaks().items():
-        of = limits[axis]
-        for order, (peak, limit) in enumerate(
-            ((peaks.velocity, of.velocity), (peaks.acceleration, of.acceleration), (peaks.jerk, of.jerk)), 1
-        ):
-            if peak > 0:
-                rate = min(rate, (HEADROOM * limit / peak) ** (1 / order))
-    return max(1.0, rate)
+    return max(1.0, min(FASTEST, at_most(move, limits, HEADROOM)))
 
 
 def _side(behind: float) -> str:
@@ -79,18 +71,6 @@ def _side(behind: float) -> str:
 
 def _legal(move: Move, limits: Mapping[Axis, Limits], scaling: TimeScaling) -> bool:
     """Whether it never goes back, and every axis keeps V, A and J during the change."""
-    whole = np.polynomial.Polynomial(scaling.coefficients)
     clock = np.linspace(0.0, scaling.duration, int(scaling.duration / STEP) + 2)
-    rate, change, jolt = (whole.deriv(order)(clock) for order in (1, 2, 3))
-    if rate.min() < -1e-9:
-        return False
-    for axis, (_, v, a, j) in move.sample(whole(clock)).items():
-        of = limits[axis]
-        for value, limit in (
-            (v * rate, of.velocity),
-            (a * rate**2 + v * change, of.acceleration),
-            (j * rate**3 + 3 * a * rate * change + v * jolt, of.jerk),
-        ):
-            if np.abs(value).max() > HEADROOM * limit:
-                return False
-    return True
+    rate = np.polynomial.Polynomial(scaling.coefficients).deriv()(clock)
+    return bool(rate.min() >= -1e-9) and keeps_limits(move, limits, scaling, clock, HEADROOM)

@@ -16,7 +16,6 @@ from teleop.planner.trajectory import Peaks, Track
 
 SAME = 1e-9  # s: two breaks that are closer are one
 ROUNDED = 1 + 1e-9  # relative, what rounding may add to a limit
-_ORDERS = 4  # position, velocity, acceleration, jerk
 _SHIFT = np.array([[comb(power, k) if power >= k else 0 for power in range(6)] for k in range(6)], dtype=float)
 
 

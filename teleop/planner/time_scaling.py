@@ -17,6 +17,7 @@ import numpy as np
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.timing import whole_ticks
 from teleop.planner.keyframes.findings import PlanError
+from teleop.planner.polynomial import Array
 from teleop.planner.trajectory import Move
 
 HEADROOM = 0.97  # of V, A and J: what checking at instants can miss, and every sample must still be a single step
@@ -63,7 +64,7 @@ def steady(time: float, rate: float, now: float) -> TimeScaling:
     return TimeScaling(now, 0.0, (time, rate), rate)
 
 
-def at_most(move: Move, limits: Mapping[Axis, Limits]) -> float:
+def at_most(move: Move, limits: Mapping[Axis, Limits], headroom: float = HEADROOM) -> float:
     """The highest steady rate at which the whole move keeps its limits; inf for a move without motion."""
     rate = np.inf
     for axis, peaks in move.peaks().items():
@@ -74,7 +75,7 @@ def at_most(move: Move, limits: Mapping[Axis, Limits]) -> float:
             (peaks.jerk, of_axis.jerk, 3),
         ):
             if peak > 0:
-                rate = min(rate, (HEADROOM * limit / peak) ** (1 / order))
+                rate = min(rate, (headroom * limit / peak) ** (1 / order))
     return float(rate)
 
 
@@ -150,16 +151,17 @@ def _first_legal(
 ) -> TimeScaling:
     for _ in range(TRIALS):
         scaling = attempt(duration)
-        if _legal(move, limits, scaling):
+        if keeps_limits(move, limits, scaling, np.linspace(0.0, scaling.duration, SAMPLES)):
             return scaling
         duration *= LONGER
     raise PlanError("no change of speed, however slow, keeps the limits here: stop instead")
 
 
-def _legal(move: Move, limits: Mapping[Axis, Limits], scaling: TimeScaling) -> bool:
-    """Whether every axis keeps V, A and J (HEADROOM of them) during the change."""
+def keeps_limits(
+    move: Move, limits: Mapping[Axis, Limits], scaling: TimeScaling, clock: Array, headroom: float = HEADROOM
+) -> bool:
+    """Whether every axis keeps V, A and J (`headroom` of them) at these times (s, from where the change begins)."""
     whole = np.polynomial.Polynomial(scaling.coefficients)
-    clock = np.linspace(0.0, scaling.duration, SAMPLES)
     rate, change, jolt = (whole.deriv(order)(clock) for order in (1, 2, 3))
     for axis, (_, v, a, j) in move.sample(whole(clock)).items():
         of_axis = limits[axis]
@@ -168,6 +170,6 @@ def _legal(move: Move, limits: Mapping[Axis, Limits], scaling: TimeScaling) -> b
             (a * rate**2 + v * change, of_axis.acceleration),
             (j * rate**3 + 3 * a * rate * change + v * jolt, of_axis.jerk),
         ):
-            if np.abs(value).max() > HEADROOM * limit:
+            if np.abs(value).max() > headroom * limit:
                 return False
     return True

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from teleop.planner.trajectory import Move
+from teleop.sequence.common_start import CommonStart
 
 
 class Trigger(Protocol):
@@ -69,6 +70,11 @@ class Cycle:
     @property
     def repeats(self) -> bool:
         return self.passes > 1
+
+    @property
+    def moment(self) -> float:
+        """The moment (s, the loop's clock) that the trigger fires for; inf where it is not known ahead."""
+        return self.trigger.at if isinstance(self.trigger, CommonStart) else math.inf
 
     @property
     def endless(self) -> bool:

@@ -20,7 +20,6 @@ from teleop.core.setpoints import Demand, StateTarget
 from teleop.core.timing import KEEP_ALIVE, SAME_TIME, whole_ticks
 from teleop.planner.rest_to_rest import rest_to_rest
 from teleop.planner.trajectory import Move
-from teleop.sequence.common_start import CommonStart
 from teleop.sequence.compile import CompiledSequence
 from teleop.sequence.cues import Cue, Wait, cues_from
 from teleop.sequence.cycle import Cycle, Trigger
@@ -107,13 +106,8 @@ class SequenceSource:
         if self.phase in (SequencePhase.PLAYING, SequencePhase.OVER):
             back = self.phase is SequencePhase.OVER and self.cycle.back_to_one
             return self._ease.at(time - self._ease_begin) if back else self.playback.foreseen(time)
-        if self.phase in BEFORE_THE_MOVE and isinstance(self.cycle.trigger, CommonStart):
-            if time > self.cycle.trigger.at:
-                return self.playback.foreseen(time, self.cycle.trigger.at)
-        elif self.phase in BEFORE_THE_MOVE and self.cycle.trigger is None:
-            begin = self.until if self.phase is SequencePhase.PREROLL else self._after_preroll(self.until)
-            if time > begin:
-                return self.playback.foreseen(time, begin)
+        if self.phase in BEFORE_THE_MOVE and time > (begin := self._next_start()):
+            return self.playback.foreseen(time, begin)
         return self._ease.at(time - self._ease_begin)
 
     def next_change(self, now: float) -> float:
@@ -222,7 +216,7 @@ class SequenceSource:
         if self._go_pressed:
             self._start_pass(now)
         elif trigger and not self.missed and trigger.fired(now):
-            self._start_pass(trigger.at if isinstance(trigger, CommonStart) else now)
+            self._start_pass(min(now, self.cycle.moment))
 
     def _start_pass(self, now: float) -> None:
         self._handle(PhaseEvent.START)
@@ -287,6 +281,12 @@ class SequenceSource:
     def _foresee_begin(self) -> None:
         if self.cycle.trigger is None:
             self.begin = self._after_preroll(self.until) + self.lead
+
+    def _next_start(self) -> float:
+        """When the pass will begin as far as is known before it does, else inf."""
+        if self.cycle.trigger is not None:
+            return self.cycle.moment
+        return self.until if self.phase is SequencePhase.PREROLL else self._after_preroll(self.until)
 
     @property
     def lead(self) -> float:

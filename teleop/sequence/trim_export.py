@@ -18,6 +18,7 @@ from teleop.config.files import check_place, is_stream, write_text
 from teleop.config.resources import find
 from teleop.core.axes import Axis, Limits, State
 from teleop.core.errors import UsageError
+from teleop.sequence.written_values import decimal
 
 PLACES = 4  # decimals of a key, in degrees or of 0..1: finer than any rig
 _TOKEN = re.compile(r"[^\s,\]}#]+")
@@ -67,8 +68,8 @@ class TrimmedFile:
         if not offset:
             return self._text[each.start : each.end]
         limits = self._limits[each.axis]
-        moved = min(max(round(each.value + offset, PLACES), limits.minimum), limits.maximum) + 0.0
-        return f"{moved:.{PLACES}f}".rstrip("0").rstrip(".")
+        moved = min(max(round(each.value + offset, PLACES), limits.minimum), limits.maximum)
+        return decimal(moved, PLACES)
 
 
 def _numbers(document: Document, text: str, axes: Sequence[Axis]) -> list[Number]:

@@ -11,22 +11,19 @@ SHOWN = 20  # frames that are named in a line
 
 def troubles(progress: Progress) -> list[str]:
     """A line for each kind, none where all went well."""
-    lines: list[str] = []
-    if progress.missed:
-        lines.append(f"{progress.missed} slots were missed")
-    if progress.lost:
-        lines.append(f"No picture of frames {_numbers(progress.lost)}")
-    if progress.doubtful:
-        lines.append(f"Frames {_numbers(progress.doubtful)} may be missing: the camera did not confirm them")
-    if progress.stopped:
-        lines.append(f"Frames {_numbers(progress.stopped)} were exposing when a STOP halted the axes: check them")
-    if progress.late:
-        lines.append(f"{progress.late} frames were late, by {progress.latest:.2f} s at most")
-    if progress.refused:
-        lines.append(f"The camera refused {progress.refused} times")
-    if progress.unsettled:
-        lines.append(f"{progress.unsettled} frames were shot before the axes were measured to be still")
-    return lines
+    lines = (
+        (progress.missed, f"{progress.missed} slots were missed"),
+        (progress.lost, f"No picture of frames {_numbers(progress.lost)}"),
+        (progress.doubtful, f"Frames {_numbers(progress.doubtful)} may be missing: the camera did not confirm them"),
+        (
+            progress.stopped,
+            f"Frames {_numbers(progress.stopped)} were exposing when a STOP halted the axes: check them",
+        ),
+        (progress.late, f"{progress.late} frames were late, by {progress.latest:.2f} s at most"),
+        (progress.refused, f"The camera refused {progress.refused} times"),
+        (progress.unsettled, f"{progress.unsettled} frames were shot before the axes were measured to be still"),
+    )
+    return [line for seen, line in lines if seen]
 
 
 def _numbers(frames: Sequence[int]) -> str:

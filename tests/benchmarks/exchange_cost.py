@@ -5,7 +5,6 @@ python tests/benchmarks/exchange_cost.py [SECONDS]
 
 from __future__ import annotations
 
-import os
 import socket
 import statistics
 import sys
@@ -15,25 +14,20 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
+from processor_time import processor_time
 from real_console import RealConsole
 from real_exchange import free_port, real_exchange
 
 from teleop.links.osc_packets import messages, packet
 
 
-def used(process: int) -> float:
-    """Processor time so far, in s."""
-    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
 def load(console: RealConsole, seconds: float) -> tuple[float, float]:
     """Shares of a core that the control process and its gateway take, while an axis moves."""
     control, gateway = console._process.pid, console.gateway
     console.request("api/command", {"do": "goto", "axes": {"pan": 90}, "seconds": seconds})
-    before = used(control), used(gateway)
+    before = processor_time(control), processor_time(gateway)
     time.sleep(seconds)
-    share = (used(control) - before[0]) / seconds, (used(gateway) - before[1]) / seconds
+    share = (processor_time(control) - before[0]) / seconds, (processor_time(gateway) - before[1]) / seconds
     console.request("api/command", {"do": "goto", "axes": {"pan": 0}, "seconds": 2, "wait": True})
     return share
 

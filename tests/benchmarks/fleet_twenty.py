@@ -17,18 +17,16 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from fleet_bench import RigProcess
+from processor_time import processor_time
 
 from teleop.studio.fleet import Fleet
-
-TICK = os.sysconf("SC_CLK_TCK")
 
 
 def used(process: int) -> tuple[float, float]:
     """Processor time in s, and the memory that is its own in MB."""
-    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
     kept = [line.split() for line in Path(f"/proc/{process}/smaps_rollup").read_text().splitlines()[1:]]
     own = sum(int(words[1]) for words in kept if words[0] in ("Private_Clean:", "Private_Dirty:"))
-    return (int(fields[11]) + int(fields[12])) / TICK, own / 1024
+    return processor_time(process), own / 1024
 
 
 def children(process: int) -> dict[str, int]:

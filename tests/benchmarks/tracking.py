@@ -21,6 +21,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
+from processor_time import processor_time
 from remote_bench import PROFILE, remote_bench
 from tracking_fuzz import fuzzed
 
@@ -42,7 +43,6 @@ STREAMS = (
     "  - {type: opentrackio, to: 'TO', rate: 100, source: 2, encoding: cbor}\n"
 )
 QUIET = "  - {type: osc, listen: '127.0.0.1:0'}\n"
-TICKS = os.sysconf("SC_CLK_TCK")
 
 
 def cost(what: Callable[[], object], times: int = 5000) -> float:
@@ -70,8 +70,7 @@ def gateway_time() -> float:
     tasks = Path(f"/proc/{os.getpid()}/task").iterdir()
     children = [each for task in tasks for each in (task / "children").read_text().split()]
     (own,) = [each for each in children if b"teleop.gateway" in Path(f"/proc/{each}/cmdline").read_bytes()]
-    fields = Path(f"/proc/{own}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / TICKS
+    return processor_time(int(own))
 
 
 def run(entries: str) -> tuple[Watch, float, list[tuple[float, bytes]]]:

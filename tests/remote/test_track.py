@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -61,10 +63,19 @@ def sway(time: float) -> tuple[float, float]:
     return 30 * math.sin(time), 10 * math.cos(time)
 
 
-def test_a_moving_target_is_met_and_kept_within_the_limits(tmp_path):
+@contextmanager
+def followed(
+    tmp_path: Path, way: Callable[[float], tuple[float, float]] = sway, **fields: Any
+) -> Iterator[tuple[RemoteBench, Tracker]]:
+    """A bench that follows the stream from now on."""
     with remote_bench(tmp_path) as bench:
-        tracker = Tracker(bench, sway)
-        assert "ok" in tracker.track()
+        tracker = Tracker(bench, way)
+        assert "ok" in tracker.track(**fields)
+        yield bench, tracker
+
+
+def test_a_moving_target_is_met_and_kept_within_the_limits(tmp_path):
+    with followed(tmp_path) as (bench, tracker):
         tracker.run(2.0)
         tracker.run(4.0)
         assert max(tracker.errors(4.0)) < 0.1
@@ -92,9 +103,7 @@ def test_a_stream_alone_moves_nothing(tmp_path):
 
 
 def test_a_silence_of_a_quarter_second_is_a_legal_stop_and_the_stream_may_go_on(tmp_path):
-    with remote_bench(tmp_path) as bench:
-        tracker = Tracker(bench, sway)
-        tracker.track()
+    with followed(tmp_path) as (bench, tracker):
         tracker.run(2.6)
         tracker.run(0.8, silent=True)
         assert bench.rests
@@ -104,9 +113,7 @@ def test_a_silence_of_a_quarter_second_is_a_legal_stop_and_the_stream_may_go_on(
 
 
 def test_a_stream_that_ends_ends_following_and_it_has_to_be_asked_for_again(tmp_path):
-    with remote_bench(tmp_path) as bench:
-        tracker = Tracker(bench, sway)
-        tracker.track()
+    with followed(tmp_path) as (bench, tracker):
         tracker.run(2.0)
         tracker.run(1.2, silent=True)
         assert bench.rests
@@ -119,9 +126,7 @@ def test_a_stream_that_ends_ends_following_and_it_has_to_be_asked_for_again(tmp_
 
 
 def test_a_soft_limit_keeps_it_from_the_target_and_says_so_once(tmp_path):
-    with remote_bench(tmp_path) as bench:
-        tracker = Tracker(bench, lambda time: (150 + 40 * math.sin(time), 0.0))
-        tracker.track()
+    with followed(tmp_path, lambda time: (150 + 40 * math.sin(time), 0.0)) as (bench, tracker):
         tracker.run(9.0)
         assert max(at for _, _, at, _ in tracker.rows) <= 180.0
         told = [line for line in bench.lines if "beyond the soft limit of pan (180)" in line]
@@ -131,9 +136,7 @@ def test_a_soft_limit_keeps_it_from_the_target_and_says_so_once(tmp_path):
 
 
 def test_a_target_that_is_too_fast_is_followed_at_the_limit_and_said(tmp_path):
-    with remote_bench(tmp_path) as bench:
-        tracker = Tracker(bench, lambda time: (0.0 if time < 2 else min(100 * (time - 2), 170.0), 0.0))
-        tracker.track()
+    with followed(tmp_path, lambda time: (0.0 if time < 2 else min(100 * (time - 2), 170.0), 0.0)) as (bench, tracker):
         tracker.run(5.5)
         assert any(line.startswith("track: pan is ") and "too fast for its limits" in line for line in bench.lines)
         assert max(tracker.errors(0.2)) < 0.1
@@ -153,9 +156,7 @@ def test_a_target_behind_the_camera_is_on_the_turn_that_the_limits_allow(tmp_pat
 
 
 def test_the_stick_at_the_rig_outranks_it_and_ends_it(tmp_path):
-    with remote_bench(tmp_path) as bench:
-        tracker = Tracker(bench, sway)
-        tracker.track()
+    with followed(tmp_path) as (bench, tracker):
         tracker.run(1.0)
         bench.pad.deflections = {Axis.PAN: 1.0}
         tracker.run(0.3)
@@ -166,9 +167,7 @@ def test_the_stick_at_the_rig_outranks_it_and_ends_it(tmp_path):
 
 
 def test_stop_ends_it_and_clear_does_not_begin_it_again(tmp_path):
-    with remote_bench(tmp_path) as bench:
-        tracker = Tracker(bench, sway)
-        tracker.track()
+    with followed(tmp_path) as (bench, tracker):
         tracker.run(1.0)
         bench.ask("stop", BOB)
         tracker.run(0.6)
@@ -180,9 +179,7 @@ def test_stop_ends_it_and_clear_does_not_begin_it_again(tmp_path):
 
 
 def test_abort_ends_it_legally(tmp_path):
-    with remote_bench(tmp_path) as bench:
-        tracker = Tracker(bench, sway)
-        tracker.track()
+    with followed(tmp_path) as (bench, tracker):
         tracker.run(1.0)
         assert "ok" in bench.ask("abort")
         tracker.run(0.7)
@@ -192,9 +189,7 @@ def test_abort_ends_it_legally(tmp_path):
 
 @pytest.mark.parametrize("attended", [True, False])
 def test_it_ends_when_its_console_is_gone_unless_it_is_unattended(tmp_path, attended):
-    with remote_bench(tmp_path) as bench:
-        tracker = Tracker(bench, sway)
-        tracker.track(attended=attended)
+    with followed(tmp_path, attended=attended) as (bench, tracker):
         tracker.run(1.0)
         bench.seen[ANNA] = 3000.0
         tracker.run(3.0)

@@ -43,6 +43,11 @@ def place(option: str, path: Path, overwrite: bool, original: Path) -> None:
     """
     if path.resolve() == original.resolve():
         raise UsageError(f"{option} {path}: is the take itself; choose another file")
+    check_new(option, path, overwrite)
+
+
+def check_new(option: str, path: Path, overwrite: bool) -> None:
+    """Raises UsageError for a file that exists, without --overwrite; OutputError where nothing can be written."""
     if path.exists() and not (overwrite or is_stream(path)):
         raise UsageError(f"{option} {path}: already exists; give --overwrite to replace it")
     check_place(path)

@@ -119,9 +119,8 @@ class TableReader:
     def _beyond(self, axis: Axis, positions: Array, table: Table, index: int) -> Iterator[str]:
         """A line for an axis that leaves the soft limits: the frame at which it is furthest outside."""
         limits = self.limits[axis]
-        outside = np.maximum(limits.minimum - positions, positions - limits.maximum)
-        worst = int(outside.argmax())
-        if outside[worst] > SHIFT:
+        worst = furthest_outside(positions, limits)
+        if worst is not None:
             reach = f"{limits.minimum:g}..{limits.maximum:g} ({self.rig})"
             text = f"{axis} must be within {reach}, not {positions[worst]:g}; use another offset or scale"
             yield f"{table.place(table.rows[worst], index)}: {text}"
@@ -189,11 +188,12 @@ def _placed(axis: Axis, values: Array, column: ColumnSection, limits: Limits) ->
     positions = values * column.scale + column.offset
     if not axis.is_angle:
         return positions
-    return within_turns(np.unwrap(positions, period=360.0), limits)
+    return within_turns(positions, limits)
 
 
-def within_turns(positions: Array, limits: Limits) -> Array:
-    """Angles moved by whole turns into the soft limits, where that brings all of them there; NaN is no angle."""
+def within_turns(angles: Array, limits: Limits) -> Array:
+    """Angles without a seam, moved by whole turns into the soft limits where that brings all of them there."""
+    positions = np.unwrap(angles, period=360.0)
     if limits.continuous:
         return positions
     least, most = float(np.nanmin(positions)), float(np.nanmax(positions))
@@ -205,6 +205,13 @@ def within_turns(positions: Array, limits: Limits) -> Array:
 def _within(positions: Array, limits: Limits) -> bool:
     least, most = np.nanmin(positions), np.nanmax(positions)
     return bool(least >= limits.minimum - SHIFT and most <= limits.maximum + SHIFT)
+
+
+def furthest_outside(positions: Array, limits: Limits) -> int | None:
+    """Where it is furthest outside the soft limits, None for nowhere; NaN is no position."""
+    outside = np.nan_to_num(np.maximum(limits.minimum - positions, positions - limits.maximum), nan=-1.0)
+    worst = int(outside.argmax())
+    return worst if outside[worst] > SHIFT else None
 
 
 def _too_fast(error: TooFastError, rig: str, rate: float, first: int) -> str:
