@@ -10,7 +10,7 @@ import asyncio
 import ipaddress
 import secrets
 import socket
-from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Iterator, Mapping, Sequence
 from contextlib import asynccontextmanager, suppress
 from dataclasses import asdict, dataclass, field
 from typing import Any, NamedTuple, Self
@@ -78,18 +78,23 @@ class Found(NamedTuple):
 
 def addresses_of(host: str) -> list[str]:
     """Where others reach what listens at `host`: for every address (0.0.0.0, ::) those of this computer."""
-    import ifaddr
-
     if host not in ANY:
         return [host]
     found = []
+    for text, _ in own_addresses():
+        number = ipaddress.ip_address(text)
+        if not number.is_loopback and (number.version == 4 or (host == "::" and not number.is_link_local)):
+            found.append(text)
+    return sorted(found, key=lambda text: ":" in text)
+
+
+def own_addresses() -> Iterator[tuple[str, int]]:
+    """Every address of this computer, with the length of its network's prefix."""
+    import ifaddr
+
     for adapter in ifaddr.get_adapters():
         for each in adapter.ips:
-            text = each.ip if isinstance(each.ip, str) else each.ip[0]
-            number = ipaddress.ip_address(text)
-            if not number.is_loopback and (number.version == 4 or (host == "::" and not number.is_link_local)):
-                found.append(text)
-    return sorted(found, key=lambda text: ":" in text)
+            yield each.ip if isinstance(each.ip, str) else each.ip[0], each.network_prefix
 
 
 @asynccontextmanager

@@ -55,11 +55,6 @@ def best(rig: Found, begins: str, networks: Sequence[Network]) -> str:
 
 
 def own_networks() -> list[Network]:
-    import ifaddr
+    from teleop.gateway.discovery import own_addresses
 
-    found: list[Network] = []
-    for adapter in ifaddr.get_adapters():
-        for each in adapter.ips:
-            text = each.ip if isinstance(each.ip, str) else each.ip[0]
-            found.append(ipaddress.ip_network(f"{text}/{each.network_prefix}", strict=False))
-    return found
+    return [ipaddress.ip_network(f"{text}/{prefix}", strict=False) for text, prefix in own_addresses()]
