@@ -74,7 +74,6 @@ def endpoints(section: ZenohSection) -> list[str]:
     """Where the fleet of a rig is reached from its own machine: what it connects to, and its own listener."""
     found = list(section.connect)
     if section.listen and (own := endpoint(section.listen)).address.port:
-        host = own.address.host
-        host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
-        found.append(f"{own.protocol}/{f'[{host}]' if ':' in host else host}:{own.address.port}")
+        host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(own.address.host, own.address.host)
+        found.append(f"{own.protocol}/{own.address._replace(host=host)}")
     return found

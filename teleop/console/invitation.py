@@ -13,6 +13,7 @@ import ssl
 from collections.abc import Sequence
 from pathlib import Path
 
+from teleop.config.exchange.address import Address
 from teleop.console.settings import ConsoleSettings, Role, is_loopback
 from teleop.core.invitation import Invitation
 
@@ -23,8 +24,7 @@ _HALVES = {(True, True): "█", (True, False): "▀", (False, True): "▄", (Fal
 def origin(settings: ConsoleSettings) -> str:
     """The address of the page without a path: `http://192.168.1.7:8470`."""
     scheme = "https" if settings.has_tls else "http"
-    host = reachable_host(settings.host)
-    return f"{scheme}://{f'[{host}]' if ':' in host else host}:{settings.port}"
+    return f"{scheme}://{Address(reachable_host(settings.host), settings.port)}"
 
 
 def url(settings: ConsoleSettings, role: Role = "operate") -> str:

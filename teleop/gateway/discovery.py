@@ -15,6 +15,7 @@ from contextlib import asynccontextmanager, suppress
 from dataclasses import asdict, dataclass, field
 from typing import Any, NamedTuple, Self
 
+from teleop.config.exchange.address import Address
 from teleop.config.exchange.endpoint import endpoint
 from teleop.core.errors import TeleopError
 
@@ -68,7 +69,7 @@ class Found(NamedTuple):
         if "api" not in self.text:
             return ""
         host = self.addresses[0] if self.addresses else ""
-        return f"http{'s' if self.tls else ''}://{f'[{host}]' if ':' in host else host}:{self.port}"
+        return f"http{'s' if self.tls else ''}://{Address(host, self.port)}"
 
     @property
     def endpoints(self) -> list[str]:
@@ -225,8 +226,7 @@ def _reached(listen: str, addresses: Sequence[str]) -> str:
         return listen
     whole = ""
     for each in addresses:
-        host = f"[{each}]" if ":" in each else each
-        longer = f"{whole} {found.protocol}/{host}:{found.address.port}".strip()
+        longer = f"{whole} {found.protocol}/{Address(each, found.address.port)}".strip()
         if len(longer) <= LONGEST_TEXT:
             whole = longer
     return whole

@@ -16,6 +16,10 @@ class Address(NamedTuple):
     host: str
     port: int
 
+    def __str__(self) -> str:
+        """As it is written: an IPv6 host in brackets."""
+        return f"{f'[{self.host}]' if ':' in self.host else self.host}:{self.port}"
+
     @property
     def is_loopback(self) -> bool:
         """Whether only this computer can reach it."""
