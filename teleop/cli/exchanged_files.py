@@ -10,7 +10,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.config.files import check_place, is_stream
+from teleop.cli.take.options import check_free
 from teleop.config.frame_rates import exact
 from teleop.core.errors import UsageError
 from teleop.interchange.table import AMBIGUOUS, BY_NAME, Format
@@ -43,13 +43,11 @@ def check_vfov(vfov: float | None) -> None:
         raise UsageError(f"--vfov {vfov:g}: must be between 0 and 180 degrees")
 
 
-def check_free(option: str, path: Path, overwrite: bool, source: Path) -> None:
+def check_output(path: Path, overwrite: bool, source: Path) -> None:
     """Raises UsageError where nothing may be written, OutputError where nothing can be."""
     if path.exists() and source.exists() and path.samefile(source):
-        raise UsageError(f"{option}{path}: is the file itself; choose another")
-    if path.exists() and not (overwrite or is_stream(path)):
-        raise UsageError(f"{option}{path}: already exists; give --overwrite to replace it")
-    check_place(path)
+        raise UsageError(f"-o {path}: is the file itself; choose another")
+    check_free("-o", path, overwrite)
 
 
 def certain(found: Format | None, path: Path, option: str) -> Format:

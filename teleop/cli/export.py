@@ -10,7 +10,7 @@ from cyclopts import Parameter
 
 from teleop.app.export_motion import USUAL_RATE, Exported, exported, keys_of, own_rate, planned_motion, recorded_motion
 from teleop.app.planning import is_take
-from teleop.cli.exchanged_files import FormatName, Overwrite, certain, check_free, check_vfov, rate_of
+from teleop.cli.exchanged_files import FormatName, Overwrite, certain, check_output, check_vfov, rate_of
 from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json
 from teleop.cli.screens.folded import complain
 from teleop.cli.shipped_files import named
@@ -64,10 +64,10 @@ def export(
     check_vfov(vfov)
     if not is_take(file) and (commanded or number is not None):
         raise UsageError(f"{'--commanded' if commanded else '--pass'}: is for takes (.mcap), and {file} is none")
-    check_free("-o ", output, overwrite, Path(file))
+    check_output(output, overwrite, Path(file))
     side = None if chosen.notes is None or is_stream(output) else beside(output)
     if side is not None:
-        check_free("-o ", side, overwrite, Path(file))
+        check_output(side, overwrite, Path(file))
     chosen.load()
     if is_take(file):
         motion = _recorded(Path(file), chosen, frames, first_frame, commanded, number, options.json)

@@ -13,7 +13,7 @@ from cyclopts import Parameter
 from teleop.app.import_motion import Imported, Importer
 from teleop.app.read_motion import origin_lines, read_motion, sniffed
 from teleop.cli.completion import offered
-from teleop.cli.exchanged_files import FormatName, Overwrite, certain, check_free, rate_of
+from teleop.cli.exchanged_files import FormatName, Overwrite, certain, check_output, rate_of
 from teleop.cli.options import RIGS
 from teleop.cli.screens.busy import busy
 from teleop.cli.screens.folded import complain, tell
@@ -90,7 +90,7 @@ def import_(
             raise DocumentError([f"{file}: no such file"])
         chosen = format_of(file, form, "")
         chosen = certain(sniffed(file) if chosen is None else chosen, file, "")
-        check_free("-o ", output, overwrite, file)
+        check_output(output, overwrite, file)
         profile = load_profile(rig, {}, "")
         motion = read_motion(file, chosen, hints, taken, inverted)
         about = list(origin_lines(file, chosen, motion, hints, tolerance))
