@@ -19,7 +19,7 @@ from teleop.cli.screens.busy import busy
 from teleop.cli.screens.folded import complain, tell
 from teleop.cli.take.options import Json, problems_as_json
 from teleop.config.documents.document import DocumentError
-from teleop.config.files import replacing
+from teleop.config.files import write_text
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
 from teleop.core.errors import UsageError
@@ -83,7 +83,7 @@ def import_(
     if output.suffix.lower() not in ENDINGS:
         raise UsageError(f"-o {output}: its ending must be {' or '.join(ENDINGS)}")
     order = rotation_order and rotation_order.upper()
-    hints = Hints(rate_of(rate), order, _columns(columns), camera=camera)
+    hints = Hints(rate_of(rate), order, _names("--columns", columns, *SKIPPED), camera=camera)
     taken, inverted = _axes("--only", only), _axes("--invert", invert) or []
     with problems_as_json(as_json):
         if not file.is_file():
@@ -96,49 +96,45 @@ def import_(
         about = list(origin_lines(file, chosen, motion, hints, tolerance))
         with busy("Fitting"):
             done = Importer(str(file), profile.limits, profile.name, tolerance, stretch).sequence(motion, about)
-    with replacing(output) as stream:
-        stream.write(done.text.encode())
+    write_text(output, done.text)
     _report(done, motion.remarks, chosen, output, as_json)
     return 0
 
 
-def _columns(text: str | None) -> Sequence[str | None] | None:
+def _names(option: str, text: str | None, *also: str) -> Sequence[str] | None:
+    """Names of axes, or what else there may be. Raises UsageError."""
     if text is None:
         return None
-    names = [each.strip().lower() for each in text.split(",")]
-    wrong = [each for each in names if each not in [*Axis] and each not in SKIPPED]
-    if wrong:
-        known = ", ".join([*(axis.value for axis in Axis), *SKIPPED])
-        raise UsageError(f"--columns {text}: {wrong[0] or 'an empty name'} is none of {known}")
+    names, known = [each.strip().lower() for each in text.split(",")], [*(axis.value for axis in Axis), *also]
+    if wrong := [each for each in names if each not in known]:
+        raise UsageError(f"{option} {text}: {wrong[0] or 'an empty name'} is none of {', '.join(known)}")
     return names
 
 
 def _axes(option: str, text: str | None) -> Sequence[Axis] | None:
-    if text is None:
-        return None
-    names = [each.strip().lower() for each in text.split(",")]
-    if wrong := [each for each in names if each not in [*Axis]]:
-        known = ", ".join(axis.value for axis in Axis)
-        raise UsageError(f"{option} {text}: {wrong[0] or 'an empty name'} is none of {known}")
-    return [Axis(each) for each in names]
+    names = _names(option, text)
+    return None if names is None else [Axis(each) for each in names]
 
 
 def _report(done: Imported, left_out: Sequence[str], form: Format, output: Path, as_json: bool) -> None:
-    rate = done.sequence.fps
+    cues = len(done.sequence.cues)
     if as_json:
         errors = {axis.value: {"error": round(e.size, 6), "frame": e.frame} for axis, e in done.deviations.items()}
-        known = {"ok": True, "written": str(output), "format": form.name, "rate": rate, "keyframes": done.keyframes}
+        known = {"ok": True, "written": str(output), "format": form.name, "rate": done.sequence.fps}
+        counts = {"keyframes": done.keyframes, "cues": cues}
         lines = {"left_out": list(left_out), "remarks": list(done.remarks)}
-        print(json.dumps({**known, "cues": len(done.sequence.cues), "largest_errors": errors, **lines}))
+        print(json.dumps({**known, **counts, "largest_errors": errors, **lines}))
         return
     for line in left_out:
         complain(f"left out: {line}")
     for line in (*done.remarks, *done.sequence.warnings):
         complain(f"{output}: {line}")
     errors = [f"{axis} {e.size:.3f}{UNIT_SIGNS[axis.unit]} at frame {e.frame}" for axis, e in done.deviations.items()]
-    parts = [f"{done.keyframes} keyframe{'' if done.keyframes == 1 else 's'}"]
-    parts += (
-        [f"{len(done.sequence.cues)} cue{'' if len(done.sequence.cues) == 1 else 's'}"] if done.sequence.cues else []
-    )
+    parts = [_counted(done.keyframes, "keyframe")]
+    parts += [_counted(cues, "cue")] if cues else []
     parts += [f"largest error {', '.join(errors)}"] if errors else []
     tell(f"{output}: {', '.join(parts)}")
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"
