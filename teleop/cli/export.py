@@ -72,12 +72,7 @@ def export(
     if is_take(file):
         motion = _recorded(Path(file), chosen, frames, first_frame, commanded, number, options.json)
     else:
-        plan = options.plan(file)
-        motion = planned_motion(plan, file, frames, first_frame)
-        if not chosen.cues:
-            motion = keys_of(plan, motion)
-        if frames is None and own_rate(plan) is None:
-            complain(f"{file}: has no fps: written at {shown(motion.known_rate)}; --rate gives another")
+        motion = _planned(file, chosen, frames, first_frame, options)
     with problems_as_json(options.json):
         done = exported(motion, chosen, output.suffix.lower(), vfov)
     with replacing(output) as stream:
@@ -86,6 +81,17 @@ def export(
         write_text(side, done.beside)
     _report(done, chosen, output, side, options.json)
     return 0
+
+
+def _planned(file: str, form: Format, rate: Fraction | None, first: int, options: Options) -> Motion:
+    """The path of a move."""
+    plan = options.plan(file)
+    motion = planned_motion(plan, file, rate, first)
+    if not form.cues:
+        motion = keys_of(plan, motion)
+    if rate is None and own_rate(plan) is None:
+        complain(f"{file}: has no fps: written at {shown(motion.known_rate)}; --rate gives another")
+    return motion
 
 
 def _recorded(
