@@ -136,9 +136,12 @@ class Importer:
         worst = int(outside.argmax())
         if outside[worst] <= SHIFT:
             return None
-        line = f":{motion.lines[worst]}" if len(motion.lines) and motion.lines[worst] else ""
-        reach = f"{limits.minimum:g}..{limits.maximum:g} ({self.rig})"
-        return f"{self.name}{line}: frame {motion.first + worst}: {axis} must be within {reach}, not {column[worst]:g}"
+        reach, frame = f"{limits.minimum:g}..{limits.maximum:g} ({self.rig})", motion.first + worst
+        return f"{self._line(motion, worst)}: frame {frame}: {axis} must be within {reach}, not {column[worst]:g}"
+
+    def _line(self, motion: Motion, place: int) -> str:
+        """The file, and the line that has the frame at `place`, as far as it is known."""
+        return f"{self.name}:{motion.lines[place]}" if len(motion.lines) and motion.lines[place] else self.name
 
     def _attempts(self, motion: Motion) -> Iterator[ImportedKeys]:
         grid = motion.rate or own_grid(motion.times)
@@ -187,8 +190,7 @@ class Importer:
 
     def _too_fast(self, error: TooFastError, motion: Motion, begin: int) -> str:
         place = begin + error.place
-        line = f":{motion.lines[place]}" if len(motion.lines) and motion.lines[place] else ""
-        what = f"{self.name}{line}: {error.axis} is too fast for {self.rig}"
+        what = f"{self._line(motion, place)}: {error.axis} is too fast for {self.rig}"
         if error.share > 1:
             what += f" (its {error.limit} would be {error.share:.3g} x the limit at frame {motion.first + place})"
         cure = "a higher --tolerance" if error.factor is None else "--stretch, or a higher --tolerance"

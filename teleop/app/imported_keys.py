@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teleop.config.frame_rates import shown_rate
+from teleop.config.frame_rates import exact, shown_rate
 from teleop.core.axes import Axis
 from teleop.core.timing import SAME_TIME
 from teleop.interchange.motion import Motion, TimedCue
@@ -165,8 +165,6 @@ def _lines(keys: ImportedKeys, motion: Motion, about: Sequence[str]) -> Iterator
 
 def _is_shown(rate: Fraction) -> bool:
     """Whether its usual spelling, 23.976, means exactly this rate."""
-    from teleop.config.frame_rates import exact
-
     return exact(float(shown_rate(float(rate)))) == rate
 
 
