@@ -20,7 +20,7 @@ from teleop.core.events import Tick
 from teleop.door.address import DoorAddress
 from teleop.door.messages import MOST_SEEN, CommandError, checked, packed, unpacked
 from teleop.door.ring import SLOTS, RingReader
-from teleop.door.sockets import LARGEST, client_socket
+from teleop.door.sockets import LARGEST, ClientSocket
 from teleop.door.states import StateUnpacker
 from teleop.door.ticks import from_plain
 
@@ -58,7 +58,7 @@ class DoorClient:
             os.unlink(own)  # of a process that had the same number
         try:
             self._ring = RingReader(self.address.ring)
-            self._socket = client_socket(own, self.address.commands)
+            self._socket = ClientSocket(own, self.address.commands)
         except OSError as error:
             raise TeleopError(f"{self.address.folder}: {error.strerror or error}: is the rig still running?") from None
         self._loop.add_reader(self._socket, self._receive)
