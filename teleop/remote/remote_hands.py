@@ -98,17 +98,16 @@ class RemoteHands:
         if again and self._operator.stopped_by:  # a STOP that is not cleared outlasts a run
             self.desk.press(self._operator.stopped_by, Command.STOP)
         self._operator = self._actions.operator = self._actions.by_operator.operator = operator
-        self._actions.by_operator.presets, self._actions.devices.has_camera = presets, rig.camera is not None
+        camera = rig.camera is not None
+        self._actions.by_operator.presets, self._actions.devices.has_camera = presets, camera
         self._shutter = self._shutter_of(rig)
         self._actions.moves.shoots.has_camera = self._shutter is not None
         self._jobs.foresee = rig.foresee
         drone = rig.drone(list(self._limits))
         state = lambda: None if drone is None else drone.state(rig.clock.now())  # noqa: E731
         shown = LiveShown(operator, presets, self._jobs, self._keys, self._actions.moves.passes, state)
-        camera = rig.camera is not None
-        parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, camera)
-        parts = replace(parts, commissions=self._commissions)
-        self._publisher = self.door.publisher(parts, rig.clock)
+        facts = self._profile.name, self._limits, shown, rig.connections, self.desk, camera
+        self._publisher = self.door.publisher(Parts(*facts, commissions=self._commissions), rig.clock)
         if again:
             self._jobs.again()
         elif self._gateway is not None:
