@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from teleop.config.documents.yaml_scalars import number, quoted
 from teleop.config.frame_rates import exact, shown_rate
 from teleop.core.axes import Axis
 from teleop.core.timing import SAME_TIME
@@ -147,7 +147,7 @@ def _lines(keys: ImportedKeys, motion: Motion, about: Sequence[str]) -> Iterator
     yield from (f"# {line}" for line in about)
     if keys.begin > 0:
         yield f"# The file's first frame is at {keys.begin:.3f} s: what comes before gets the rig to speed."
-    yield f"title: {_quoted(motion.title)}"
+    yield f"title: {quoted(motion.title)}"
     if motion.rate is not None:
         rate = float(motion.rate) / keys.factor
         yield f"fps: {shown_rate(rate) if keys.factor == 1 and _is_shown(motion.rate) else repr(rate)}"
@@ -172,7 +172,7 @@ def _keyframe(line: Line, keys: ImportedKeys, motion: Motion) -> Iterator[str]:
     yield f"at: {_time(line.place, keys, motion)}"
     for axis in Axis:
         if axis in line.positions:
-            yield f"{axis.value}: {_plain(line.positions[axis], DIGITS[axis.is_angle])}"
+            yield f"{axis.value}: {number(line.positions[axis], DIGITS[axis.is_angle])}"
     if line.hold:
         yield f"hold: {_time(line.hold, keys, motion)}"
     elif line.stop:
@@ -182,21 +182,10 @@ def _keyframe(line: Line, keys: ImportedKeys, motion: Motion) -> Iterator[str]:
 def _time(place: int, keys: ImportedKeys, motion: Motion) -> str:
     if motion.rate is not None:
         return f"{place}f"
-    return _plain(place / float(keys.grid) * keys.factor, 6)
+    return number(place / float(keys.grid) * keys.factor)
 
 
 def _cue(cue: TimedCue, keys: ImportedKeys) -> Iterator[str]:
-    yield f"at: {_plain(keys.begin + cue.at * keys.factor, 6)}"
+    yield f"at: {number(keys.begin + cue.at * keys.factor)}"
     for kind, value in cue.content.items():
-        yield f"{kind}: {_quoted(value) if kind == 'send' else value}"
-
-
-def _quoted(text: str) -> str:
-    """In double quotes; what YAML does not permit as it is (U+0085 and others) is escaped."""
-    quoted = json.dumps(text, ensure_ascii=False)
-    return "".join(letter if letter.isprintable() else f"\\U{ord(letter):08x}" for letter in quoted)
-
-
-def _plain(value: float, digits: int) -> str:
-    """Without an exponent, and without a minus before nothing."""
-    return f"{round(value, digits) + 0.0:.{digits}f}".rstrip("0").rstrip(".")
+        yield f"{kind}: {quoted(value) if kind == 'send' else value}"

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from teleop.config.documents.yaml_scalars import number, quoted
 from teleop.core.axes import Axis
 from teleop.core.events import Action
 from teleop.planner.keyframes.tension import EVEN, Tension
@@ -30,7 +30,7 @@ def sequence_text(sequence: SequenceText) -> str:
 
 
 def _lines(sequence: SequenceText) -> Iterator[str]:
-    yield f"title: {_quoted(sequence.title)}"
+    yield f"title: {quoted(sequence.title)}"
     if sequence.tension != EVEN:
         yield f"tension: {sequence.tension:g}"
     yield "keyframes:"
@@ -46,23 +46,12 @@ def _frame(frame: MergedKey, digits: Mapping[Axis, int]) -> Iterator[str]:
     yield f"at: {_seconds(frame.place)}"
     for axis in Axis:
         if axis in frame.positions:
-            yield f"{axis.value}: {_plain(round(frame.positions[axis], digits[axis]))}"
+            yield f"{axis.value}: {number(frame.positions[axis], digits[axis])}"
     if frame.hold:
         yield f"hold: {_seconds(frame.hold)}s"
     elif frame.stop:
         yield "pass: stop"
 
 
-def _quoted(text: str) -> str:
-    """In double quotes; what YAML does not permit as it is (U+0085 and others) is escaped."""
-    quoted = json.dumps(text, ensure_ascii=False)
-    return "".join(letter if letter.isprintable() else f"\\U{ord(letter):08x}" for letter in quoted)
-
-
 def _seconds(places: int) -> str:
-    return _plain(places / GRID)
-
-
-def _plain(value: float) -> str:
-    """Without an exponent, and without a minus before nothing."""
-    return f"{value + 0.0:.6f}".rstrip("0").rstrip(".")
+    return number(places / GRID)
