@@ -134,9 +134,12 @@ class Importer:
         worst = furthest_outside(column, limits)
         if worst is None:
             return None
-        reach = f"{limits.minimum:g}..{limits.maximum:g} ({self.rig})"
-        place = f"{self.name}{_line(motion, worst)}: frame {motion.first + worst}"
-        return f"{place}: {axis} must be within {reach}, not {column[worst]:g}"
+        reach, frame = f"{limits.minimum:g}..{limits.maximum:g} ({self.rig})", motion.first + worst
+        return f"{self._line(motion, worst)}: frame {frame}: {axis} must be within {reach}, not {column[worst]:g}"
+
+    def _line(self, motion: Motion, place: int) -> str:
+        """The file, and the line that has the frame at `place`, as far as it is known."""
+        return f"{self.name}:{motion.lines[place]}" if len(motion.lines) and motion.lines[place] else self.name
 
     def _attempts(self, motion: Motion) -> Iterator[ImportedKeys]:
         grid = motion.rate or own_grid(motion.times)
@@ -185,7 +188,7 @@ class Importer:
 
     def _too_fast(self, error: TooFastError, motion: Motion, begin: int) -> str:
         place = begin + error.place
-        what = f"{self.name}{_line(motion, place)}: {error.axis} is too fast for {self.rig}"
+        what = f"{self._line(motion, place)}: {error.axis} is too fast for {self.rig}"
         if error.share > 1:
             what += f" (its {error.limit} would be {error.share:.3g} x the limit at frame {motion.first + place})"
         cure = "a higher --tolerance" if error.factor is None else "--stretch, or a higher --tolerance"
@@ -221,11 +224,6 @@ class Importer:
         keys = ImportedKeys.at_places(motion, [0], Fraction(1))
         found = self._made(motion, keys, motion.cues, [*about, text])
         return replace(found, remarks=[text])
-
-
-def _line(motion: Motion, place: int) -> str:
-    """As `:12`, for a frame that has a line in a text file."""
-    return f":{motion.lines[place]}" if len(motion.lines) and motion.lines[place] else ""
 
 
 def _remarks(keys: ImportedKeys, motion: Motion, cues: Sequence[TimedCue]) -> Iterator[str]:

@@ -21,11 +21,12 @@ from teleop.app.run import RunReport, Screen, Signals, commands, run
 from teleop.app.shoot_runner import LOOK, RETRY
 from teleop.app.stop_inputs import open_stop_inputs
 from teleop.app.target_file import TargetFile
-from teleop.config.presets import default_file, read_presets
+from teleop.config.presets import Presets, default_file, read_presets
 from teleop.config.profile import Profile
 from teleop.core.axes import Axis, Limits
 from teleop.core.errors import LinkError
 from teleop.core.interfaces import Clock, Observer, Sink, Source
+from teleop.core.operator_input import Input
 from teleop.core.run_status import RunStatus
 from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.connection import Connection
@@ -124,14 +125,10 @@ class LiveRun:
         signals: Signals,
     ) -> tuple[_Opened, RunReport]:
         """What is opened with the first run lasts until `outer` is left."""
-        profile, keyboard = self.profile, self.keyboard
+        profile = self.profile
         sticks = self.recorded if not self.recordings else _until_end(self.recorded, self.recordings)
         replay = None if sticks is None else self.replay(sticks)
-        begin = (lambda: math.inf) if replay is None else (lambda: replay.begin)
-        alone = keyboard is not None or self.beside is not None
-        inputs, note = open_devices(
-            *(stack, profile, self.clock, alone, NO_INPUT, self.recordings, begin, self.virtual)
-        )
+        inputs, note = self._inputs(stack, replay)
         damage: list[str] = []
         kept = KeptResponses(profile, damage.append)
         rig, axes, left_out = self._opened(stack, kept)
@@ -140,17 +137,11 @@ class LiveRun:
             raise LinkError("not every device of the run before is there")
         shelf = read_presets(self.presets or default_file(profile.name), limits, profile.name)
         stack.callback(shelf.close)
-        own = [*inputs, *([] if keyboard is None else [keyboard])]
-        beneath: Source | None = replay
-        if self.beside is not None:
-            if before is None:
-                self.beside.open(outer, profile, limits)
-            own, beneath = [*own, *self.beside.inputs], self.beside.beneath
+        if self.beside is not None and before is None:
+            self.beside.open(outer, profile, limits)
         targets = None if self.targets is None else TargetFile(self.targets)
-        marks = None if targets is None else TargetMarks(targets.height, targets.add)
-        operator = Operator(limits, own, shelf, profile.sticks, profile.presets.recall, beneath, marks)
+        operator = self._operator(limits, inputs, shelf, replay, targets)
         if targets is not None:
-            targets.notify = operator.notify
             stack.callback(targets.close)
         for line in (*damage, *left_out, *([note] if note else [])):
             operator.notify(line)
@@ -161,15 +152,40 @@ class LiveRun:
         aboard.board(rig, axes, operator.notify, by_script=False)
         screen = make_screen(LiveParts(limits, operator, rig.connections, opened.recorder, aboard.state))
         observers, sinks = self._watched(rig, axes, operator, lenient=replay is None)
-        observers = [*observers, *([] if targets is None else [targets])]
+        observers += [] if targets is None else [targets]
         if self.beside is not None:
             observer, sink = self.beside.attach(outer, operator, shelf, rig)
             observers, sinks = [*observers, observer], [*sinks, sink]
-        observers = [*observers, *([] if opened.recorder is None else [opened.recorder])]
+        observers += [] if opened.recorder is None else [opened.recorder]
         tracking, stopped = TrackingErrorMonitor(lambda: operator.begin), (lambda: operator.reason)
         report = run(rig, axes, [operator], tracking, screen, signals, None, observers, sinks, stopped, kept)
         opened.last = report
         return opened, report
+
+    def _inputs(self, stack: ExitStack, replay: SticksSource | None) -> tuple[Sequence[Input], str]:
+        """The joysticks and the recordings of devices, and a line where something is missing."""
+        begin = (lambda: math.inf) if replay is None else (lambda: replay.begin)
+        alone = self.keyboard is not None or self.beside is not None
+        return open_devices(stack, self.profile, self.clock, alone, NO_INPUT, self.recordings, begin, self.virtual)
+
+    def _operator(
+        self,
+        limits: Mapping[Axis, Limits],
+        inputs: Sequence[Input],
+        shelf: Presets,
+        replay: SticksSource | None,
+        targets: TargetFile | None,
+    ) -> Operator:
+        """Who acts on the inputs, the keyboard and those beside included."""
+        own = [*inputs, *([] if self.keyboard is None else [self.keyboard])]
+        beneath: Source | None = replay
+        if self.beside is not None:
+            own, beneath = [*own, *self.beside.inputs], self.beside.beneath
+        marks = None if targets is None else TargetMarks(targets.height, targets.add)
+        operator = Operator(limits, own, shelf, self.profile.sticks, self.profile.presets.recall, beneath, marks)
+        if targets is not None:
+            targets.notify = operator.notify
+        return operator
 
     def _waits(self, beside: BesideLive, signals: Signals) -> bool:
         """A moment, before the rig is tried again; whether another run is wanted."""
@@ -233,7 +249,7 @@ class LiveRun:
 
     def _watched(
         self, rig: Rig, axes: Sequence[Axis], operator: Operator, lenient: bool
-    ) -> tuple[Sequence[Observer], Sequence[Sink]]:
+    ) -> tuple[list[Observer], Sequence[Sink]]:
         notify, confirmed, answered = operator.notify, operator.confirmed, operator.camera_answered
         if (beside := self.beside) is not None:
             notify, confirmed = both(notify, beside.line), both(confirmed, beside.confirmed)

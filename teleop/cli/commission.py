@@ -69,19 +69,16 @@ def commission(
 def _keyboard(console: str | None) -> Keyboard | None:
     """Raises UsageError without a terminal whose keys may be read, unless a browser has keys."""
     if sys.stdin is None or not sys.stdin.isatty():
-        if console is not None:
-            return None
-        raise UsageError("teleop commission asks before anything moves: run it on a terminal, or with --console")
-    if not has_keys():
-        if console is not None:
-            return None
-        raise UsageError("teleop commission cannot see single keys on this system: give --console")
-    descriptor = terminal()
-    if descriptor is None:
-        if console is not None:
-            return None
-        raise UsageError("teleop commission asks before anything moves: run it in the foreground, or with --console")
-    return Keyboard(descriptor, NamedKeys())
+        why = "teleop commission asks before anything moves: run it on a terminal, or with --console"
+    elif not has_keys():
+        why = "teleop commission cannot see single keys on this system: give --console"
+    elif (descriptor := terminal()) is None:
+        why = "teleop commission asks before anything moves: run it in the foreground, or with --console"
+    else:
+        return Keyboard(descriptor, NamedKeys())
+    if console is None:
+        raise UsageError(why)
+    return None
 
 
 def _report(made: Made, kept: Kept, interrupted: bool, compared_with: Sequence[Path], as_json: bool) -> int:

@@ -22,6 +22,7 @@ from teleop.core.errors import UsageError
 from teleop.exchange.opening import opened
 
 if TYPE_CHECKING:
+    from teleop.console.settings import ConsoleSettings
     from teleop.remote.gateway_child import Gateway
 
 _ADDRESS = re.compile(r"(\[[0-9a-fA-F:.]+\]|[^\s/\[\]:]*):\d+|\d+(\.\d+){3}")
@@ -99,9 +100,30 @@ class ReachedOptions:
             raise UsageError("the console needs its packages: pip install 'rs-teleop[console]'") from None
         from teleop.console.invitation import as_json as reached
         from teleop.console.invitation import greeting, invitation
-        from teleop.console.settings import ConsoleSettings, listen, parse_bind, planned_for, with_tokens
+        from teleop.console.settings import listen, with_tokens
         from teleop.gateway.announcing import ConsoleAt, announcement
         from teleop.remote.gateway_child import Gateway
+
+        listener, settings = listen(with_tokens(self._asked(bind, profile, results)))
+        invited = invitation(settings)
+        if results:
+            profile = profile.model_copy(update={"exchange": []})
+        with listener, opened(profile) as exchange:
+            if options.json:
+                print(json.dumps(reached(settings)), flush=True)
+            else:
+                for line in (*invited.lines, *invited.code):
+                    tell(line)
+            number, where = listener.fileno(), listener.getsockname()
+            console = {"settings": settings.as_json(), "listener": number}
+            mdns = announcement(profile.name, ConsoleAt(where[0], where[1], settings.has_tls), profile.exchange)
+            greetings = [greeting(settings), *([exchange.greeting] if exchange.greeting else [])]
+            told = {"console": console, **mdns, **exchange.settings}
+            yield Gateway(told, (number, *exchange.passed), greetings, invited)
+
+    def _asked(self, bind: str, profile: Profile, results: str) -> ConsoleSettings:
+        """What the console is to serve, and where. Raises UsageError and DeviceError."""
+        from teleop.console.settings import ConsoleSettings, parse_bind, planned_for
 
         host, port = parse_bind(bind)
         folder = self.served or results
@@ -114,23 +136,8 @@ class ReachedOptions:
         if self.tls or self.certificate or self.key:
             from teleop.console.certificate import with_tls
 
-            asked = with_tls(asked, self.certificate, self.key)
-        listener, settings = listen(with_tokens(asked))
-        invited = invitation(settings)
-        with listener, opened(profile.model_copy(update={"exchange": []}) if results else profile) as exchange:
-            if options.json:
-                print(json.dumps(reached(settings)), flush=True)
-            else:
-                for line in (*invited.lines, *invited.code):
-                    tell(line)
-            number = listener.fileno()
-            console = {"settings": settings.as_json(), "listener": number}
-            where = listener.getsockname()
-            at = ConsoleAt(where[0], where[1], settings.has_tls)
-            mdns = announcement(profile.name, at, () if results else profile.exchange)
-            greetings = [greeting(settings), *([exchange.greeting] if exchange.greeting else [])]
-            told = {"console": console, **mdns, **exchange.settings}
-            yield Gateway(told, (number, *exchange.passed), greetings, invited)
+            return with_tls(asked, self.certificate, self.key)
+        return asked
 
     @contextmanager
     def beside(

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from teleop.cli.take.options import check_new
+from teleop.cli.take.options import check_free
 from teleop.config.frame_rates import exact
 from teleop.core.errors import UsageError
 from teleop.interchange.motion import MOST_RATE
@@ -43,11 +43,11 @@ def check_vfov(vfov: float | None) -> None:
         raise UsageError(f"--vfov {vfov:g}: must be between 0 and 180 degrees")
 
 
-def check_free(path: Path, overwrite: bool, source: Path) -> None:
-    """That -o may be written: raises UsageError where it may not, OutputError where nothing can be."""
+def check_output(path: Path, overwrite: bool, source: Path) -> None:
+    """Raises UsageError where nothing may be written, OutputError where nothing can be."""
     if path.exists() and source.exists() and path.samefile(source):
         raise UsageError(f"-o {path}: is the file itself; choose another")
-    check_new("-o", path, overwrite)
+    check_free("-o", path, overwrite)
 
 
 def certain(found: Format | None, path: Path, option: str) -> Format:

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 
 from teleop.app.export_motion import USUAL_RATE, Exported, exported, keys_of, own_rate, planned_motion, recorded_motion
 from teleop.app.planning import is_take
-from teleop.cli.exchanged_files import FormatName, Overwrite, certain, check_free, check_vfov, rate_of
+from teleop.cli.exchanged_files import FormatName, Overwrite, certain, check_output, check_vfov, rate_of
 from teleop.cli.options import DEFAULTS, MOVES, Options, announce, announce_json
 from teleop.cli.screens.folded import complain
 from teleop.cli.shipped_files import named
@@ -64,20 +64,15 @@ def export(
     check_vfov(vfov)
     if not is_take(file) and (commanded or number is not None):
         raise UsageError(f"{'--commanded' if commanded else '--pass'}: is for takes (.mcap), and {file} is none")
-    check_free(output, overwrite, Path(file))
+    check_output(output, overwrite, Path(file))
     side = None if chosen.notes is None or is_stream(output) else beside(output)
     if side is not None:
-        check_free(side, overwrite, Path(file))
+        check_output(side, overwrite, Path(file))
     chosen.load()
     if is_take(file):
         motion = _recorded(Path(file), chosen, frames, first_frame, commanded, number, options.json)
     else:
-        plan = options.plan(file)
-        motion = planned_motion(plan, file, frames, first_frame)
-        if not chosen.cues:
-            motion = keys_of(plan, motion)
-        if frames is None and own_rate(plan) is None:
-            complain(f"{file}: has no fps: written at {shown(motion.known_rate)}; --rate gives another")
+        motion = _planned(file, chosen, frames, first_frame, options)
     with problems_as_json(options.json):
         done = exported(motion, chosen, output.suffix.lower(), vfov)
     with replacing(output) as stream:
@@ -86,6 +81,17 @@ def export(
         write_text(side, done.beside)
     _report(done, chosen, output, side, options.json)
     return 0
+
+
+def _planned(file: str, form: Format, rate: Fraction | None, first: int, options: Options) -> Motion:
+    """The path of a move."""
+    plan = options.plan(file)
+    motion = planned_motion(plan, file, rate, first)
+    if not form.cues:
+        motion = keys_of(plan, motion)
+    if rate is None and own_rate(plan) is None:
+        complain(f"{file}: has no fps: written at {shown(motion.known_rate)}; --rate gives another")
+    return motion
 
 
 def _recorded(

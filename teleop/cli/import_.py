@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
@@ -13,13 +12,14 @@ from cyclopts import Parameter
 from teleop.app.import_motion import Imported, Importer
 from teleop.app.read_motion import origin_lines, read_motion, sniffed
 from teleop.cli.completion import offered
-from teleop.cli.exchanged_files import FormatName, Overwrite, certain, check_free, rate_of
+from teleop.cli.exchanged_files import FormatName, Overwrite, certain, check_output, rate_of
+from teleop.cli.fitted_options import SequenceOutput, check_ending, check_tolerance, counted
 from teleop.cli.options import RIGS
 from teleop.cli.screens.busy import busy
 from teleop.cli.screens.folded import complain, tell
 from teleop.cli.take.options import Json, problems_as_json
 from teleop.config.documents.document import DocumentError
-from teleop.config.files import replacing
+from teleop.config.files import write_text
 from teleop.config.profile import load_profile
 from teleop.core.axes import Axis
 from teleop.core.errors import UsageError
@@ -27,7 +27,6 @@ from teleop.interchange.rotation import ORDERS
 from teleop.interchange.table import AMBIGUOUS, READABLE, Format, Hints, format_of
 from teleop.plots.style import UNIT_SIGNS
 
-ENDINGS = (".yaml", ".yml")
 FILES = offered("", *READABLE, *AMBIGUOUS)
 SKIPPED = ("frame", "time", "-")
 """What a column may be beside an axis."""
@@ -37,9 +36,7 @@ def import_(
     file: Annotated[Path, Parameter(help="A file of another program.", completer=FILES)],
     /,
     *,
-    output: Annotated[
-        Path, Parameter(name=("--output", "-o"), metavar="FILE", help="The sequence file to write (.yaml).")
-    ],
+    output: SequenceOutput,
     form: FormatName = None,
     rate: Annotated[
         str | None, Parameter(metavar="FPS", help="Frames per second of the file, as in 24 or 24000/1001.")
@@ -76,12 +73,10 @@ def import_(
     Read are .chan, .csv, .arcm, .raw, .asc, .txt (with --format), .usda, .usdc, .otio, and teleop's Blender script.
     The sequence is planned for the rig and compared with every frame before it is written.
     """
-    if not (math.isfinite(tolerance) and tolerance > 0):
-        raise UsageError(f"--tolerance {tolerance:g}: must be more than 0 degrees")
+    check_tolerance(tolerance)
     if rotation_order is not None and rotation_order.upper() not in ORDERS:
         raise UsageError(f"--rotation-order {rotation_order}: must be one of {', '.join(ORDERS)}")
-    if output.suffix.lower() not in ENDINGS:
-        raise UsageError(f"-o {output}: its ending must be {' or '.join(ENDINGS)}")
+    check_ending(output)
     order = rotation_order and rotation_order.upper()
     hints = Hints(rate_of(rate), order, _names("--columns", columns, [*Axis, *SKIPPED]), camera=camera)
     taken, inverted = _axes("--only", only), _axes("--invert", invert) or []
@@ -90,14 +85,13 @@ def import_(
             raise DocumentError([f"{file}: no such file"])
         chosen = format_of(file, form, "")
         chosen = certain(sniffed(file) if chosen is None else chosen, file, "")
-        check_free(output, overwrite, file)
+        check_output(output, overwrite, file)
         profile = load_profile(rig, {}, "")
         motion = read_motion(file, chosen, hints, taken, inverted)
         about = list(origin_lines(file, chosen, motion, hints, tolerance))
         with busy("Fitting"):
             done = Importer(str(file), profile.limits, profile.name, tolerance, stretch).sequence(motion, about)
-    with replacing(output) as stream:
-        stream.write(done.text.encode())
+    write_text(output, done.text)
     _report(done, motion.remarks, chosen, output, as_json)
     return 0
 
@@ -118,21 +112,20 @@ def _names(option: str, text: str | None, known: Sequence[str]) -> Sequence[str]
 
 
 def _report(done: Imported, left_out: Sequence[str], form: Format, output: Path, as_json: bool) -> None:
-    rate = done.sequence.fps
+    cues = len(done.sequence.cues)
     if as_json:
         errors = {axis.value: {"error": round(e.size, 6), "frame": e.frame} for axis, e in done.deviations.items()}
-        known = {"ok": True, "written": str(output), "format": form.name, "rate": rate, "keyframes": done.keyframes}
+        known = {"ok": True, "written": str(output), "format": form.name, "rate": done.sequence.fps}
+        counts = {"keyframes": done.keyframes, "cues": cues}
         lines = {"left_out": list(left_out), "remarks": list(done.remarks)}
-        print(json.dumps({**known, "cues": len(done.sequence.cues), "largest_errors": errors, **lines}))
+        print(json.dumps({**known, **counts, "largest_errors": errors, **lines}))
         return
     for line in left_out:
         complain(f"left out: {line}")
     for line in (*done.remarks, *done.sequence.warnings):
         complain(f"{output}: {line}")
     errors = [f"{axis} {e.size:.3f}{UNIT_SIGNS[axis.unit]} at frame {e.frame}" for axis, e in done.deviations.items()]
-    parts = [f"{done.keyframes} keyframe{'' if done.keyframes == 1 else 's'}"]
-    parts += (
-        [f"{len(done.sequence.cues)} cue{'' if len(done.sequence.cues) == 1 else 's'}"] if done.sequence.cues else []
-    )
+    parts = [counted(done.keyframes, "keyframe")]
+    parts += [counted(cues, "cue")] if cues else []
     parts += [f"largest error {', '.join(errors)}"] if errors else []
     tell(f"{output}: {', '.join(parts)}")

@@ -13,7 +13,7 @@ from dataclasses import replace
 from teleop.commission.findings import Fact, Findings, Verdict
 from teleop.commission.outline import SKIPPED
 from teleop.commission.page import END, GO, REPEAT, SKIP, STOP, Page, Stage, keys_on
-from teleop.commission.step import Device, Step
+from teleop.commission.step import Device, Question, Step
 from teleop.commission.task import Task
 from teleop.core.errors import DeviceError, LinkError
 from teleop.dji.message import FieldError
@@ -103,15 +103,19 @@ class Runner:
     @property
     def moves(self) -> bool:
         """Whether a step acts now: not at a question that only waits for its answer, at which everything rests."""
-        question = self._task.question if self._task is not None else None
+        question = self._question
         waits = self.stage is Stage.ASKING and question is not None and question.only_waits
         return self._moves and not waits
 
     @property
     def asks_for_stop(self) -> bool:
         """Whether STOP is an answer to what is asked."""
-        question = self._task.question if self._task is not None else None
+        question = self._question
         return question is not None and STOP in question.choices
+
+    @property
+    def _question(self) -> Question | None:
+        return None if self._task is None else self._task.question
 
     @property
     def _moves(self) -> bool:
@@ -149,15 +153,15 @@ class Runner:
             self._end_task("STOPPED", self._end_from)
 
     def _at_question(self, key: str, now: float) -> None:
-        task = self._task
-        if task is None or task.question is None:
+        task, question = self._task, self._question
+        if task is None or question is None:
             return
-        if key == STOP and STOP not in task.question.choices:
+        if key == STOP and STOP not in question.choices:
             self._end_task("STOPPED")
-        elif task.question.word:
+        elif question.word:
             if (word := task.type(key)) is not None:
                 self._answer(task, word, now)
-        elif key in task.question.choices:
+        elif key in question.choices:
             self._answer(task, key, now)
         elif key == END:
             self._end_task("STOPPED", self._end_from)
@@ -319,8 +323,7 @@ class Runner:
     @property
     def page(self) -> Page:
         """What there is to see now."""
-        step, task = self.step, self._task
-        question = task.question if task else None
+        step, task, question = self.step, self._task, self._question
         return Page(
             key=step.key,
             number=max(0, self._index) + 1,

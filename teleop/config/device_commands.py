@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from teleop.config.documents.messages import nearest
 from teleop.core.events import DeviceCommand
 
@@ -23,9 +25,16 @@ def parse_command(text: str) -> DeviceCommand:
         if name not in DRONE_COMMANDS:
             raise ValueError(f"unknown command {text}{nearest(name, DRONE_COMMANDS)}")
         return DeviceCommand(DRONE, name)
-    from teleop.dji.gimbal.command_table import RIG, find  # only a file with such commands needs the protocol
+    from teleop.dji.gimbal.command_table import find  # only a file with such commands needs the protocol
 
     find(words)
+    return rig_command(words)
+
+
+def rig_command(words: Sequence[str]) -> DeviceCommand:
+    """The command that these words are, which the table of the rig's messages knows."""
+    from teleop.dji.gimbal.command_table import RIG
+
     name = [word for word in words if "=" not in word]
     full = " ".join(name) if name[0] in RIG.devices else RIG.full_name(words)
     device, _, rest = full.partition(" ")

@@ -123,11 +123,6 @@ class ClientSocket:
         self._socket.close()
 
 
-def client_socket(own: str, commands: str) -> ClientSocket:
-    """A socket that sends to `commands` and gets the answers. Raises OSError where there is no control process."""
-    return ClientSocket(own, commands)
-
-
 def _opened(data: bytes, secret: bytes) -> bytes | None:
     """What a datagram says that has the secret, None of any other; how long it takes tells nothing of the secret."""
     return data[len(secret) :] if compare_digest(data[: len(secret)], secret) else None

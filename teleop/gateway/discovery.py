@@ -82,10 +82,7 @@ async def announced(what: Announcement) -> AsyncIterator[str]:
     addresses = addresses_of(what.host)
     if not addresses:
         raise TeleopError("this computer has no address on a network yet")
-    try:
-        network = _network(addresses)
-    except OSError as error:
-        raise TeleopError(f"no mDNS on this network: {error.strerror or error}") from None
+    network = _network(addresses)
     try:
         info = await _registered(network, what, addresses)
         yield info.name.removesuffix(f".{SERVICE}")
@@ -137,10 +134,7 @@ async def browse(seconds: float = 1.5, interfaces: Sequence[str] = ()) -> list[F
     """
     from zeroconf import ServiceStateChange
 
-    try:
-        network = _network(interfaces)
-    except OSError as error:
-        raise TeleopError(f"no mDNS on this network: {error.strerror or error}") from None
+    network = _network(interfaces)
     names: dict[str, None] = {}
 
     def changed(zeroconf: Any, service_type: str, name: str, state_change: Any) -> None:  # noqa: ARG001
@@ -183,15 +177,16 @@ def _browser(network: Any, changed: Callable[..., None]) -> Any:
 
 
 def _network(addresses: Sequence[str]) -> Any:
-    """mDNS on the networks of these addresses, IPv4's by preference; on all of them for none."""
+    """mDNS on the networks of these addresses, IPv4's by preference; on all of them for none. Raises TeleopError."""
     from zeroconf import InterfaceChoice, IPVersion
     from zeroconf.asyncio import AsyncZeroconf
 
-    if not addresses:
-        return AsyncZeroconf(interfaces=InterfaceChoice.All, ip_version=IPVersion.V4Only)
     chosen = [each for each in addresses if ":" not in each] or list(addresses)
-    version = IPVersion.V6Only if ":" in chosen[0] else IPVersion.V4Only
-    return AsyncZeroconf(interfaces=chosen, ip_version=version)
+    version = IPVersion.V6Only if chosen and ":" in chosen[0] else IPVersion.V4Only
+    try:
+        return AsyncZeroconf(interfaces=chosen or InterfaceChoice.All, ip_version=version)
+    except OSError as error:
+        raise TeleopError(f"no mDNS on this network: {error.strerror or error}") from None
 
 
 def _text(what: Announcement, addresses: Sequence[str]) -> dict[str, str]:

@@ -20,7 +20,7 @@ from teleop.core.events import Tick
 from teleop.door.address import DoorAddress
 from teleop.door.messages import MOST_SEEN, CommandError, checked, packed, unpacked
 from teleop.door.ring import SLOTS, RingReader
-from teleop.door.sockets import LARGEST, client_socket
+from teleop.door.sockets import LARGEST, ClientSocket
 from teleop.door.states import StateUnpacker
 from teleop.door.ticks import from_plain
 
@@ -58,7 +58,7 @@ class DoorClient:
             os.unlink(own)  # of a process that had the same number
         try:
             self._ring = RingReader(self.address.ring)
-            self._socket = client_socket(own, self.address.commands)
+            self._socket = ClientSocket(own, self.address.commands)
         except OSError as error:
             raise TeleopError(f"{self.address.folder}: {error.strerror or error}: is the rig still running?") from None
         self._loop.add_reader(self._socket, self._receive)
@@ -81,11 +81,13 @@ class DoorClient:
 
     def newest(self) -> Mapping[str, Any]:
         """The newest state as the rig wrote it, its ages as of its `time`; {} before there is one. Never waits."""
-        return self._newest()
+        if self._ring.number != self._number and (newest := self._ring.newest()) is not None:
+            self._number, self._decoded = newest.number, self._unpacker.unpack(newest.data)
+        return self._decoded
 
     def state(self) -> dict[str, Any]:
         """The newest state, with every age as of now. Never waits. {} before there is one."""
-        state = self._newest()
+        state = self.newest()
         if not state:
             return {}
         since = max(0.0, (monotonic() - state["time"]) * 1000)
@@ -101,7 +103,7 @@ class DoorClient:
         """Each new state, as it comes; those that come while the last one is dealt with are left out."""
         before = 0
         while True:
-            if self._newest() and self._number != before:
+            if self.newest() and self._number != before:
                 state = self.state()  # which may be a newer one again
                 before = self._number
                 yield state
@@ -119,11 +121,6 @@ class DoorClient:
                     yield state, from_plain(beside[0]), beside[1]
             last = newest
             await asyncio.sleep(LOOK)
-
-    def _newest(self) -> dict[str, Any]:
-        if self._ring.number != self._number and (newest := self._ring.newest()) is not None:
-            self._number, self._decoded = newest.number, self._unpacker.unpack(newest.data)
-        return self._decoded
 
     # --- commands
 
@@ -180,7 +177,7 @@ class DoorClient:
     async def _repeat_stop(self, data: bytes) -> None:
         """The answer says that it is taken; only the state says that the rig is stopped."""
         end = monotonic() + TIMEOUT
-        while not self._newest().get("stopped") and monotonic() < end:
+        while not self.newest().get("stopped") and monotonic() < end:
             self._send(data, first=True)
             await asyncio.sleep(STOP_REPEAT)
 

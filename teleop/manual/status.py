@@ -54,6 +54,14 @@ class OperatorStatus:
     messages: Sequence[Message]
 
 
+def without_hands(
+    inputs: Sequence[InputStatus], stopped: bool, recording: bool, messages: Sequence[Message]
+) -> OperatorStatus:
+    """Of a run that no hand moves: a STOP, what the camera does, and what was said."""
+    facts = False, "", 0.0, recording, "", {}, {}
+    return OperatorStatus(inputs, (1.0,), 0, stopped, *facts, messages)
+
+
 class MessageLog:
     """The messages, and the last one about each input, so that none comes twice."""
 

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from teleop.core.axes import Axis, State
+from teleop.planner.aim import nearest_turn
 
 RAMP = 0.25  # s from which on the axes come to rest
 ENDED = 1.0  # s from which on the stream is over
@@ -44,12 +45,9 @@ class AimStream:
             self._rows.clear()
             self.axes = tuple(axes)
         before = self._rows[-1] if self._rows else None
-        row = {
-            axis: at
-            if before is None or axis is not Axis.PAN
-            else before[axis] + math.remainder(at - before[axis], 360)
-            for axis, at in axes.items()
-        }
+        row = dict(axes)
+        if before is not None and Axis.PAN in row:
+            row[Axis.PAN] = nearest_turn(row[Axis.PAN], before[Axis.PAN])
         self._times.append(time)
         self._rows.append(row)
         self._fits.clear()

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from teleop.core.axes import Axis
-from teleop.manual.status import MessageLog, OperatorStatus
+from teleop.manual.status import MessageLog, OperatorStatus, without_hands
 
 
 class CommissionShown:
@@ -34,8 +34,7 @@ class CommissionShown:
 
     @property
     def status(self) -> OperatorStatus:
-        facts = False, "", 0.0, False, "", {}, {}
-        return OperatorStatus((), (1.0,), 0, bool(self.stopped_by), *facts, self._log.messages)
+        return without_hands((), bool(self.stopped_by), False, self._log.messages)
 
     def drivers(self) -> Mapping[Axis, str]:
         return {}

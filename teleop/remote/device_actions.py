@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from teleop.core.events import Action, DeviceCommand
+from teleop.config.device_commands import rig_command
+from teleop.core.events import Action
 from teleop.core.operator_input import Command
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
@@ -77,7 +78,7 @@ class DeviceActions:
 
     def _tell(self, asked: Asked, now: float, name: str, fields: Mapping[str, Any]) -> None:
         """A command of a device's own: at rest, and none that the stream of the run would take back."""
-        from teleop.dji.gimbal.command_table import RIG, find, is_taken_back
+        from teleop.dji.gimbal.command_table import find, is_taken_back
         from teleop.dji.message import FieldError
 
         words = [*name.replace(".", " ").split(), *(f"{key}={_written(value)}" for key, value in fields.items())]
@@ -92,10 +93,7 @@ class DeviceActions:
             raise Refusal("this rig has no gimbal")
         if not self._rests():
             raise Refusal("an axis is moving")
-        bare = [word for word in words if "=" not in word]
-        full = " ".join(bare) if bare[0] in RIG.devices else RIG.full_name(words)
-        device, _, rest = full.partition(" ")
-        command = DeviceCommand(device, rest, tuple(word for word in words if "=" in word))
+        command = rig_command(words)
         asked.accept()
         self._told.watch(asked, command)
         self.desk.press(asked.command.name, Command.TELL, 0, command)

@@ -70,12 +70,12 @@ class RemoteHands:
         self._works, maker = Works(profile), JobMaker(limits, self._folder, self.door.address.sent)
         self._jobs, self._keys, self.told = JobSource(self._taken), HandKeys(limits), Told()
         self._actions = LiveActions(profile, limits, self._jobs, self._keys, self._works, maker, self.told)
-        stack.callback(self._actions.shoots.close)
+        stack.callback(self._actions.moves.shoots.close)
         stack.callback(self._works.close)
         self.desk = Desk(self.door.socket, stick, self._notify, self._actions)
         self.desk.aims = Aims([each.smoothing for each in profile.exchange if tracks(each)])
         self._actions.commissions = self._commissions
-        for actions in (self._actions, self._actions.devices, self._actions.by_operator):
+        for actions in (self._actions, self._actions.moves, self._actions.devices, self._actions.by_operator):
             actions.desk = self.desk
 
     @property
@@ -98,17 +98,16 @@ class RemoteHands:
         if again and self._operator.stopped_by:  # a STOP that is not cleared outlasts a run
             self.desk.press(self._operator.stopped_by, Command.STOP)
         self._operator = self._actions.operator = self._actions.by_operator.operator = operator
-        self._actions.by_operator.presets, self._actions.devices.has_camera = presets, rig.camera is not None
+        camera = rig.camera is not None
+        self._actions.by_operator.presets, self._actions.devices.has_camera = presets, camera
         self._shutter = self._shutter_of(rig)
-        self._actions.shoots.has_camera = self._shutter is not None
+        self._actions.moves.shoots.has_camera = self._shutter is not None
         self._jobs.foresee = rig.foresee
         drone = rig.drone(list(self._limits))
         state = lambda: None if drone is None else drone.state(rig.clock.now())  # noqa: E731
-        shown = LiveShown(operator, presets, self._jobs, self._keys, self._actions.passes, state)
-        camera = rig.camera is not None
-        parts = Parts(self._profile.name, self._limits, shown, rig.connections, self.desk, camera)
-        parts = replace(parts, commissions=self._commissions)
-        self._publisher = self.door.publisher(parts, rig.clock)
+        shown = LiveShown(operator, presets, self._jobs, self._keys, self._actions.moves.passes, state)
+        facts = self._profile.name, self._limits, shown, rig.connections, self.desk, camera
+        self._publisher = self.door.publisher(Parts(*facts, commissions=self._commissions), rig.clock)
         if again:
             self._jobs.again()
         elif self._gateway is not None:
@@ -129,7 +128,7 @@ class RemoteHands:
     # --- a shoot outlasts a run that failed
 
     def goes_on(self, report: RunReport | LinkError) -> bool:
-        job, reached = self._actions.shoots.job, not isinstance(report, LinkError)
+        job, reached = self._actions.moves.shoots.job, not isinstance(report, LinkError)
         if job is None or not self._recovery.goes_on(report, job):
             return False
         if reached:
@@ -169,11 +168,11 @@ class RemoteHands:
         if self._shutter is None:
             return
         self._shutter.write(tick)
-        if self._shutter.holds and self._actions.shoots.job is None:  # one that was ended before its end
+        if self._shutter.holds and self._actions.moves.shoots.job is None:  # one that was ended before its end
             self._shutter.release(tick.time)
 
     def release(self, now: float) -> float | None:
-        if (job := self._actions.shoots.job) is None:
+        if (job := self._actions.moves.shoots.job) is None:
             self._jobs.end("the run has ended")
         else:
             job.leave(now)
@@ -187,7 +186,7 @@ class RemoteHands:
         return ShutterSink(rig.connections[links[0]], self._shot) if links else None
 
     def _shot(self, result: ShutterResult) -> None:
-        if (job := self._actions.shoots.job) is not None:
+        if (job := self._actions.moves.shoots.job) is not None:
             job.on_result(result)
 
     def _mark(self) -> None:

@@ -14,7 +14,7 @@ from teleop.core.events import Action, Tick
 from teleop.core.interfaces import Clock, Observer
 from teleop.core.invitation import Invitation
 from teleop.core.operator_input import Command, Input
-from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
+from teleop.manual.status import InputStatus, MessageLog, OperatorStatus, without_hands
 from teleop.remote.asked import Asked, Refusal
 from teleop.remote.desk import Desk
 from teleop.remote.gateway_child import Gateway
@@ -118,9 +118,7 @@ class RunHands:
     @property
     def status(self) -> OperatorStatus:
         inputs = [InputStatus(self.desk.name, (), "", "")]
-        stopped = bool(self.stopped_by)
-        facts = False, "", 0.0, self._recording, "", {}, {}
-        return OperatorStatus(inputs, (1.0,), 0, stopped, *facts, self._log.messages)
+        return without_hands(inputs, bool(self.stopped_by), self._recording, self._log.messages)
 
     def drivers(self) -> Mapping[Axis, str]:
         title = self._running.title if self._running else ""

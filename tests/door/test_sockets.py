@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from waiting import wait_until
 
-from teleop.door.sockets import FORCED, LARGEST, SECRET, CommandSocket, Datagram, client_socket
+from teleop.door.sockets import FORCED, LARGEST, SECRET, ClientSocket, CommandSocket, Datagram
 
 ROOT = Path(__file__).parents[2]
 
@@ -35,7 +35,7 @@ def received(commands: CommandSocket) -> list[Datagram]:
 
 
 def test_a_command_is_answered_to_who_sent_it(commands: CommandSocket, tmp_path: Path) -> None:
-    clients = [client_socket(str(tmp_path / name), str(tmp_path / "door")) for name in ("one", "two")]
+    clients = [ClientSocket(str(tmp_path / name), str(tmp_path / "door")) for name in ("one", "two")]
     for number, client in enumerate(clients):
         with pytest.raises(BlockingIOError):
             client.recv(LARGEST)
@@ -62,7 +62,7 @@ def test_only_this_user_can_read_where_it_is_and_who_is_gone_disturbs_nobody(
     commands: CommandSocket, tmp_path: Path
 ) -> None:
     assert stat.S_IMODE(os.stat(tmp_path / "door").st_mode) == 0o600
-    gone, stays = (client_socket(str(tmp_path / name), str(tmp_path / "door")) for name in ("gone", "stays"))
+    gone, stays = (ClientSocket(str(tmp_path / name), str(tmp_path / "door")) for name in ("gone", "stays"))
     gone.send(b"last words")
     [datagram] = received(commands)
     gone.close()
@@ -72,7 +72,7 @@ def test_only_this_user_can_read_where_it_is_and_who_is_gone_disturbs_nobody(
     assert [each.data for each in received(commands)] == [b"hello"]
     stays.close()
     with pytest.raises(OSError):
-        client_socket(str(tmp_path / "x"), str(tmp_path / "nowhere"))
+        ClientSocket(str(tmp_path / "x"), str(tmp_path / "nowhere"))
 
 
 def test_by_udp_what_has_not_the_secret_is_dropped_and_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -84,7 +84,7 @@ def test_by_udp_what_has_not_the_secret_is_dropped_and_counted(tmp_path: Path, m
     wrong = bytes([bytes.fromhex(secret)[0] ^ 1]) + bytes.fromhex(secret)[1:]
     for data in (b"", b"\x82\xa2do\xa4stop", bytes.fromhex(secret)[:-1], wrong + b"stop", os.urandom(60)):
         stranger.sendto(data, ("127.0.0.1", int(port)))
-    client = client_socket("", str(tmp_path / "door"))
+    client = ClientSocket("", str(tmp_path / "door"))
     client.send(b"stop")
     assert [each.data for each in received(commands)] == [b"stop"]
     assert commands.foreign == 5
@@ -93,7 +93,7 @@ def test_by_udp_what_has_not_the_secret_is_dropped_and_counted(tmp_path: Path, m
         client.recv(LARGEST)
     (tmp_path / "door").write_text("5 no secret")
     with pytest.raises(OSError, match="no address of a door"):
-        client_socket("", str(tmp_path / "door"))
+        ClientSocket("", str(tmp_path / "door"))
     for each in (commands, client, stranger):
         each.close()
 

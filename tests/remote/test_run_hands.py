@@ -19,7 +19,7 @@ from teleop.core.clock import VirtualClock
 from teleop.core.events import Tick
 from teleop.door.messages import packed
 from teleop.door.ring import RingReader
-from teleop.door.sockets import client_socket
+from teleop.door.sockets import ClientSocket
 from teleop.door.states import StateUnpacker
 from teleop.remote.run_hands import RunHands
 from teleop.sequence.cycle import Cycle
@@ -40,7 +40,7 @@ class Client(SilentScreen):
 
     def open(self) -> None:
         self._reader, self._unpacker = RingReader(self._hands.door.address.ring), StateUnpacker()
-        self._socket = client_socket(self._hands.door.address.client(1), self._hands.door.address.commands)
+        self._socket = ClientSocket(self._hands.door.address.client(1), self._hands.door.address.commands)
 
     def say(self, do: str, session: str = "anna", **fields: Any) -> int:
         number = next(self._ids)

@@ -155,7 +155,7 @@ def test_what_is_no_shoot_or_has_no_camera_is_refused_with_the_reason(stage: Rem
     assert "it is no timelapse: play it" in planned_or_not(stage, stage.say("shoot", move="there"))["error"]
     assert "it is a timelapse: shoot it" in planned_or_not(stage, stage.say("play", move="turn"))["error"]
     assert "there is no move 'nowhere'" in planned_or_not(stage, stage.say("shoot", move="nowhere"))["error"]
-    stage.hands._actions.shoots.has_camera = False
+    stage.hands._actions.moves.shoots.has_camera = False
     answer = stage.ask("shoot", move="turn")
     assert (answer["kind"], answer["error"]) == ("refused", "this rig has no camera to shoot with")
 

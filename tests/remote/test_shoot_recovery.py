@@ -24,7 +24,7 @@ from teleop.core.run_state import Result
 from teleop.devices.connection import Connection
 from teleop.door.messages import packed
 from teleop.door.ring import RingReader
-from teleop.door.sockets import client_socket
+from teleop.door.sockets import ClientSocket
 from teleop.door.states import StateUnpacker
 from teleop.recording.reader import read_take
 from teleop.remote.remote_hands import RemoteHands
@@ -85,7 +85,7 @@ class Operator:
     def observe(self, tick: Tick) -> None:
         if self.runs == 1 and not hasattr(self, "socket"):
             address = self.hands.door.address
-            self.socket, self._reader = client_socket(address.client(1), address.commands), RingReader(address.ring)
+            self.socket, self._reader = ClientSocket(address.client(1), address.commands), RingReader(address.ring)
             self._unpacker = StateUnpacker()
             self.say("take_control")
             self.shoot = self.say("shoot", move="turn")

@@ -72,7 +72,7 @@ class ChaosBench:
 
     @property
     def shoot(self) -> ShootJob | None:
-        return self._bench.hands._actions.shoots.job
+        return self._bench.hands._actions.moves.shoots.job
 
     @property
     def plays(self) -> bool:

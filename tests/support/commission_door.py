@@ -15,7 +15,7 @@ from drone_commission_bench import DroneCommissionBench
 from teleop.commission.page import GO, STOP, Stage
 from teleop.door.messages import packed
 from teleop.door.ring import RingReader
-from teleop.door.sockets import client_socket
+from teleop.door.sockets import ClientSocket
 from teleop.door.states import StateUnpacker
 from teleop.remote.commission_hands import CommissionHands
 from teleop.sim.gimbal.device import SimulatedGimbal
@@ -42,7 +42,7 @@ class CommissionDoor:
         self._ids = itertools.count(1)
         self._told = -1.0
         self._reader, self._unpacker = RingReader(hands.door.address.ring), StateUnpacker()
-        self._socket = client_socket(hands.door.address.client(1), hands.door.address.commands)
+        self._socket = ClientSocket(hands.door.address.client(1), hands.door.address.commands)
 
     def close(self) -> None:
         self._socket.close()

@@ -20,7 +20,7 @@ from time import monotonic
 from typing import Any
 
 from teleop.door.address import DoorAddress
-from teleop.door.sockets import client_socket
+from teleop.door.sockets import ClientSocket
 from teleop.gateway.door_client import DoorClient
 
 BEFORE = 0.7  # s that the stick is held before anything happens
@@ -66,7 +66,7 @@ async def hold(door: DoorClient, what: str) -> None:
 def flood(folder: Path, amount: int) -> None:
     """In a thread: of every length, some of them nearly commands."""
     chance = random.Random(1)
-    socket = client_socket(str(folder / "flood"), DoorAddress(folder).commands)
+    socket = ClientSocket(str(folder / "flood"), DoorAddress(folder).commands)
     socket.setblocking(True)
     begins = [b"", b"\x82\xa2do\xa4stop", b"\x83\xa2do\xa5stick\xa2id\x00", b"\xdf\xff\xff\xff\xff", b"\x91" * 40]
     for _ in range(amount):

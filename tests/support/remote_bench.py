@@ -26,7 +26,7 @@ from teleop.devices.camera_answers import CameraAnswers
 from teleop.devices.rig import open_rig
 from teleop.door.messages import packed
 from teleop.door.ring import RingReader
-from teleop.door.sockets import client_socket
+from teleop.door.sockets import ClientSocket
 from teleop.door.states import StateUnpacker
 from teleop.manual.operator import Operator
 from teleop.remote.gateway_child import Gateway
@@ -65,7 +65,7 @@ class RemoteBench:
         self._ids = itertools.count(1)
         self._seq: dict[str, int] = {}
         self._reader, self._unpacker = RingReader(hands.door.address.ring), StateUnpacker()
-        self._socket = client_socket(hands.door.address.client(1), hands.door.address.commands)
+        self._socket = ClientSocket(hands.door.address.client(1), hands.door.address.commands)
         self._told = -1.0
 
     def close(self) -> None:

@@ -20,7 +20,7 @@ from teleop.core.clock import SystemClock
 from teleop.core.events import Tick
 from teleop.dji.gimbal import messages as gimbal
 from teleop.door.messages import packed
-from teleop.door.sockets import client_socket
+from teleop.door.sockets import ClientSocket
 from teleop.exchange.opening import opened
 from teleop.remote.gateway_child import Gateway
 from teleop.sim.gimbal.gimbal_axes import Angles
@@ -44,7 +44,7 @@ class TrackingBench:
         self._bench: RemoteBench | None = None
         self._bench = stack.enter_context(remote_bench(folder, SystemClock(), self, gateway))
         address = self._bench.hands.door.address
-        self._socket = client_socket(address.client(2), address.commands)
+        self._socket = ClientSocket(address.client(2), address.commands)
         stack.callback(self._socket.close)
         self._socket.setblocking(True)
         self._number = 0

@@ -3,31 +3,25 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from teleop.cli.fitted_options import SequenceOutput, check_ending, check_tolerance, counted
 from teleop.cli.play import percentage
 from teleop.cli.screens.folded import tell
 from teleop.cli.take.options import Json, Overwrite, TakeFile, notify, place, problems_as_json
-from teleop.config.files import replacing
-from teleop.core.errors import UsageError
+from teleop.config.files import write_text
 from teleop.plots.style import UNIT_SIGNS
-
-ENDINGS = (".yaml", ".yml")
 
 
 def take_keyframes(
     file: TakeFile,
     /,
     *,
-    output: Annotated[
-        Path, Parameter(name=("--output", "-o"), metavar="FILE", help="The sequence file to write (.yaml).")
-    ],
+    output: SequenceOutput,
     tolerance: Annotated[
         float,
         Parameter(
@@ -49,10 +43,8 @@ def take_keyframes(
     The file is planned and compared with the take at every hundredth of a second before it is written. The way to the
     start that `play` made is a part of its takes.
     """
-    if not (math.isfinite(tolerance) and tolerance > 0):
-        raise UsageError(f"--tolerance {tolerance:g}: must be more than 0 degrees")
-    if output.suffix.lower() not in ENDINGS:
-        raise UsageError(f"-o {output}: its ending must be {' or '.join(ENDINGS)}")
+    check_tolerance(tolerance)
+    check_ending(output)
     place("-o", output, overwrite, file)
     from teleop.recording.reader import read_take
     from teleop.recording.replay import warnings
@@ -65,16 +57,14 @@ def take_keyframes(
             notify(warning)
         with _busy(f"Fitting {take.duration:.0f} s"):
             fitted = keyframes(take, tolerance, rate, measured=measured)
-    with replacing(output) as stream:
-        stream.write(fitted.text.encode())
+    write_text(output, fitted.text)
     if as_json:
         errors = {axis.value: {"error": round(e.size, 6), "time": e.time} for axis, e in fitted.errors.items()}
         facts = {"ok": True, "written": str(output), "keyframes": len(fitted.frames), "tolerance": tolerance}
         print(json.dumps({**facts, "largest_errors": errors}))
     else:
         errors = [f"{axis} {e.size:.3f}{UNIT_SIGNS[axis.unit]} at {e.time:.2f} s" for axis, e in fitted.errors.items()]
-        count = len(fitted.frames)
-        tell(f"{output}: {count} keyframe{'' if count == 1 else 's'}, largest error {', '.join(errors)}")
+        tell(f"{output}: {counted(len(fitted.frames), 'keyframe')}, largest error {', '.join(errors)}")
     return 0
 
 

@@ -37,17 +37,14 @@ def problems_as_json(as_json: bool) -> Iterator[None]:
 
 
 def place(option: str, path: Path, overwrite: bool, original: Path) -> None:
-    """Raises UsageError where nothing may be written: over another file without --overwrite, over the take at all.
-
-    Raises OutputError where nothing can be.
-    """
+    """As `check_free`, and never over the take itself."""
     if path.resolve() == original.resolve():
         raise UsageError(f"{option} {path}: is the take itself; choose another file")
-    check_new(option, path, overwrite)
+    check_free(option, path, overwrite)
 
 
-def check_new(option: str, path: Path, overwrite: bool) -> None:
-    """Raises UsageError for a file that exists, without --overwrite; OutputError where nothing can be written."""
+def check_free(option: str, path: Path, overwrite: bool) -> None:
+    """Raises UsageError where another file may not be replaced, OutputError where nothing can be written."""
     if path.exists() and not (overwrite or is_stream(path)):
         raise UsageError(f"{option} {path}: already exists; give --overwrite to replace it")
     check_place(path)

@@ -17,6 +17,7 @@ class Address(NamedTuple):
     port: int
 
     def __str__(self) -> str:
+        """As it is written: an IPv6 host in brackets."""
         return f"[{self.host}]:{self.port}" if ":" in self.host else f"{self.host}:{self.port}"
 
     @property

@@ -96,11 +96,10 @@ export function Banners() {
 }
 
 function Stopped() {
-  if (commission.value)
-    return html`<p class="banner bad"><b>STOPPED</b><span>${stoppedBy.value && `by ${stoppedBy.value} `}${stoppedAt.value ? `at ${timeOfDay(stoppedAt.value)}. ` : ". "}The next key goes on.</span></p>`;
+  const driven = !commission.value;
   return html`<p class="banner bad"><b>STOPPED</b><span>${stoppedBy.value && `by ${stoppedBy.value} `}${stoppedAt.value ? `at ${timeOfDay(stoppedAt.value)}. ` : ". "}
-    Clear it, then center all sticks.</span>
-    <button data-testid="clear" disabled=${!mayOperate.value || (!mine.value && !!holder.value)} onClick=${clear}>Clear STOP</button></p>`;
+    ${driven ? "Clear it, then center all sticks." : "The next key goes on."}</span>
+    ${driven && html`<button data-testid="clear" disabled=${!mayOperate.value || (!mine.value && !!holder.value)} onClick=${clear}>Clear STOP</button>`}</p>`;
 }
 
 function Asked() {
