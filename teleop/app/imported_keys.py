@@ -17,7 +17,7 @@ from teleop.core.timing import SAME_TIME
 from teleop.interchange.motion import Motion, TimedCue
 from teleop.planner.keyframes.frames import FramesFit
 from teleop.sequence.cues import CueSection
-from teleop.sequence.written_values import decimal, quoted
+from teleop.sequence.written_values import decimal, keyframe, quoted
 
 SECONDS = 1000  # places in a second of a file without a frame rate
 DIGITS = {True: 4, False: 5}  # behind the point, of angles and of shares
@@ -156,7 +156,7 @@ def _lines(keys: ImportedKeys, motion: Motion, about: Sequence[str]) -> Iterator
         yield f"overshoot: {ANY_WAY}"
     yield "keyframes:"
     for line in keys.lines:
-        yield f"  - {{{', '.join(_keyframe(line, keys, motion))}}}"
+        yield _keyframe(line, keys, motion)
     if motion.cues:
         yield "cues:"
     for cue in motion.cues:
@@ -168,15 +168,10 @@ def _is_shown(rate: Fraction) -> bool:
     return exact(float(shown_rate(float(rate)))) == rate
 
 
-def _keyframe(line: Line, keys: ImportedKeys, motion: Motion) -> Iterator[str]:
-    yield f"at: {_time(line.place, keys, motion)}"
-    for axis in Axis:
-        if axis in line.positions:
-            yield f"{axis.value}: {decimal(line.positions[axis], DIGITS[axis.is_angle])}"
-    if line.hold:
-        yield f"hold: {_time(line.hold, keys, motion)}"
-    elif line.stop:
-        yield "pass: stop"
+def _keyframe(line: Line, keys: ImportedKeys, motion: Motion) -> str:
+    positions = {axis: decimal(at, DIGITS[axis.is_angle]) for axis, at in line.positions.items()}
+    hold = _time(line.hold, keys, motion) if line.hold else ""
+    return keyframe(_time(line.place, keys, motion), positions, hold, line.stop)
 
 
 def _time(place: int, keys: ImportedKeys, motion: Motion) -> str:

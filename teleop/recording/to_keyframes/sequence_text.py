@@ -10,7 +10,7 @@ from teleop.core.events import Action
 from teleop.planner.keyframes.tension import EVEN, Tension
 from teleop.recording.to_keyframes.merge_keys import MergedKey
 from teleop.recording.to_keyframes.reference import GRID
-from teleop.sequence.written_values import decimal, quoted
+from teleop.sequence.written_values import decimal, keyframe, quoted
 
 
 @dataclass(frozen=True)
@@ -35,22 +35,17 @@ def _lines(sequence: SequenceText) -> Iterator[str]:
         yield f"tension: {sequence.tension:g}"
     yield "keyframes:"
     for frame in sequence.frames:
-        yield f"  - {{{', '.join(_frame(frame, sequence.digits))}}}"
+        yield _frame(frame, sequence.digits)
     if sequence.cues:
         yield "cues:"
     for time, action in sequence.cues:
         yield f"  - {{at: {time:.2f}, camera: {action.value}}}"
 
 
-def _frame(frame: MergedKey, digits: Mapping[Axis, int]) -> Iterator[str]:
-    yield f"at: {_seconds(frame.place)}"
-    for axis in Axis:
-        if axis in frame.positions:
-            yield f"{axis.value}: {decimal(round(frame.positions[axis], digits[axis]), 6)}"
-    if frame.hold:
-        yield f"hold: {_seconds(frame.hold)}s"
-    elif frame.stop:
-        yield "pass: stop"
+def _frame(frame: MergedKey, digits: Mapping[Axis, int]) -> str:
+    positions = {axis: decimal(round(at, digits[axis]), 6) for axis, at in frame.positions.items()}
+    hold = f"{_seconds(frame.hold)}s" if frame.hold else ""
+    return keyframe(_seconds(frame.place), positions, hold, frame.stop)
 
 
 def _seconds(places: int) -> str:
