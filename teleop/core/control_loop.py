@@ -257,7 +257,7 @@ class ControlLoop:
     def _report(self, now: float) -> None:
         """Where the axes are, asked while the tick of `now` is prepared; a tick that is late asks late."""
         for reporter in self._reporters:
-            asked = max(now - LEAD, self._clock.now())
+            asked = max(now - LEAD, self._calls.guarded(self._clock.now, default=now))
             self._reported = {**self._reported, **self._calls.guarded(reporter.report, asked, default={})}
 
     def _emit(self, now: float, demand: Demand, actions: Sequence[TickEvent]) -> None:

@@ -75,7 +75,8 @@ class LtcInput:
             whole = len(block) // 2 * 2
             block, self._half = block[:whole], block[whole:]
             self._clock.add(len(block) // 2, now)
-            for found in self._decoder.take(block, self._clock.when):
+            tracker.offset = self._clock.offset
+            for found in self._decoder.take(block):
                 tracker.take(found, now)
 
     def trouble(self) -> str:

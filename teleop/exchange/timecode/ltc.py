@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
 from contextlib import suppress
 from ctypes.util import find_library
 from typing import Any
@@ -54,12 +53,12 @@ class LtcDecoder:
     """`samples` in a second, of `fps` frames in a second at the most usual speed. Close it."""
 
     def __init__(self, samples: int, fps: float) -> None:
-        self._library = library()
+        self._library, self._samples = library(), samples
         self._decoder = self._library.ltc_decoder_create(int(samples / fps), QUEUE)
         self._count = 0
 
-    def take(self, block: bytes, when: Callable[[int], float]) -> list[Reading | Fault]:
-        """What a block of 16-bit samples completes; `when` has the time of a sample by its number."""
+    def take(self, block: bytes) -> list[Reading | Fault]:
+        """What a block of 16-bit samples completes, timed by the samples: in s since the first one."""
         block = block[: len(block) // 2 * 2]
         found: list[Reading | Fault] = []
         for first in range(0, len(block), 2 * MOST):
@@ -68,7 +67,7 @@ class LtcDecoder:
             self._count += len(part) // 2
             frame = _Frame()
             while self._library.ltc_decoder_read(self._decoder, ctypes.byref(frame)):
-                found.append(_reading(frame, when))
+                found.append(_reading(frame, self._samples))
         return found
 
     def close(self) -> None:
@@ -77,7 +76,7 @@ class LtcDecoder:
             self._decoder = None
 
 
-def _reading(frame: _Frame, when: Callable[[int], float]) -> Reading | Fault:
+def _reading(frame: _Frame, samples: int) -> Reading | Fault:
     if frame.reverse:
         return Fault("runs backwards")
     data = bytes(frame.bits)
@@ -86,4 +85,4 @@ def _reading(frame: _Frame, when: Callable[[int], float]) -> Reading | Fault:
     if any(unit > 9 for unit in units):
         return Fault("has a label that does not exist")
     hours, minutes, seconds, frames = (10 * ten + unit for ten, unit in zip(tens, units, strict=True))
-    return Reading(when(frame.start), (hours, minutes, seconds, frames), bool(data[1] & 4))
+    return Reading(frame.start / samples, (hours, minutes, seconds, frames), bool(data[1] & 4))

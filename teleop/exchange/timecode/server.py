@@ -1,7 +1,8 @@
 """Has a move chase timecode, or start with it: plays it in time, tells it where the code is, and stops it.
 
 A code that is there when the rig could move moves it, so there are rules. It is taken only near the move's own part of
-it. After a STOP, and whatever else ends the move, it counts again only once it was lost and has come back.
+it. After a STOP, and whatever else ends the move, it counts again only once it was lost and has come back. A move that
+was paused because the code was lost goes on with the code.
 """
 
 from __future__ import annotations
@@ -75,6 +76,7 @@ class Chaser:
         self._done = 0  # the lock of the timecode with which the move has been played
         self._told = self._seen = self._locked_at = -1e9
         self._telling: set[asyncio.Task[None]] = set()
+        self._paused = False  # by us
         self._why, self._said, self._said_at = "", "", -1e9
 
     def step(self, now: float) -> None:
@@ -108,7 +110,11 @@ class Chaser:
         if reference.at > move["duration"] + 1.0 and move["phase"] in ("easing", "preroll", "armed"):
             self._client.post({"do": "abort"})  # the code is past the move: there is nothing to play
             return
-        if now - self._told >= SAY:
+        if move["phase"] == "paused" and move["why"]:  # on the way to its path, where it can follow nothing yet
+            if self._paused:
+                self._tell({"do": "resume"})
+                self._paused = False
+        elif now - self._told >= SAY:
             self._told = now
             free = {"free": True} if self._section.start is not None else {}
             place = {"at": round(reference.at, 6), "time": now * 1000, "rate": round(reference.rate, 6), **free}
@@ -132,6 +138,7 @@ class Chaser:
         if self._playing is not None or self._why != "is lost":
             self._say(self._why)
         if self._playing is not None:
+            self._paused = True
             self._tell({"do": "pause"})
 
     def _tell(self, command: Mapping[str, Any]) -> None:

@@ -1,7 +1,7 @@
 """Sound that comes in, in a thread: from arecord, or from a pipe that another program writes to; and when it was heard.
 
-The time of a sample is that of its block's arrival, as the quickest blocks of the last seconds tell: a block comes late
-now and then, never early.
+A sample is timed by its number. What our clock is ahead of that, the quickest blocks of the last seconds tell: a block
+comes late now and then, never early.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Heard = Callable[[bytes, float], object]
 
 
 class SampleClock:
-    """When each sample was heard; `samples` in a second."""
+    """What our clock is ahead of the samples; `samples` in a second."""
 
     def __init__(self, samples: int) -> None:
         self._samples, self._count = samples, 0
@@ -40,8 +40,10 @@ class SampleClock:
         while now - self._offsets[0][0] > QUICKEST:
             self._offsets.popleft()
 
-    def when(self, number: int) -> float:
-        return self._offsets[0][1] + number / self._samples
+    @property
+    def offset(self) -> float:
+        """In s, since the first sample; some must have come."""
+        return self._offsets[0][1]
 
 
 class Sound:

@@ -1,7 +1,8 @@
 """Where timecode is, from its readings: a line over our clock, once they agree; and why it cannot be followed. Pure.
 
 The line is a fit to the last two seconds, so that readings that come unevenly, and a sender whose clock is a little
-fast or slow, make no difference. What does not go on as expected breaks the lock.
+fast or slow, make no difference. It is one of medians: a busy computer hears some readings much too late, and a fit of
+squares would take that for another speed. What does not go on as expected breaks the lock.
 """
 
 from __future__ import annotations
@@ -9,13 +10,14 @@ from __future__ import annotations
 import math
 from collections import deque
 from fractions import Fraction
+from statistics import median
 
 from teleop.config.frame_rates import drops, shown_rate, whole_rate
 from teleop.exchange.timecode.reading import Fault, Label, Reading, exact_fps, frame, is_label, wrapped
 from teleop.planner.chasing import Reference
 
 WINDOW = 2.0  # s of readings that count
-SLOPE = 0.8  # s of them, from which on the sender's speed is known
+SLOPE = 1.0  # s of them, from which on the sender's speed is known
 LOCK, LEAST = 0.15, 3  # s and readings that must agree
 LOST = 0.2  # s without timecode
 JUMP = 0.06  # s by which a reading may be off what was expected
@@ -25,7 +27,8 @@ SPEED = 0.01  # by which the sender may be faster or slower
 class Tracker:
     """`rate` is the profile's, None for what the code tells; `at` is the label where the move begins.
 
-    `why` is what is wrong, "" while nothing is. `locks` counts how often it was locked.
+    `why` is what is wrong, "" while nothing is. `locks` counts how often it was locked. `offset` is what our clock is
+    ahead of the one that the readings are timed by (s); it may change, as more is learned.
     """
 
     def __init__(self, rate: float | None, at: Label, latency: float = 0.0) -> None:
@@ -37,6 +40,7 @@ class Tracker:
         self._whole, self._drop, self._fps = 0, False, Fraction(1)
         self.locked = False
         self.locks = 0
+        self.offset = 0.0
         self.why = ""
 
     def hear(self, now: float) -> None:
@@ -65,7 +69,7 @@ class Tracker:
             return None
         slope, middle, place = self._line()
         start = wrapped(self._began - frame(self._at, self._whole, self._drop), self._whole, self._drop) / self._fps
-        return Reference(float(start) + place + slope * (now - middle + self._latency), now, slope)
+        return Reference(float(start) + place + slope * (now - self.offset - middle + self._latency), now, slope)
 
     def _refused(self, found: Reading) -> str:
         """Why a reading is none of this profile's timecode."""
@@ -121,14 +125,13 @@ class Tracker:
 
     def _line(self) -> tuple[float, float, float]:
         """The slope, and a time and the place of the code then."""
-        count = len(self._readings)
-        middle = sum(time for time, _ in self._readings) / count
-        place = sum(at for _, at in self._readings) / count
-        if self._readings[-1][0] - self._readings[0][0] < SLOPE:
-            return 1.0, middle, place
-        square = sum((time - middle) ** 2 for time, _ in self._readings)
-        slope = sum((time - middle) * (at - place) for time, at in self._readings) / square
-        return slope, middle, place
+        half = len(self._readings) // 2
+        middle = median(time for time, _ in self._readings)
+        slope = 1.0
+        if self._readings[-1][0] - self._readings[0][0] >= SLOPE:
+            pairs = zip(self._readings, list(self._readings)[-half:], strict=False)
+            slope = median((after[1] - before[1]) / (after[0] - before[0]) for before, after in pairs)
+        return slope, middle, median(at - slope * (time - middle) for time, at in self._readings)
 
     def _break(self, why: str) -> None:
         self._readings.clear()

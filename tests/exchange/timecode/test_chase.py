@@ -78,6 +78,21 @@ def test_it_joins_a_code_that_comes_back_and_one_that_goes_on_elsewhere() -> Non
     assert_within_limits(bench)
 
 
+def test_messages_that_a_busy_computer_hears_late_are_no_other_speed() -> None:
+    """Three of every twenty by 50 ms."""
+    tracker = Tracker(25.0, (1, 0, 0, 0))
+    for number in range(300):
+        late = 0.05 if number % 20 in (17, 18, 19) else 0.0
+        time, (seconds, frames) = 10.0 + number / 25, divmod(number, 25)
+        tracker.take(Reading(time + late, (1, 0, seconds, frames), False, 25), time + late)
+        assert not tracker.why
+        reference = tracker.reference(time)
+        if number > 60:
+            assert reference is not None
+            assert reference.at == pytest.approx(number / 25, abs=HALF / 25)
+    assert tracker.locks == 1
+
+
 def changed(messages: Iterator[tuple[float, bytes]], fault: str) -> Iterator[tuple[float, bytes]]:
     """What is sent, wrong from 3 s after its beginning on."""
     wrong, held = BEGIN + 3.0, []

@@ -21,6 +21,7 @@ from teleop.remote.gateway_child import Gateway
 
 FPS, BLOCK, SAMPLES = 25.0, 960, 48000
 LEAD, SECONDS = 6.0, 5.0
+LOST = -4.5, -4.0  # s of the code that nobody hears, while the axes go to the start of the move
 
 
 class Tape:
@@ -40,7 +41,8 @@ class Tape:
         for first in range(0, len(self._sound) // 2, BLOCK):
             end = first + BLOCK  # a block is there once its last sample is
             time.sleep(max(0.0, self.began + end / SAMPLES - time.monotonic()))
-            os.write(self._file, self._sound[2 * first : 2 * end])
+            lost = LOST[0] <= end / SAMPLES - LEAD < LOST[1]
+            os.write(self._file, bytes(2 * BLOCK) if lost else self._sound[2 * first : 2 * end])
 
     def place(self, now: float) -> float:
         return now - self.began - LEAD
@@ -52,7 +54,7 @@ class Tape:
 
 @pytest.mark.flaky(reruns=2, only_rerun="KeyError: <RunState.OVER")  # the computer stalled: the run is over
 @pytest.mark.skipif(not is_installed(), reason="libltc is not installed")
-def test_it_is_within_half_a_frame_in_real_time_and_rests_when_the_sound_ends(tmp_path: Path) -> None:
+def test_it_joins_again_is_within_half_a_frame_in_real_time_and_rests_when_the_sound_ends(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "ltc")
     text = find("sim", "profiles", "rig")[0].read_text(encoding="utf-8")
     entry = f"{{type: timecode, source: ltc, device: 'pipe:{tmp_path}/ltc', rate: 25, chase: nudge, at: '01:00:00:00'}}"

@@ -28,9 +28,10 @@ class Door:
         self.holder: str | None = None
         self.end: asyncio.Future[dict[str, Any]] = asyncio.get_running_loop().create_future()
         self.error = ""
+        self.phase, self.why = "armed", ""
 
     def state(self) -> dict[str, Any]:
-        move = {"phase": "armed", "duration": 8.0} if self.holder else None
+        move = {"phase": self.phase, "why": self.why, "duration": 8.0} if self.holder else None
         return {"holder_session": self.holder, "move": move}
 
     async def command(self, command: Mapping[str, Any], session: str, name: str, brief: bool = False) -> dict[str, Any]:
@@ -100,6 +101,22 @@ def test_a_code_that_is_lost_pauses_the_move_and_frees_control_after_ten_seconds
         await bench.run(10.0, None)
         assert len(bench.door.did("abort")) == 1
         assert bench.lines[-1] == "timecode mtc: is lost"
+
+    asyncio.run(work())
+
+
+def test_a_move_that_was_paused_on_its_way_to_the_start_goes_on_when_the_code_is_back() -> None:
+    async def work() -> None:
+        bench = Bench()
+        await bench.run(2.0, -10.0)
+        await bench.run(0.3, None)
+        bench.door.phase, bench.door.why = "paused", "paused"
+        asked = len(bench.door.asked)
+        await bench.run(1.0, -7.0)
+        assert bench.door.asked[asked:] == [{"do": "resume"}]  # once, and no word to follow until it is on its path
+        bench.door.phase, bench.door.why = "armed", ""
+        await bench.run(1.0, -6.0)
+        assert {each["do"] for each in bench.door.asked[asked + 1 :]} == {"chase"}
 
     asyncio.run(work())
 
