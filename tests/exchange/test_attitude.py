@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 
+import fake_served
 import pytest
 from fake_served import LIMITS, FakeServed
 
@@ -26,7 +27,8 @@ class Clock:
 @pytest.fixture
 def clock(monkeypatch):
     clock = Clock()
-    monkeypatch.setattr(attitude, "monotonic", clock)
+    for module in (attitude, fake_served):
+        monkeypatch.setattr(module, "monotonic", clock)
     return clock
 
 
@@ -50,7 +52,6 @@ def test_old_readings_are_not_sent_and_both_ends_of_that_are_told_once(clock):
         clock.now += OLD + 0.1
         assert feed.at(clock.now) is None
     assert fake.lines == ["freed: the newest reading is 0.6 s old: nothing is sent until the gimbal reports again"]
-    clock.now = time.monotonic()
     fake.door.measure(pan=11.0, tilt=-5.0)
     clock.now += 0.01
     assert feed.at(clock.now + 0.01) is not None
@@ -75,10 +76,10 @@ def test_a_focus_is_waited_for_and_then_done_without(clock):
     assert found is None
     for _ in range(4):
         clock.now += LENS / 4
-        fake.door.measure(time.monotonic() - clock.now, pan=10.0, tilt=-5.0)
+        fake.door.measure(pan=10.0, tilt=-5.0)
         found = feed.at(clock.now)
     assert found == (10.0, -5.0, 0.0, None)
-    fake.door.measure(time.monotonic() - clock.now, pan=10.0, tilt=-5.0, focus=0.5)
+    fake.door.measure(pan=10.0, tilt=-5.0, focus=0.5)
     assert feed.at(clock.now + 0.01) == (10.0, -5.0, 0.0, 0.5)
 
 

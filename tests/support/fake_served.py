@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import socket
-import time
 from collections.abc import Mapping
+from time import monotonic
 from typing import Any, cast
 
 from teleop.core.axes import Axis, Limits
@@ -30,7 +30,7 @@ class FakeDoor:
     def measure(self, age: float = 0.0, **axes: float) -> None:
         """A state with readings that are so old (s)."""
         rows = {axis: {"measured": at, "measured_age_ms": age * 1000} for axis, at in axes.items()}
-        self.state = {"time": time.monotonic(), "axes": rows, "stopped": False}
+        self.state = {"time": monotonic(), "axes": rows, "stopped": False}
 
 
 class FakeServed:
