@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from ltc_sound import encoded, is_installed
+from real_time import children_in_real_time
 from remote_bench import remote_bench
 
 from teleop.app.realtime import realtime
@@ -67,6 +68,7 @@ def test_it_joins_again_is_within_half_a_frame_in_real_time_and_rests_when_the_s
             with realtime(True, print):
                 while bench.hands.desk.gateway_at < 0:
                     bench.tick()
+                children_in_real_time()
                 tape.start()
                 while tape.place(bench.now) < SECONDS:
                     bench.tick()
