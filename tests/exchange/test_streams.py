@@ -8,12 +8,14 @@ from itertools import pairwise
 
 import cbor2
 import pytest
+from real_time import children_in_real_time
 from tracking_bench import TrackingBench, tracking_bench
 
 from teleop.exchange.freed.codec import decode
 from teleop.exchange.opentrackio.packets import parsed
 
-pytestmark = pytest.mark.flaky(reruns=2, only_rerun="the computer stalled")
+UNEVEN = "the machine was too uneven to tell"
+pytestmark = pytest.mark.flaky(reruns=3, only_rerun=["the computer stalled", UNEVEN])
 
 RATE, LATENCY = 50, 0.15
 
@@ -24,16 +26,17 @@ def swing(bench: TrackingBench) -> None:
 
 
 def assert_on_the_way(bench: TrackingBench, rows: list[tuple[float, float, float]]) -> None:
-    """Each instant with its pan and tilt: where a loaded machine was uneven, it is only near the way."""
-    missed = [(bench.kept_up(at), bench.missed(at, pan, tilt)) for at, pan, tilt in rows]
-    assert max((each for even, each in missed if even), default=0.0) <= 0
-    assert max(each for _, each in missed) < 3.0
+    """Each instant with its pan and tilt; where the machine was uneven, nothing can be said."""
+    even = [bench.missed(at, pan, tilt) for at, pan, tilt in rows if bench.kept_up(at)]
+    assert len(even) > len(rows) / 4, UNEVEN
+    assert max(even) <= 0
 
 
 def test_freed_messages_have_the_true_attitude_of_their_instant_at_a_rate_without_drift(tmp_path):
     entry = "{type: freed, to: TO, latency: 0.15, camera: 7, position: [1, -2, 1.6], lens: {zoom: 99}}"
     with tracking_bench(tmp_path, entry) as bench:
         bench.receive(0.2)
+        children_in_real_time()
         swing(bench)
         rows = bench.receive(2.0)
         # the slots are evenly apart, and the quickest message has arrived next to at once
@@ -53,6 +56,7 @@ def test_opentrackio_samples_have_the_true_attitude_of_their_timestamp(tmp_path,
     entry = f"{{type: opentrackio, to: TO, latency: 0.15, source: 3, encoding: {encoding}, position: [1, -2, 1.6]}}"
     with tracking_bench(tmp_path, entry) as bench:
         bench.receive(0.2)
+        children_in_real_time()
         swing(bench)
         packets = [parsed(data) for _, data in bench.receive(2.2)]
         wall = time.time() - time.monotonic()

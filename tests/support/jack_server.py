@@ -22,7 +22,10 @@ def jack_server() -> Iterator[None]:
     name = f"teleop{os.getpid()}"
     before = os.environ.get("JACK_DEFAULT_SERVER")
     os.environ["JACK_DEFAULT_SERVER"] = name
-    command = ["jackd", "--no-realtime", "--name", name, "-d", "dummy", "-r", "48000", "-p", "256"]
+    # It waits for its clients in each period: without real time it would go on without one that is late, and drop
+    # what that one was sent.
+    waits = ["--sync", "--timeout", "10000"]
+    command = ["jackd", "--no-realtime", *waits, "--name", name, "-d", "dummy", "-r", "48000", "-p", "1024"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         until(_answers)

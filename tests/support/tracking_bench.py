@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import select
 import socket
 import threading
 import time
@@ -15,6 +16,7 @@ import msgpack
 from remote_bench import PROFILE, RemoteBench, remote_bench
 from waiting import wait_until
 
+from teleop.app.realtime import realtime
 from teleop.config.profile import checked_profile
 from teleop.core.clock import SystemClock
 from teleop.core.events import Tick
@@ -48,9 +50,14 @@ class TrackingBench:
         stack.callback(self._socket.close)
         self._socket.setblocking(True)
         self._number = 0
-        self._thread = threading.Thread(target=self._bench.loop.run, daemon=True)
+        self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
         stack.callback(self._end)
+
+    def _run(self) -> None:
+        assert self._bench is not None
+        with realtime(True, print):
+            self._bench.loop.run()
 
     def observe(self, tick: Tick) -> None:
         if self._bench is not None:
@@ -64,6 +71,7 @@ class TrackingBench:
         self._number += 1
         self._socket.send(packed({"do": do, "id": self._number, "session": "anna", "person": "Anna", **fields}))
         while True:
+            assert select.select([self._socket.fileno()], [], [], 10)[0], self._faults()
             answer = msgpack.unpackb(self._socket.recv(4096))
             if answer["id"] == self._number and not answer.get("done"):
                 return answer
@@ -76,8 +84,7 @@ class TrackingBench:
             try:
                 data = self.receiver.recv(65536)
             except TimeoutError:
-                assert self._bench is not None
-                raise AssertionError("; ".join([*map(str, self._bench.loop.faults), *self.lines])) from None
+                raise AssertionError(self._faults()) from None
             found.append((time.monotonic(), data))
         return found
 
@@ -106,6 +113,10 @@ class TrackingBench:
     def lines(self) -> list[str]:
         assert self._bench is not None
         return self._bench.lines
+
+    def _faults(self) -> str:
+        assert self._bench is not None
+        return "; ".join([*map(str, self._bench.loop.faults), *self.lines])
 
     def _end(self) -> None:
         assert self._bench is not None
