@@ -96,10 +96,11 @@ export function Banners() {
 }
 
 function Stopped() {
-  const driven = !commission.value;
+  if (commission.value)
+    return html`<p class="banner bad"><b>STOPPED</b><span>${stoppedBy.value && `by ${stoppedBy.value} `}${stoppedAt.value ? `at ${timeOfDay(stoppedAt.value)}. ` : ". "}The next key goes on.</span></p>`;
   return html`<p class="banner bad"><b>STOPPED</b><span>${stoppedBy.value && `by ${stoppedBy.value} `}${stoppedAt.value ? `at ${timeOfDay(stoppedAt.value)}. ` : ". "}
-    ${driven ? "Clear it, then center all sticks." : "The next key goes on."}</span>
-    ${driven && html`<button data-testid="clear" disabled=${!mayOperate.value || (!mine.value && !!holder.value)} onClick=${clear}>Clear STOP</button>`}</p>`;
+    Clear it, then center all sticks.</span>
+    <button data-testid="clear" disabled=${!mayOperate.value || (!mine.value && !!holder.value)} onClick=${clear}>Clear STOP</button></p>`;
 }
 
 function Asked() {

@@ -12,7 +12,7 @@ async function look() {
   else rigs.value = rigs.value.map((rig) => ({ ...rig, alive: false, state: "unknown" }));
 }
 
-async function stopAll() {
+export async function stopAll() {
   told.value = "STOP is sent to all rigs";
   const answer = await fetch("/api/fleet/stop", { method: "POST", keepalive: true }).catch(() => null);
   const found = answer ? await answer.json().catch(() => null) : null;
