@@ -130,7 +130,7 @@ class Tracker:
         slope = 1.0
         if self._readings[-1][0] - self._readings[0][0] >= SLOPE:
             pairs = zip(self._readings, list(self._readings)[-half:], strict=False)
-            slope = median((after[1] - before[1]) / (after[0] - before[0]) for before, after in pairs)
+            slope = median((after[1] - before[1]) / max(after[0] - before[0], 1e-9) for before, after in pairs)
         return slope, middle, median(at - slope * (time - middle) for time, at in self._readings)
 
     def _break(self, why: str) -> None:
