@@ -8,6 +8,7 @@ from __future__ import annotations
 import fcntl
 import os
 import select
+import shutil
 import signal
 import struct
 import subprocess
@@ -15,7 +16,7 @@ import termios
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pyte
@@ -184,3 +185,15 @@ def screen(
         yield opened
     finally:
         opened.close()
+
+
+@contextmanager
+def screens(*arguments: str, folder: Path) -> Iterator[list[TerminalScreen]]:
+    """`teleop ARGUMENTS` at once on a terminal of each size, each in a copy of `folder`: what they wait for is time."""
+    with ExitStack() as stack:
+        opened = []
+        for size in SIZES:
+            own = folder.with_name(f"{folder.name}-{size[0]}x{size[1]}")
+            shutil.copytree(folder, own)
+            opened.append(stack.enter_context(screen(*arguments, folder=own, size=size, cwd=own)))
+        yield opened
