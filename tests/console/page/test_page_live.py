@@ -281,6 +281,34 @@ def test_a_focus_mark_is_set_by_holding_and_reached_by_a_tap(visit, rig):
     until(lambda: was_asked(rig, "focus", {"to": 0.254}))
 
 
+def test_a_tracker_is_followed_by_a_button_and_by_a_key_and_the_page_says_how_that_goes(visit, rig):
+    page = visit()
+    take_control(page)
+    expect(page.get_by_test_id("track-1")).to_have_count(0)  # no tracker sends to this rig
+    source = {"name": "freed at 127.0.0.1:40001", "age_ms": None}
+    rig.more["tracking"] = {"sources": {"1": source, "2": {**source, "age_ms": 9.0}}, "follows": None, "why": ""}
+    button, word = page.get_by_test_id("track-2"), page.get_by_test_id("tracking-2")
+    expect(page.get_by_test_id("tracking-1")).to_have_text("no messages")
+    expect(page.get_by_test_id("track-1")).to_be_disabled()
+    expect(word).to_have_text("ready")
+    button.click()
+    until(lambda: was_asked(rig, "track", {"source": 2}))
+    expect(word).to_have_text("followed")
+    expect(button).to_have_attribute("aria-pressed", "true")
+    rig.more["tracking"]["why"] = "pan waits at its soft limit"
+    expect(word).to_have_text("pan waits at its soft limit")
+    button.click()
+    until(lambda: commands(rig, "abort"))
+    expect(word).to_have_text("ready")
+    page.keyboard.press("a")
+    page.keyboard.press("2")
+    expect(word).to_have_text("pan waits at its soft limit")
+    page.keyboard.press("a")
+    page.keyboard.press("0")
+    expect(word).to_have_text("ready")
+    assert len(commands(rig, "track")) == len(commands(rig, "abort")) == 2
+
+
 def test_no_state_for_a_second_is_gray_and_says_so_and_the_page_comes_back_as_a_watcher(visit, rig):
     page = visit()
     take_control(page)
