@@ -118,6 +118,17 @@ def test_a_preset_is_stored_by_holding_and_recalled_by_a_tap_in_the_set_time(vis
     until(lambda: abs(rig.at["pan"] - 25) < 0.01)
 
 
+def test_there_is_always_an_empty_preset_and_a_long_list_scrolls(visit, rig):
+    page = visit()
+    take_control(page)
+    rig.more["presets"] = {str(number): {"pan": float(number)} for number in range(12)}
+    last = page.get_by_test_id("preset-12")
+    last.click(delay=900)
+    until(lambda: "12" in rig.more["presets"])
+    expect(page.get_by_test_id("preset-13")).to_be_attached()
+    assert page.locator(".tiles").evaluate("(each) => each.scrollHeight > each.clientHeight")
+
+
 def test_keys_from_the_hand_play_and_become_a_move_with_even_times(visit, rig):
     page = visit()
     take_control(page)

@@ -11,10 +11,9 @@ from contextlib import ExitStack
 import pytest
 from page_bench import PHONE, REFUSED, take_control, until
 from playwright.sync_api import expect
-from real_console import RealConsole
+from real_console import STALLS, RealConsole
 
-# A computer that stalls ends a run in real time, as it has to; what else was to be seen is then seen in another try.
-pytestmark = pytest.mark.flaky(reruns=2, only_rerun="the computer stalled")
+pytestmark = STALLS
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +36,7 @@ def console(consoles, tmp_path):
 def visit(browser, console):
     browser.errors.clear()
     browser.allowed = REFUSED  # the gateway is killed in some of these
-    yield lambda *args, **options: browser.open(console.url, *args, **options)
+    yield lambda *args, at="", **options: browser.open(console.url + at, *args, **options)
     browser.close()
     assert browser.errors == []
     until(lambda: console.state.get("holder") is None)
@@ -90,6 +89,34 @@ def test_stop_from_a_watcher_ends_what_another_moves(moving, visit, console):
     expect(moving.get_by_test_id("clear")).to_be_visible()
     moving.get_by_test_id("clear").click()
     until(lambda: not console.state["stopped"])
+
+
+def test_a_page_that_is_hidden_in_mid_drag_leaves_the_rig_at_rest(moving, console):
+    moving.evaluate(
+        """Object.defineProperty(document, 'hidden', {get: () => true});
+           document.dispatchEvent(new Event('visibilitychange'))"""
+    )
+    until(lambda: console.rests)
+    at = console.axis("pan")["commanded"]
+    moving.mouse.move(9, 9)
+    moving.wait_for_timeout(200)
+    assert console.axis("pan")["commanded"] == at
+
+
+def test_control_is_handed_over_at_rest_and_the_first_ones_stick_moves_nothing_any_more(moving, visit, console):
+    second = visit(PHONE, touch=True, at="?name=bob")
+    second.get_by_test_id("take-control").filter(has_text="Ask for control").tap()
+    expect(moving.get_by_text("bob asks for control")).to_be_visible()
+    moving.mouse.up()
+    moving.get_by_role("button", name="Hand over").click()
+    expect(second.get_by_test_id("release-control")).to_be_visible()
+    expect(moving.get_by_test_id("holder")).to_have_text("bob")
+    assert console.rests
+    at = console.axis("pan")["commanded"]
+    drag(moving)
+    expect(moving.get_by_text("bob has control: ask for it first")).to_be_visible()
+    moving.mouse.up()
+    assert console.axis("pan")["commanded"] == at
 
 
 @pytest.mark.parametrize("how", [signal.SIGSTOP, signal.SIGKILL])
