@@ -7,7 +7,7 @@ import re
 
 import pytest
 from made_takes import write_take
-from page_bench import take_control, until
+from page_bench import PATIENCE, take_control, until
 from playwright.sync_api import expect
 
 from teleop.core.axes import Axis, State
@@ -46,7 +46,8 @@ def takes(visit, server):
     if not path.exists():
         write_take(path, {Axis.PAN: there_and_back}, 4.0, measured={Axis.PAN: lambda t: there_and_back(t)[0] + 0.25})
     page = visit(at="#takes")
-    expect(page.get_by_role("row", name="swing")).to_contain_text("0.25° pan")
+    # The worker of the console starts for it, which takes long on a busy computer.
+    expect(page.get_by_role("row", name="swing")).to_contain_text("0.25° pan", timeout=4 * PATIENCE)
     return page
 
 
