@@ -242,8 +242,8 @@ def test_the_key_at_the_rig_follows_a_source_with_no_control_and_no_page_and_end
         tracker.run(0.3)
         press(bench, 1)
         assert bench.lines[0] == "source 1 is followed: a 0 ends it"
-        tracker.run(5.0)
-        assert max(tracker.errors(2.0)) < 0.1
+        tracker.run(2.0)
+        assert max(tracker.errors(0.3)) < 0.1
         press(bench, 0)
         assert bench.lines[0] == "tracking ends: aborted by keys"
         tracker.run(0.7)
