@@ -171,6 +171,36 @@ def test_all_that_is_always_there_is_in_view_on_a_small_phone(staged, rig):
         assert page.evaluate(HIDDEN) == []
 
 
+RIGS = [
+    {"name": "crane", "alive": True, "state": "running", "holder": "anna", "error": None, "move": {"title": "Reveal"}},
+    {"name": "dolly", "alive": True, "state": "stopped", "holder": None, "error": None, "move": None},
+    {"name": "slider", "alive": False, "state": "lost", "holder": None, "error": None, "move": None},
+]
+TOP = """() => {
+    const box = document.querySelector('.stop-all').getBoundingClientRect();
+    const middle = (box.left + box.right) / 2;
+    const points = [[box.left + 2, box.top + 2], [box.right - 3, box.bottom - 3], [middle, box.top + 9]];
+    return points.map(([x, y]) => document.elementFromPoint(x, y)?.className);
+}"""
+
+
+def test_the_tiles_of_a_fleet_have_no_violation_and_nothing_lies_over_stop_all(browser, server, rig):
+    page = browser.open("about:blank", SMALL, touch=True)
+    try:
+        page.route("**/api/fleet", lambda route: route.fulfill(json={"name": "crane", "rigs": RIGS}))
+        page.goto(server.url)
+        expect(page.get_by_test_id("fleet-dolly")).to_contain_text("stopped")
+        for width, height in (SMALL, NARROW_LANDSCAPE, LAPTOP):
+            page.set_viewport_size({"width": width, "height": height})
+            assert page.evaluate(TOP) == 3 * ["stop-all"]
+            assert page.evaluate(WIDER) == []
+        page.evaluate(AXE)
+        found = page.evaluate("axe.run(document, {resultTypes: ['violations']})")
+        assert [(each["id"], [node["html"][:120] for node in each["nodes"]]) for each in found["violations"]] == []
+    finally:
+        browser.close()
+
+
 @pytest.mark.parametrize("tab", TABS)
 def test_every_control_is_in_reach_of_the_keyboard(staged, tab):
     page = staged(tab)
