@@ -320,6 +320,24 @@ def test_a_tracker_is_followed_by_a_button_and_by_a_key_and_the_page_says_how_th
     assert len(commands(rig, "track")) == len(commands(rig, "abort")) == 2
 
 
+def test_the_screen_stays_on_where_the_page_is_secure_and_elsewhere_it_says_so(browser, server, rig):
+    try:
+        page = browser.open("about:blank")
+        page.add_init_script("navigator.wakeLock.request = async (what) => ((window.kept = what), {released: false})")
+        page.goto(server.url)
+        expect(page.get_by_test_id("age")).not_to_have_text("--")
+        assert page.evaluate("window.kept") == "screen"
+        other = browser.open("about:blank")
+        other.add_init_script(
+            """delete Navigator.prototype.wakeLock;
+               Object.defineProperty(window, 'isSecureContext', {get: () => false})"""
+        )
+        other.goto(server.url)
+        expect(other.get_by_text("without TLS the screen may go to sleep")).to_be_visible()
+    finally:
+        browser.close()
+
+
 def test_no_state_for_a_second_is_gray_and_says_so_and_the_page_comes_back_as_a_watcher(visit, rig):
     page = visit()
     take_control(page)
