@@ -71,6 +71,10 @@ PREFIXES: Mapping[str, tuple[str, Mapping[str, Act]]] = {
             for key, mode in FOLLOW_MODES.items()
         },
     ),
+    "a": (
+        "follow which tracking source? 1-9, 0 ends",
+        {str(digit): Press(Command.TELL, digit, DeviceCommand("track", str(digit))) for digit in range(10)},
+    ),
 }
 """Keys that ask for a second one: the question, and its answers. Any other key takes it back."""
 
@@ -103,6 +107,7 @@ HELP: Sequence[tuple[str, str]] = (
     (".", "shutter"),
     ("e", "manual on or off"),
     ("t word", "mark a target"),
+    ("a 0-9", "follow a tracker"),
     ("d word", "drone: engage, arm"),
     ("b", "release the drone"),
     (INVITE, "console: QR code"),

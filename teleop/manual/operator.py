@@ -26,6 +26,8 @@ from teleop.manual.status import InputStatus, MessageLog, OperatorStatus
 from teleop.manual.target_marks import TargetMarks
 
 CENTERED = (Axis.PAN, Axis.TILT, Axis.ROLL)  # what a recenter takes to 0
+TRACK = "track"  # an aim follows a tracking source
+UNTRACKED = "track: this rig has no tracking source: see exchange in its profile"
 TARGET = "target"  # what is typed for one is told to it
 FOLLOW = "follow "  # begins the name of the gimbal's command
 CENTERED_STICK = PositionTarget(0.0)  # of a drone: nothing moves, and there is an input
@@ -86,6 +88,7 @@ class Operator:
             Command.DISENGAGE: lambda _hand, _press: self._send_to_drone(DeviceCommand(DRONE, "disengage")),
             Command.QUIT: self._quit,
         }
+        self.track: Callable[[int, float], object] = lambda _number, _now: self.notify(UNTRACKED)
         self.begin = math.inf  # when the run begins, on the loop's clock
         self.status = self._snapshot()
 
@@ -257,6 +260,8 @@ class Operator:
             self._send_to_drone(command)
         elif command.device == TARGET:
             self._mark(command.name)
+        elif command.device == TRACK:
+            self.track(press.number, self._now)
         elif moves(self._motion):
             self.notify(f"{command} refused: an axis is moving")
         else:

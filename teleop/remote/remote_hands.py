@@ -37,6 +37,7 @@ from teleop.remote.shoot_recovery import ShootRecovery
 from teleop.remote.state import Parts
 from teleop.remote.stick import RemoteStick
 from teleop.remote.told import Told
+from teleop.remote.tracking import Tracking
 from teleop.remote.works import Works
 
 
@@ -107,7 +108,10 @@ class RemoteHands:
         state = lambda: None if drone is None else drone.state(rig.clock.now())  # noqa: E731
         shown = LiveShown(operator, presets, self._jobs, self._keys, self._actions.moves.passes, state)
         facts = self._profile.name, self._limits, shown, rig.connections, self.desk, camera
-        self._publisher = self.door.publisher(Parts(*facts, commissions=self._commissions), rig.clock)
+        tracking = Tracking(self._profile, self.desk, self._jobs, self._actions, operator.notify)
+        operator.track = tracking.by_hand
+        parts = Parts(*facts, commissions=self._commissions, tracking=tracking.shown)
+        self._publisher = self.door.publisher(parts, rig.clock)
         if again:
             self._jobs.again()
         elif self._gateway is not None:

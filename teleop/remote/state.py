@@ -76,6 +76,7 @@ class Parts:
     desk: Desk
     has_camera: bool
     commission: Callable[[], Mapping[str, Any] | None] = lambda: None
+    tracking: Callable[[float], Mapping[str, Any] | None] = lambda _now: None
     commissions: Sequence[str] = ()  # devices whose commissioning can be started from here
 
 
@@ -129,6 +130,7 @@ class StatePublisher:
             "move": shown.move(now),
             "shoot": shown.shoot(now),
             "commission": parts.commission(),
+            "tracking": parts.tracking(now),
             "battery": shown.battery,
             "links": {name: self._link(connection, now) for name, connection in parts.connections.items()},
             "sticks": {

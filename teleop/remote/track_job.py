@@ -23,6 +23,7 @@ SHARE = 0.9  # of each limit: what needs more is the planner's rendezvous
 BEYOND = 0.5  # deg past a soft limit, from which on it is told
 BEHIND, BEHIND_FOR = 3.0, 1.0  # deg behind the target, for so long (s): it is too fast for the axis
 BACK = 0.5  # deg from the target, at which it is reached again
+SILENT = "nothing has arrived"
 
 
 class TrackJob:
@@ -39,7 +40,7 @@ class TrackJob:
         ended: Ended,
     ) -> None:
         self.title, self.owner, self.attended, self.ended = "track", owner, attended, ended
-        self._source, self._stream = source, stream
+        self.source, self._stream = source, stream
         self._notify = notify
         self._followed = {axis: _Followed(axis, limits[axis], notify) for axis in stream.axes}
         self._now = 0.0
@@ -47,6 +48,12 @@ class TrackJob:
     @property
     def axes(self) -> Collection[Axis]:
         return self._followed
+
+    def trouble(self, now: float) -> str:
+        """Why it is not on its target, "" when it is or is on its way."""
+        if not self._stream.fresh(now):
+            return "nothing arrives: it waits"
+        return ", ".join(each.trouble for each in self._followed.values() if each.trouble)
 
     def start(self, now: float, motion: Motion) -> None:
         self._now = now
@@ -66,7 +73,7 @@ class TrackJob:
     def done(self, tick: Tick) -> bool:
         """Never by itself; raises TeleopError once the stream is over."""
         if self._stream.age(tick.time) > ENDED:
-            why = f"nothing has arrived from tracking source {self._source} for {ENDED:g} s: track again"
+            why = f"{SILENT} from tracking source {self.source} for {ENDED:g} s: track again"
             self._notify(f"tracking ends: {why}")
             raise TeleopError(why)
         return False
@@ -86,7 +93,7 @@ class _Followed:
     def __init__(self, axis: Axis, limits: Limits, notify: Callable[[str], object]) -> None:
         self._axis, self._limits, self._notify = axis, limits, notify
         self._turns = 0.0
-        self._told = False
+        self.trouble = ""
         self._behind_since: float | None = None
         self._met = False
 
@@ -119,19 +126,19 @@ class _Followed:
     def _tell(self, target: float, inside: float, state: State, now: float) -> None:
         beyond, behind = abs(target - inside), abs(inside - state.position)
         if behind < BACK and beyond < BEYOND:
-            if self._told:
+            if self.trouble:
                 self._notify(f"track: {self._axis} has its target again")
-            self._told, self._behind_since, self._met = False, None, True
+            self.trouble, self._behind_since, self._met = "", None, True
             return
         self._behind_since = self._behind_since if behind > BEHIND and self._behind_since is not None else now
-        if self._told:
+        if self.trouble:
             return
         if beyond > BEYOND:
-            self._told = True
+            self.trouble = f"{self._axis} waits at its soft limit"
             limit = f"the soft limit of {self._axis} ({inside:g})"
             self._notify(f"track: the target is {beyond:.1f} deg beyond {limit}: it waits there")
         elif self._met and behind > BEHIND and now - self._behind_since > BEHIND_FOR:
-            self._told = True
+            self.trouble = f"{self._axis} is behind"
             self._notify(f"track: {self._axis} is {behind:.1f} deg behind its target, which is too fast for its limits")
 
 

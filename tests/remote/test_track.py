@@ -13,6 +13,8 @@ import pytest
 from remote_bench import ANNA, BOB, RemoteBench, remote_bench
 
 from teleop.core.axes import Axis, State
+from teleop.core.events import DeviceCommand
+from teleop.core.operator_input import Command
 from teleop.core.timing import PERIOD
 from teleop.door.messages import packed
 from teleop.remote.aims import AimStream
@@ -196,6 +198,76 @@ def test_it_ends_when_its_console_is_gone_unless_it_is_unattended(tmp_path, atte
         bench.seen[ANNA] = 3000.0
         tracker.run(1.0)
         assert bench.rests is attended
+
+
+TRACKER = 'exchange: [{type: freed, listen: "127.0.0.1:40001", camera: 2, as: target}]'
+NAME = "freed at 127.0.0.1:40001"
+
+
+def test_the_state_has_each_source_what_is_followed_and_why_it_waits(tmp_path):
+    with remote_bench(tmp_path, more=TRACKER) as bench:
+        tracker = Tracker(bench, lambda time: (150 + 40 * math.sin(time), 0.0))
+        assert bench.state["tracking"] == {"sources": {"1": {"name": NAME, "age_ms": None}}, "follows": None, "why": ""}
+        tracker.track()
+        tracker.run(1.2)
+        shown = bench.state["tracking"]
+        assert shown["sources"]["1"]["age_ms"] < 30
+        assert (shown["follows"], shown["why"]) == (1, "pan waits at its soft limit")
+        tracker.run(0.4, silent=True)
+        assert bench.state["tracking"]["why"] == "nothing arrives: it waits"
+        bench.ask("abort")
+        tracker.run(1.2, silent=True)
+        assert bench.state["tracking"]["follows"] is None
+        assert bench.state["tracking"]["sources"]["1"]["age_ms"] is None
+
+
+def test_a_rig_that_no_tracker_sends_to_has_none_in_its_state(tmp_path):
+    with remote_bench(tmp_path) as bench:
+        assert bench.state["tracking"] is None
+        press(bench, 1)
+        assert bench.lines[0] == "track: this rig has no tracking source: see exchange in its profile"
+
+
+def press(bench, number):
+    """The keys `a` and a digit, at the rig."""
+    bench.pad.press(Command.TELL, number, DeviceCommand("track", str(number)))
+    bench.tick(2)
+
+
+def test_the_key_at_the_rig_follows_a_source_with_no_control_and_no_page_and_ends_it(tmp_path):
+    with remote_bench(tmp_path, more=TRACKER) as bench:
+        tracker = Tracker(bench, sway)
+        press(bench, 1)
+        assert bench.lines[0] == "track: nothing arrives from tracking source 1"
+        tracker.run(0.3)
+        press(bench, 1)
+        assert bench.lines[0] == "source 1 is followed: a 0 ends it"
+        tracker.run(2.0)
+        assert max(tracker.errors(0.3)) < 0.1
+        press(bench, 0)
+        assert bench.lines[0] == "tracking ends: aborted by keys"
+        tracker.run(0.7)
+        assert bench.rests
+        press(bench, 0)
+        assert bench.lines[0] == "track: no source is followed"
+        tracker.assert_legal()
+
+
+def test_following_that_a_key_began_ends_by_a_stick_and_says_so(tmp_path):
+    with remote_bench(tmp_path, more=TRACKER) as bench:
+        tracker = Tracker(bench, sway)
+        tracker.run(0.3)
+        press(bench, 1)
+        tracker.run(1.0)
+        bench.pad.deflections = {Axis.PAN: 1.0}
+        tracker.run(0.3)
+        bench.pad.deflections = {}
+        tracker.run(1.5)
+        assert bench.rests
+        assert "tracking ends: an operator moved pan" in bench.lines
+        bench.ask("stop", BOB)
+        press(bench, 1)
+        assert "track: STOP is not cleared" in bench.lines
 
 
 def test_noise_is_averaged():

@@ -39,6 +39,7 @@ class ConsoleRig:
             "recording": False, "recording_s": 0.0, "camera": True,
             "move": None, "shoot": None, "keys": [], "presets": {},
             "range": 2, "ranges": [0.1, 0.35, 1.0], "follow": "lock", "focus_marks": {}, "manual": True, "inputs": [],
+            "tracking": None,
             "sticks": {"missed": 0, "age_ms": None, "armed": False, "waits_for": ""}, "messages": [],
         }  # fmt: skip
         self.frozen: float | None = None  # the loop's time of a rig that stands still for a picture
@@ -186,6 +187,13 @@ class ConsoleRig:
 
     def _stop_recording(self, *_: Any) -> None:
         self.more["recording"] = False
+
+    def _track(self, command: Mapping[str, Any], *_: Any) -> None:
+        self.more["tracking"]["follows"] = command["source"]
+
+    def _abort(self, *_: Any) -> None:
+        if self.more["tracking"]:
+            self.more["tracking"]["follows"] = None
 
     def seen(self, session: str) -> None:
         """A client has sent anything."""

@@ -21,6 +21,7 @@ from teleop.console.settings import ConsoleSettings, listen
 REFUSED = re.compile(r"error: (Failed to load resource|WebSocket connection to)")
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 LAPTOP, PHONE, LANDSCAPE, SMALL, LARGE = (1280, 800), (390, 844), (844, 390), (360, 640), (3840, 2160)
+NARROW, NARROW_LANDSCAPE = (360, 740), (740, 360)
 PATIENCE = 20_000  # ms: a busy machine is slow, and no test asserts on its speed
 expect.set_options(timeout=PATIENCE)
 

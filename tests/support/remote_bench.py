@@ -156,10 +156,14 @@ def remote_bench(
     clock: Clock | None = None,
     observer: Observer | None = None,
     gateway: Gateway | None = None,
+    more: str = "",
 ) -> Iterator[RemoteBench]:
-    """On the virtual clock unless another is given; `observer` sees each tick before the door does."""
+    """On the virtual clock unless another is given; `observer` sees each tick before the door does.
+
+    `more` is added to the profile.
+    """
     with ExitStack() as stack:
-        clock, profile, pad = clock or VirtualClock(), _profile(folder), FakeInput()
+        clock, profile, pad = clock or VirtualClock(), _profile(folder, more), FakeInput()
         hands = RemoteHands(folder, gateway)
         hands.open(stack, profile, profile.limits)
         presets = Presets(folder / "presets.yaml")
@@ -182,6 +186,6 @@ def remote_bench(
         yield bench
 
 
-def _profile(folder: Path) -> Profile:
-    (folder / "rig.yaml").write_text(PROFILE)
+def _profile(folder: Path, more: str) -> Profile:
+    (folder / "rig.yaml").write_text(PROFILE + more)
     return load_profile(str(folder / "rig.yaml"))

@@ -4,11 +4,14 @@ import { command, stop, stopping } from "./connection.js";
 import { age, fresh, hello, holder, link, mayOperate, mine, notice, part, roundTrip, state, tab } from "./store.js";
 import { milliseconds, minutes, timeOfDay } from "./format.js";
 import { commission } from "./commission.js";
+import { gamepad } from "./gamepad.js";
 import { clear, showHelp, Word } from "./keyboard.js";
 
 export const TABS = [["live", "Live"], ["move", "Move"], ["shoot", "Shoot"], ["takes", "Takes"]];
 const HANDOVER = 5; // s after which control passes to who asks
-const links = part((s) => s.links, {}), inputs = part((s) => s.inputs, []), missed = part((s) => s.sticks?.missed ?? 0, 0);
+const LATE = 150, RAMPS = 250; // ms of age of a stick: shown, and at which the axes come to rest
+const links = part((s) => s.links, {}), inputs = part((s) => s.inputs, []);
+const missed = part((s) => s.sticks?.missed ?? 0, 0), stickAge = part((s) => s.sticks?.age_ms ?? null, null);
 const stopped = part((s) => s.stopped, false), stoppedBy = part((s) => s.stopped_by, ""), stoppedAt = part((s) => s.stopped_at, null);
 const recording = part((s) => s.recording, false), recordingTime = part((s) => Math.floor(s.recording_s ?? 0), 0);
 const rig = part((s) => s.rig, ""), asking = part((s) => s.asking, null), camera = part((s) => s.camera, false);
@@ -66,15 +69,23 @@ function Health() {
       ${milliseconds(trip.median)} / ${milliseconds(trip.worst)}<//>
     ${Object.entries(links.value).map(([name, each]) => html`<${Chip} tone=${each.ok ? "good" : "bad"} name=${name}>${each.ok ? milliseconds(each.age_ms) : "no answer"}<//>`)}
     ${inputs.value.filter((each) => each.name !== "console" && each.name !== holder.value).map((each) => html`<${Input} each=${each} />`)}
-    ${driven && html`<${Chip} tone=${missed.value ? "warn" : ""} name="Missed">${missed.value}<//>`}
+    ${gamepad.value && html`<${Chip} tone=${["ready", "moves"].includes(gamepad.value) ? "good" : "warn"} name="Gamepad" testid="gamepad">${gamepad.value}<//>`}
+    ${driven && html`<${StickChip} />`}
     ${camera.value && html`<${Chip} tone=${recording.value ? "rec" : ""} name="REC">${recording.value ? minutes(recordingTime.value) : "off"}<//>`}`;
+}
+
+/** The stick that has control, whoever holds it: how old its newest message is while it is held, and what was missed. */
+function StickChip() {
+  const old = stickAge.value, tone = old !== null && old > RAMPS ? "bad" : (old !== null && old > LATE) || missed.value ? "warn" : old !== null ? "good" : "";
+  return html`<${Chip} tone=${tone} name="Stick" testid="stick-age" title="age of the newest message of the stick in control, and messages missed">
+    ${old === null ? "" : `${milliseconds(old)}, `}${missed.value} missed<//>`;
 }
 
 /** An input of the rig's own: a joystick, keys. @param {{each: import("./types.js").InputState}} props */
 function Input({ each }) {
   const why = (each.trouble || each.waits_for).replace(`${each.name}: `, ""), absent = why === "not plugged in";
   return html`<${Chip} tone=${absent ? "" : each.trouble ? "bad" : each.waits_for ? "warn" : "good"} name=${each.name} title=${why}>
-    ${why || (each.drives.length ? each.drives.join(", ") : "ready")}<//>`;
+    ${absent ? "none" : why || (each.drives.length ? each.drives.join(", ") : "ready")}<//>`;
 }
 
 function Tabs() {

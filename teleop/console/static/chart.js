@@ -41,7 +41,7 @@ function options(names, width, height) {
   const ink = (/** @type {string} */ name) => INK[/** @type {"pan"} */ (name)] ?? "#e9ecef";
   const scale = (/** @type {string} */ name) => (state.peek()?.axes[name]?.unit === "deg" ? "y" : "share");
   return {
-    width, height, padding: [8, 12, 0, 0], legend: { show: false }, cursor: { show: false }, select: { show: false },
+    width, height, padding: [0.7 * letter, 1.4 * letter, 0, 0], legend: { show: false }, cursor: { show: false }, select: { show: false },
     scales: { x: { time: false, range: () => [-SPAN, 0] }, y: { range: around }, share: { range: [-0.05, 1.05] } },
     axes: [
       { ...axis, size: 2.2 * letter, space: 5 * letter, values: (/** @type {any} */ _, /** @type {number[]} */ ticks) => ticks.map((t) => (t ? `${t} s` : "now")) },

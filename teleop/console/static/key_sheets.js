@@ -7,7 +7,7 @@ export const SHEETS = [
     ["h j k l", "pan, tilt by 0.1°; H J K L by 10"], ["< >", "roll by 1°"], ["[ ]", "focus by 1 %; { } by 10 %"],
     ["- + v", "speed range: slower, faster, next"], ["f l/y/s", "follow mode: lock, yaw, sport"], ["0-9", "recall a preset"],
     ["s 0-9", "store a preset"], ["x 0-9", "delete a preset"], ["z", "recenter"], ["r", "record on or off"], [".", "shutter"],
-    ["e", "manual control on or off"], ["t word", "mark a target"], ["d word", "drone: engage, arm"], ["b", "release the drone"],
+    ["e", "manual control on or off"], ["t word", "mark a target"], ["a 0-9", "follow a tracking source; 0 ends it"], ["d word", "drone: engage, arm"], ["b", "release the drone"],
     ["g", "play"], ["Tab, Enter", "go to a control, press it"], ["?", "these keys"],
   ]],
   ["While a move plays", [

@@ -6,6 +6,7 @@ import { able, mine, notify, state } from "./store.js";
 import { SHEETS } from "./key_sheets.js";
 import { recallSeconds } from "./presets.js";
 import { toPlay } from "./transport.js";
+import { track } from "./tracking.js";
 
 /** Jogs: [axis, units]. @type {Object<string, [string, number]>} */
 const JOGS = {
@@ -14,7 +15,7 @@ const JOGS = {
   "<": ["roll", -1], ">": ["roll", 1], "[": ["focus", -0.01], "]": ["focus", 0.01], "{": ["focus", -0.1], "}": ["focus", 0.1],
 };
 const FOLLOW = /** @type {Object<string, string>} */ ({ l: "lock", y: "yaw", s: "sport" });
-const QUESTIONS = /** @type {Object<string, string>} */ ({ s: "store which preset? 0-9", x: "delete which preset? 0-9", f: "follow mode? l lock, y yaw, s sport" });
+const QUESTIONS = /** @type {Object<string, string>} */ ({ s: "store which preset? 0-9", x: "delete which preset? 0-9", f: "follow mode? l lock, y yaw, s sport", a: "follow which tracking source? 1-9, 0 ends" });
 /** Keys that are followed by a word, and Enter. @type {Object<string, {name: string, hint: string, send: (text: string) => any}>} */
 const WORDS = {
   d: { name: "Drone command", hint: "engage, disengage, arm, disarm, take-off, land, home", send: (text) => command("drone", { command: text }) },
@@ -47,7 +48,8 @@ function pressed(event) {
 /** @param {string} question @param {string} key */
 function answer(question, key) {
   if (question === "f" && FOLLOW[key]) command("follow", { mode: FOLLOW[key] });
-  else if (question !== "f" && /^\d$/.test(key)) command(question === "s" ? "preset_store" : "preset_delete", { number: Number(key) });
+  else if (question === "a" && /^\d$/.test(key)) track(Number(key));
+  else if ("sx".includes(question) && /^\d$/.test(key)) command(question === "s" ? "preset_store" : "preset_delete", { number: Number(key) });
   else return false;
   return true;
 }

@@ -9,6 +9,7 @@ import { FocusCard } from "./focus.js";
 import { Keys } from "./keys.js";
 import { Presets } from "./presets.js";
 import { Stick, StickState } from "./sticks.js";
+import { Tracking } from "./tracking.js";
 import { Transport } from "./transport.js";
 
 const ranges = part((s) => s.ranges, []), range = part((s) => s.range, 0), follow = part((s) => s.follow, "");
@@ -51,7 +52,8 @@ function Readout({ name }) {
 function AttitudeCard() {
   const s = state.value, at = (/** @type {string} */ name) => s?.axes[name]?.measured ?? 0;
   const fov = s?.fov ?? DEFAULT_FOV;
-  return html`<section class="card camera"><h2>Camera <span>${short(fov[0], 0)}° × ${short(fov[1], 0)}°</span></h2>
+  return html`<section class="card camera"><h2>Camera <span>${short(fov[0], 0)}° × ${short(fov[1], 0)}°</span>
+      ${commissions.value.map((device) => html`<${Start} device=${device} off=${!able.value} />`)}</h2>
     <${Attitude} pan=${at("pan")} tilt=${at("tilt")} roll=${at("roll")} fov=${fov}
       label=${`The camera looks at pan ${Math.round(at("pan"))}, tilt ${Math.round(at("tilt"))}, roll ${Math.round(at("roll"))} degrees`} /></section>`;
 }
@@ -74,10 +76,10 @@ function JogCard() {
 /** The way to a commissioning: the run ends for it, so it asks once more. @param {{device: string, off: boolean}} props */
 function Start({ device, off }) {
   const asked = useSignal(false), id = device === "gimbal" ? "commission-start" : `commission-start-${device}`;
-  if (!asked.value) return html`<button disabled=${off} data-testid=${id} onClick=${() => (asked.value = true)}>Commission the ${device}</button>`;
+  if (!asked.value) return html`<button class="small" disabled=${off} data-testid=${id} onClick=${() => (asked.value = true)}>Commission the ${device}</button>`;
   return html`<span class="row"><span>This run ends for it.</span>
-    <button class="primary" disabled=${off} data-testid=${`${id}-yes`} onClick=${() => ((asked.value = false), command("commission", { device }))}>Begin</button>
-    <button onClick=${() => (asked.value = false)}>Cancel</button></span>`;
+    <button class="small primary" disabled=${off} data-testid=${`${id}-yes`} onClick=${() => ((asked.value = false), command("commission", { device }))}>Begin</button>
+    <button class="small" onClick=${() => (asked.value = false)}>Cancel</button></span>`;
 }
 
 /** What belongs to the sticks: their speed, and the camera's and gimbal's buttons. */
@@ -93,8 +95,8 @@ function StickCard() {
     ${camera.value && html`<button class="record ${recording.value ? "on" : ""}" disabled=${!mayOperate.value || !inControl.value}
       onClick=${() => command(recording.value ? "stop_recording" : "record")}><i aria-hidden="true"></i>${recording.value ? "Stop recording" : "Record"}</button>
     <button disabled=${!inControl.value} onClick=${() => command("shutter")}>Shutter</button>`}
-    ${commissions.value.map((device) => html`<${Start} device=${device} off=${off} />`)}
+    <${Tracking} />
     <${StickState} />
-    ${newest.value && html`<p class="newest" role="log" aria-label="Newest message">${newest.value}</p>`}
+    ${newest.value && html`<p class="newest" role="log" aria-label="Newest message" title=${newest.value}>${newest.value}</p>`}
   </section>`;
 }

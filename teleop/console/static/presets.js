@@ -7,7 +7,7 @@ import { NumberField } from "./number_field.js";
 import { short } from "./format.js";
 
 const LONG = 700; // ms of a press that stores
-const SHOWN = 10; // numbers 0 to 9 have a key on the keyboard; higher ones are listed when they are stored
+const SHOWN = 10; // numbers 0 to 9 have a key on the keyboard; higher ones are there once all of these are stored
 const presets = part((s) => s.presets, {});
 const KEPT = "teleop.recall-seconds";
 /** The set time of a recall, in s. */
@@ -16,6 +16,7 @@ export const recallSeconds = () => Number(localStorage.getItem(KEPT)) || 2;
 export function Presets() {
   const seconds = useSignal(recallSeconds());
   const numbers = [...new Set([...Array.from({ length: SHOWN }, (_, n) => n), ...Object.keys(presets.value).map(Number)])].sort((a, b) => a - b);
+  if (numbers.every((number) => number in presets.value)) numbers.push(numbers[numbers.length - 1] + 1);
   const order = [...numbers.filter((n) => n > 0), ...numbers.filter((n) => n === 0)];
   const change = (/** @type {number} */ value) => {
     seconds.value = value;

@@ -17,7 +17,8 @@
  *   keys: Object<string, number>[], presets: Object<string, Positions>, range: number, ranges: number[], follow: string,
  *   focus_marks: Object<string, number>, manual: boolean, inputs: InputState[], links: Object<string, {age_ms: number|null, ok: boolean}>,
  *   sticks: {missed: number, age_ms: number|null, armed: boolean, waits_for: string}, messages: {time: number, text: string}[],
- *   fov?: [number, number], commission?: CommissionState|null, commissions?: string[]}} State
+ *   fov?: [number, number], commission?: CommissionState|null, commissions?: string[], tracking?: TrackingState|null}} State
+ * @typedef {{sources: Object<string, {name: string, age_ms?: number|null}>, follows?: number|null, why: string}} TrackingState
  * @typedef {{page: number, device: string, key: string, step: number, steps: number, title: string, stage: string, lines: string[], consent: string,
  *   question: string, typed?: string|null, progress: string, trouble: string, keys: [string, string][], displaced: string, moves: boolean, reason: string,
  *   facts: {key: string, title: string, documented: string, found: string, verdict: string, how: string}[],

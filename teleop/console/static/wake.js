@@ -15,7 +15,7 @@ async function keep() {
 
 export function watchWake() {
   if (!("wakeLock" in navigator)) {
-    if (!window.isSecureContext) notify("without TLS the screen may go to sleep: start the console with --tls");
+    if (!window.isSecureContext) notify("without TLS the screen may go to sleep: start the console with --tls", "error");
     return;
   }
   keep();

@@ -6,12 +6,11 @@ import pytest
 from page_bench import REFUSED, take_control, until
 from playwright.sync_api import expect
 from real_commission import click
-from real_console import RealConsole
+from real_console import STALLS, RealConsole
 
 from teleop.config.profile import load_profile
 
-# A computer that stalls ends a run in real time, as it has to; what else was to be seen is then seen in another try.
-pytestmark = pytest.mark.flaky(reruns=2, only_rerun="the computer stalled")
+pytestmark = STALLS
 
 
 @pytest.fixture

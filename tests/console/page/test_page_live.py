@@ -118,6 +118,17 @@ def test_a_preset_is_stored_by_holding_and_recalled_by_a_tap_in_the_set_time(vis
     until(lambda: abs(rig.at["pan"] - 25) < 0.01)
 
 
+def test_there_is_always_an_empty_preset_and_a_long_list_scrolls(visit, rig):
+    page = visit()
+    take_control(page)
+    rig.more["presets"] = {str(number): {"pan": float(number)} for number in range(12)}
+    last = page.get_by_test_id("preset-12")
+    last.click(delay=900)
+    until(lambda: "12" in rig.more["presets"])
+    expect(page.get_by_test_id("preset-13")).to_be_attached()
+    assert page.locator(".tiles").evaluate("(each) => each.scrollHeight > each.clientHeight")
+
+
 def test_keys_from_the_hand_play_and_become_a_move_with_even_times(visit, rig):
     page = visit()
     take_control(page)
@@ -279,6 +290,52 @@ def test_a_focus_mark_is_set_by_holding_and_reached_by_a_tap(visit, rig):
     until(lambda: was_asked(rig, "focus_mark_recall", {"name": "B", "seconds": 1}))
     page.get_by_label("Focus, 0 near").fill("0.254")  # a value that is typed is no drag near the mark
     until(lambda: was_asked(rig, "focus", {"to": 0.254}))
+
+
+def test_a_tracker_is_followed_by_a_button_and_by_a_key_and_the_page_says_how_that_goes(visit, rig):
+    page = visit()
+    take_control(page)
+    expect(page.get_by_test_id("track-1")).to_have_count(0)  # no tracker sends to this rig
+    source = {"name": "freed at 127.0.0.1:40001", "age_ms": None}
+    rig.more["tracking"] = {"sources": {"1": source, "2": {**source, "age_ms": 9.0}}, "follows": None, "why": ""}
+    button, word = page.get_by_test_id("track-2"), page.get_by_test_id("tracking-2")
+    expect(page.get_by_test_id("tracking-1")).to_have_text("no messages")
+    expect(page.get_by_test_id("track-1")).to_be_disabled()
+    expect(word).to_have_text("ready")
+    button.click()
+    until(lambda: was_asked(rig, "track", {"source": 2}))
+    expect(word).to_have_text("followed")
+    expect(button).to_have_attribute("aria-pressed", "true")
+    rig.more["tracking"]["why"] = "pan waits at its soft limit"
+    expect(word).to_have_text("pan waits at its soft limit")
+    button.click()
+    until(lambda: commands(rig, "abort"))
+    expect(word).to_have_text("ready")
+    page.keyboard.press("a")
+    page.keyboard.press("2")
+    expect(word).to_have_text("pan waits at its soft limit")
+    page.keyboard.press("a")
+    page.keyboard.press("0")
+    expect(word).to_have_text("ready")
+    assert len(commands(rig, "track")) == len(commands(rig, "abort")) == 2
+
+
+def test_the_screen_stays_on_where_the_page_is_secure_and_elsewhere_it_says_so(browser, server, rig):
+    try:
+        page = browser.open("about:blank")
+        page.add_init_script("navigator.wakeLock.request = async (what) => ((window.kept = what), {released: false})")
+        page.goto(server.url)
+        expect(page.get_by_test_id("age")).not_to_have_text("--")
+        assert page.evaluate("window.kept") == "screen"
+        other = browser.open("about:blank")
+        other.add_init_script(
+            """delete Navigator.prototype.wakeLock;
+               Object.defineProperty(window, 'isSecureContext', {get: () => false})"""
+        )
+        other.goto(server.url)
+        expect(other.get_by_text("without TLS the screen may go to sleep")).to_be_visible()
+    finally:
+        browser.close()
 
 
 def test_no_state_for_a_second_is_gray_and_says_so_and_the_page_comes_back_as_a_watcher(visit, rig):

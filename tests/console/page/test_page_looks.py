@@ -10,7 +10,7 @@ import re
 from pathlib import Path
 
 import pytest
-from page_bench import LANDSCAPE, LAPTOP, LARGE, PHONE, SMALL, take_control
+from page_bench import LANDSCAPE, LAPTOP, LARGE, NARROW, NARROW_LANDSCAPE, PHONE, SMALL, take_control
 from page_looks import look, unlike
 from PIL import Image
 from playwright.sync_api import expect
@@ -49,6 +49,14 @@ FOCUSED = """() => {
 }"""
 WIDER = """[document.documentElement, ...document.querySelectorAll('main, .card:not(.head)')]
     .filter((each) => each.scrollWidth > each.clientWidth + 1).map((each) => each.className)"""
+HIDDEN = """() => {
+    const [stop, first] = ['.stop', '.readouts'].map((each) => document.querySelector(each).getBoundingClientRect());
+    return [...document.querySelectorAll('.chips .chip')].filter((chip) => {
+        const box = chip.getBoundingClientRect(), right = box.top < stop.bottom ? stop.left : innerWidth;
+        const cut = chip.querySelector('b').scrollWidth > chip.querySelector('b').clientWidth;
+        return cut || box.left < 0 || box.right > right || box.top < 0 || box.bottom > first.top;
+    }).map((chip) => chip.innerText);
+}"""
 SIZES = """[...document.querySelectorAll('main button, .tabs button:not(.keys-help)')].map((each) => {
     const box = each.getBoundingClientRect();
     return [each.ariaLabel || each.textContent, box.width, box.height];
@@ -135,7 +143,7 @@ def photograph(page, rig, picture):
     image.quantize(224, dither=Image.Dither.NONE).save(DOCS / f"{picture}.png", optimize=True)
 
 
-@pytest.mark.parametrize("size", [LAPTOP, PHONE, LANDSCAPE, SMALL, LARGE])
+@pytest.mark.parametrize("size", [LAPTOP, PHONE, LANDSCAPE, SMALL, LARGE, NARROW])
 @pytest.mark.parametrize("tab", TABS)
 def test_nothing_is_wider_than_the_screen_and_stop_is_in_view(staged, tab, size):
     page = staged(tab, size, touch=size not in (LAPTOP, LARGE))
@@ -152,23 +160,58 @@ def test_what_a_finger_presses_is_large_enough(staged, size):
     assert [each for each in sizes if min(each[1:]) < 32] == []
 
 
-def test_rec_is_in_view_on_the_smallest_phone(staged, rig):
-    """The line of chips scrolls there: what records is before what is merely well."""
+def test_all_that_is_always_there_is_in_view_on_a_small_phone(staged, rig):
+    """Control, health, missed sticks and REC: nothing has to be scrolled for, and nothing is beneath STOP."""
     rig.more.update(recording=True, recording_s=73.4)
+    rig.more["inputs"].append({"name": "joystick", "drives": [], "waits_for": "", "trouble": "not plugged in"})
     page = staged("live", SMALL, touch=True)
-    rec, stop = (page.locator(each).bounding_box() for each in (".chip.rec", ".stop"))
-    assert rec["x"] >= 0
-    assert rec["x"] + rec["width"] <= stop["x"]
+    expect(page.locator(".health .chip")).to_have_count(7)
+    for width, height in (NARROW, NARROW_LANDSCAPE, SMALL):
+        page.set_viewport_size({"width": width, "height": height})
+        assert page.evaluate(HIDDEN) == []
 
 
-def test_every_control_is_in_reach_of_the_keyboard(staged):
-    page = staged("live")
+RIGS = [
+    {"name": "crane", "alive": True, "state": "running", "holder": "anna", "error": None, "move": {"title": "Reveal"}},
+    {"name": "dolly", "alive": True, "state": "stopped", "holder": None, "error": None, "move": None},
+    {"name": "slider", "alive": False, "state": "lost", "holder": None, "error": None, "move": None},
+]
+TOP = """() => {
+    const box = document.querySelector('.stop-all').getBoundingClientRect();
+    const middle = (box.left + box.right) / 2;
+    const points = [[box.left + 2, box.top + 2], [box.right - 3, box.bottom - 3], [middle, box.top + 9]];
+    return points.map(([x, y]) => document.elementFromPoint(x, y)?.className);
+}"""
+
+
+def test_the_tiles_of_a_fleet_have_no_violation_and_nothing_lies_over_stop_all(browser, server, rig):
+    page = browser.open("about:blank", SMALL, touch=True)
+    try:
+        page.route("**/api/fleet", lambda route: route.fulfill(json={"name": "crane", "rigs": RIGS}))
+        page.goto(server.url)
+        expect(page.get_by_test_id("fleet-dolly")).to_contain_text("stopped")
+        for width, height in (SMALL, NARROW_LANDSCAPE, LAPTOP):
+            page.set_viewport_size({"width": width, "height": height})
+            assert page.evaluate(TOP) == 3 * ["stop-all"]
+            assert page.evaluate(WIDER) == []
+        page.evaluate(AXE)
+        found = page.evaluate("axe.run(document, {resultTypes: ['violations']})")
+        assert [(each["id"], [node["html"][:120] for node in each["nodes"]]) for each in found["violations"]] == []
+    finally:
+        browser.close()
+
+
+@pytest.mark.parametrize("tab", TABS)
+def test_every_control_is_in_reach_of_the_keyboard(staged, tab):
+    page = staged(tab)
     wanted = page.locator(CONTROLS).count()
     page.locator("body").click(position={"x": 2, "y": 2})
     seen = set()
     for _ in range(3 * wanted):
         page.keyboard.press("Tab")
         seen.add(page.evaluate(FOCUSED))
+        if len(seen - {None}) == wanted:
+            break
     assert len(seen - {None}) == wanted
 
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from page_bench import PHONE, take_control, until
+from playwright.sync_api import expect
 
 ZERO = {"pan": 0, "tilt": 0}
 
@@ -155,11 +158,40 @@ def test_a_gamepad_is_a_stick_that_must_be_centered_first(visit, rig):
     take_control(page)
     page.wait_for_timeout(200)
     assert rig.sticks == []
+    expect(page.get_by_test_id("gamepad")).to_have_text("center its sticks")
     page.evaluate("window.pad.axes = [0, 0, 0, 0]")
-    page.wait_for_timeout(100)
+    expect(page.get_by_test_id("gamepad")).to_have_text("ready")
     page.evaluate("window.pad.axes = [0.55, 0, 0, 0]")
     until(lambda: rig.sticks and rig.sticks[-1]["axes"]["pan"] == 0.5)
     page.evaluate("window.dispatchEvent(new Event('blur'))")
     until(lambda: ended(rig))
     page.wait_for_timeout(200)
     assert ended(rig)  # still deflected: it counts again once it was centered
+    expect(page.get_by_test_id("gamepad")).to_have_text("center its sticks")
+
+
+def test_a_gamepad_that_is_unplugged_in_mid_deflection_is_released(visit, rig):
+    page = visit()
+    take_control(page)
+    page.evaluate(GAMEPAD + "window.dispatchEvent(new Event('gamepadconnected'))")
+    expect(page.get_by_test_id("gamepad")).to_have_text("ready")
+    page.evaluate("window.pad.axes = [0, -1, 0, 0]")
+    until(lambda: rig.sticks and rig.sticks[-1]["axes"]["tilt"] == 1)
+    page.evaluate("window.pad.connected = false; window.dispatchEvent(new Event('gamepaddisconnected'))")
+    until(lambda: ended(rig))
+    expect(page.get_by_test_id("gamepad")).to_have_count(0)
+
+
+def test_a_late_stick_is_amber_before_it_ramps_and_the_page_says_what_was_missed(visit, rig):
+    page = visit()
+    chip = page.get_by_test_id("stick-age")
+    for age, missed, text, tone in (
+        (None, 0, "0 missed", "chip"),
+        (40.0, 0, "40 ms, 0 missed", "good"),
+        (180.0, 0, "180 ms, 0 missed", "warn"),
+        (400.0, 3, "400 ms, 3 missed", "bad"),
+        (None, 3, "3 missed", "warn"),
+    ):
+        rig.more["sticks"].update(age_ms=age, missed=missed)
+        expect(chip).to_have_text(text)
+        expect(chip.locator("..")).to_have_class(re.compile(rf"\b{tone}\b"))
