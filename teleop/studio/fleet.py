@@ -90,7 +90,7 @@ class Fleet:
             if (found := self._rigs.get(name)) is not None:
                 return found
             known = ", ".join(sorted(self._rigs)) or "none"
-        raise TeleopError(f"there is no rig {name}; seen: {known}")
+        raise TeleopError("; ".join([f"there is no rig {name}", f"seen: {known}", *self.problems]))
 
     def wait(self, seconds: float = FIRST) -> None:
         """Until every endpoint was tried, and the newest state of each rig behind them is there."""

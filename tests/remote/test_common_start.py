@@ -101,7 +101,9 @@ def test_another_ones_held_move_is_not_started(bench: RemoteBench):
     ("text", "why"),
     [
         ("include: [{at: 0, move: ./other.yaml}]\nkeyframes: [{at: 0, pan: 0}]\n", "which is not sent"),
+        ("include: [{at: 0, move: /etc/passwd}]\n", "which is not sent"),
         ("source: {file: /etc/passwd}\n", "which is not sent"),
+        ("keyframes: !include other.yaml\n", "move.yaml:1:12: keyframes has a tag"),
         ("keyframes: [\n", "move.yaml:"),
         ("keyframes: [{at: 0, pan: 0}, {at: 0.1, pan: 90}]\n", "pan needs"),
     ],
