@@ -99,7 +99,7 @@ def play(
         _refuse_haste(plans, moment)
         started = _each(list(moves), lambda name: _started(fleet, name, moment + offsets[name].loop))
     except FleetError:
-        for name in moves:
+        for name in moves.keys() & {rig.name for rig in fleet.rigs}:
             fleet.command(name, {"do": "abort"}, 1.0)
             fleet.left(name)
         raise

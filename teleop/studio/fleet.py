@@ -89,8 +89,8 @@ class Fleet:
         with self._lock:
             if (found := self._rigs.get(name)) is not None:
                 return found
-            known = ", ".join(sorted(self._rigs)) or "none"
-        raise TeleopError("; ".join([f"there is no rig {name}", f"seen: {known}", *self.problems]))
+            known = ", ".join(sorted(self._rigs)) or ", ".join(["none", *self.problems[:1]])
+        raise TeleopError(f"there is no rig {name}; seen: {known}")
 
     def wait(self, seconds: float = FIRST) -> None:
         """Until every endpoint was tried, and the newest state of each rig behind them is there."""

@@ -50,9 +50,10 @@ class Counting(Fleet):
 
     def __init__(self, endpoints: list[str]) -> None:
         super().__init__(endpoints, memory=False)
-        self.came, self.restarts = dict.fromkeys(NAMES, 0), dict.fromkeys(NAMES, 0)
+        self.came: dict[str, int] = dict.fromkeys(NAMES, 0)
+        self.restarts: dict[str, int] = dict.fromkeys(NAMES, 0)
         self.newest: dict[str, tuple[int, float, float]] = {}  # number, when it was sent and came (s)
-        self.silence = dict.fromkeys(NAMES, 0.0)
+        self.silence: dict[str, float] = dict.fromkeys(NAMES, 0.0)
         self.gaps: list[Gap] = []
 
     def heard_state(self, link: Link, rig: str, state: dict[str, Any], arrived: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +53,18 @@ def test_it_begins_at_the_moment_itself_and_not_at_a_tick(bench: RemoteBench):
     bench.run(3)
     assert not bench.state["move"]
     assert bench.at() == pytest.approx(20, abs=1e-3)
+
+
+def test_a_tick_is_at_the_start_so_that_all_rigs_send_their_first_commands_together(bench: RemoteBench):
+    held(bench)
+    at = round(bench.now, 2) + 1.0037
+    assert bench.ask("start", at=at)["ok"]
+    times = []
+    while not bench.state["move"] or bench.state["move"]["phase"] != "playing":
+        bench.tick()
+        times.append(bench.state["time"])
+    assert times[-1] == pytest.approx(at, abs=1e-6)
+    assert {round(later - time, 6) for time, later in itertools.pairwise(times)} == {0.01}
 
 
 def test_it_goes_to_its_first_key_in_time_or_refuses(bench: RemoteBench):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import shutil
 import subprocess
@@ -19,7 +20,20 @@ class Host:
     def __init__(self, namespace: str, number: int, switch: str) -> None:
         self.namespace, self.address, self._switch = namespace, f"{NET}.{number}", switch
         self.run = ["ip", "netns", "exec", namespace]
-        self._port = f"p{number}"
+        self._port, self._place = f"p{number}", f"/var/run/netns/{namespace}"
+
+    @contextmanager
+    def inside(self) -> Iterator[None]:
+        """Sockets that this thread opens are on this host, and stay there."""
+        home, there = os.open("/proc/thread-self/ns/net", os.O_RDONLY), os.open(self._place, os.O_RDONLY)
+        libc = ctypes.CDLL(None)
+        try:
+            assert libc.setns(there, 0) == 0
+            yield
+        finally:
+            assert libc.setns(home, 0) == 0, "the test is stuck on another host"
+            os.close(home)
+            os.close(there)
 
     def cut(self) -> None:
         """Unplug the cable at the switch: nothing gets through, and nobody is told."""
@@ -56,6 +70,7 @@ def studio(names: Sequence[str]) -> Iterator[dict[str, Host]]:
             ip("-n", namespace, "address", "add", f"{NET}.{number}/24", "dev", "eth0")
             for device in ("lo", "eth0"):
                 ip("-n", namespace, "link", "set", device, "up")
+            ip("-n", namespace, "route", "add", "239.0.0.0/8", "dev", "lo")  # each host has buses of its own
             ip("-n", switch, "link", "set", f"p{number}", "master", "sw0")
             ip("-n", switch, "link", "set", f"p{number}", "up")
             hosts[name] = Host(namespace, number, switch)
