@@ -49,13 +49,12 @@ def far_gimbal(url: str) -> Iterator[FarGimbal]:
     """
     with open(LOCK, "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # until the file is closed
-        with far_end(url) as gimbal:
+        with _far_gimbal(url) as gimbal:
             yield gimbal
 
 
 @contextmanager
-def far_end(url: str) -> Iterator[FarGimbal]:
-    """A gimbal at the other end of a bus that no other test can reach."""
+def _far_gimbal(url: str) -> Iterator[FarGimbal]:
     gimbal, stop, clock = FarGimbal(), threading.Event(), SystemClock()
     link = open_link(url, host=False, now=clock.now)
     thread = threading.Thread(target=serve, args=({"gimbal": link}, {"gimbal": gimbal}, clock, stop))

@@ -20,12 +20,14 @@ class Host:
     def __init__(self, namespace: str, number: int, switch: str) -> None:
         self.namespace, self.address, self._switch = namespace, f"{NET}.{number}", switch
         self.run = ["ip", "netns", "exec", namespace]
-        self._port, self._place = f"p{number}", f"/var/run/netns/{namespace}"
+        self._port = f"p{number}"
 
+    @staticmethod
     @contextmanager
-    def inside(self) -> Iterator[None]:
-        """Sockets that this thread opens are on this host, and stay there."""
-        home, there = os.open("/proc/thread-self/ns/net", os.O_RDONLY), os.open(self._place, os.O_RDONLY)
+    def inside_of(namespace: str) -> Iterator[None]:
+        """Sockets that this thread opens are on that host, and stay there."""
+        home = os.open("/proc/thread-self/ns/net", os.O_RDONLY)
+        there = os.open(f"/var/run/netns/{namespace}", os.O_RDONLY)
         libc = ctypes.CDLL(None)
         try:
             assert libc.setns(there, 0) == 0
