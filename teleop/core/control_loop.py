@@ -2,7 +2,8 @@
 
 Ticks lie on a grid of absolute times, so a late one does not delay the next; the planner gets the number of periods
 went by and makes one legal step of that length. While nothing moves and no source will change its mind, the loop
-sleeps over ticks, but never past the keep-alive. Only this module decides what a fault means: whatever is raised
+sleeps over ticks, but never past the keep-alive; there the grid may be moved, for a start that several rigs have in
+common. Only this module decides what a fault means: whatever is raised
 anywhere in a tick, by whomever, becomes a reason to ramp to rest, release and end with a result that is not DONE.
 Nothing a piece does can keep a run from ending: stopping and releasing (`releasing`) have their own longest times, and
 a LeaveAtOnce, which a signal handler may raise out of a call that hangs, ends both.
@@ -22,7 +23,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from teleop.core.axes import Axis, Limits, Motion, Reading, State
 from teleop.core.errors import DeviceError, LeaveAtOnce, TeleopError
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import Tick, TickAt, TickEvent
 from teleop.core.guard_stop import braked, longest_stop
 from teleop.core.guarded_calls import GuardedCalls
 from teleop.core.interfaces import Clock, Feedback, Observer, Planner, Reporter, Sink, Source
@@ -158,6 +159,13 @@ class ControlLoop:
     def _time(self, ticks: int) -> float:
         return self._origin + ticks / self._rate
 
+    def _move_ticks_to(self, moment: float) -> None:
+        """Have a tick at the moment: the next one, and with it all, comes up to a period later."""
+        ahead = (moment - self._origin) * self._rate
+        part = ahead - math.floor(ahead)
+        if ON_GRID < part < 1 - ON_GRID:
+            self._origin += part / self._rate
+
     def _wait(self, now: float, _steps: int) -> None:
         self._report(now)
         if self.supervisor.state is not RunState.WAITING:
@@ -184,7 +192,10 @@ class ControlLoop:
         self._motion = _finite(self._planner.step(demand, steps))
         self._resting = self._planner.at_rest
         self._wake = min(source.next_change(now) for source in self._sources)
-        self._emit(now, demand, actions)
+        self._emit(now, demand, [action for action in actions if not isinstance(action, TickAt)])
+        for action in actions:
+            if isinstance(action, TickAt) and self._resting:
+                self._move_ticks_to(action.time)
         if self._resting and math.isinf(self._wake) and self.supervisor.state is RunState.RUNNING:
             self.supervisor.handle(RunEvent.FINISHED)
 

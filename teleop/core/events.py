@@ -63,7 +63,16 @@ class ShutterResult(NamedTuple):
     code: int | None
 
 
-TickEvent = Action | DeviceCommand | DialInput | Exposure
+class TickAt(NamedTuple):
+    """Has the loop, while all rests, move its ticks so that one is at `time` (s, its clock).
+
+    Rigs that start together thus send their first commands together. No sink and no observer gets it.
+    """
+
+    time: float
+
+
+TickEvent = Action | DeviceCommand | DialInput | Exposure | TickAt
 
 
 @dataclass(frozen=True, slots=True)

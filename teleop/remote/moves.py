@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from teleop.config.documents.document import mapping, sequence
+from teleop.config.documents.document import DocumentError, mapping, sequence
 from teleop.config.documents.messages import nearest
 from teleop.config.documents.yaml_loader import read_document
 from teleop.config.named_files import NAME, NamedFiles
@@ -35,8 +35,10 @@ def move_file(name: str, folder: Path) -> str:
 
 
 def refuse_files(file: Path) -> None:
-    """Raises TeleopError where the move in `file`, which was sent, needs another file, which was not."""
+    """Raises TeleopError where the move in `file`, which is sent, needs another file, which is not; or has a tag."""
     document = read_document(file)
+    if flaws := document.flawed():
+        raise DocumentError(flaws)
     for entry in sequence(document.data, "include"):
         name = mapping(entry).get("move")
         if isinstance(name, str) and not is_bare(name):

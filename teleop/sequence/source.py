@@ -14,7 +14,7 @@ from concurrent.futures import Executor
 
 from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.errors import DeviceError
-from teleop.core.events import TickEvent
+from teleop.core.events import TickAt, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, StateTarget
 from teleop.core.timing import KEEP_ALIVE, SAME_TIME, whole_ticks
@@ -217,6 +217,8 @@ class SequenceSource:
             self._start_pass(now)
         elif trigger and not self.missed and trigger.fired(now):
             self._start_pass(min(now, self.cycle.moment))
+        elif trigger and now < self.cycle.moment < math.inf:
+            self._events.append(TickAt(self.cycle.moment))
 
     def _start_pass(self, now: float) -> None:
         self._handle(PhaseEvent.START)

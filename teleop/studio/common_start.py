@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from time import monotonic
 from typing import Any, Self
 
-from teleop.config.documents.yaml_loader import read_document
+from teleop.config.documents.document import DocumentError
 from teleop.config.resources import find
 from teleop.core.errors import TeleopError, UsageError
+from teleop.remote.moves import refuse_files
 from teleop.studio.clocks import MOST_DOUBT, Offset
 from teleop.studio.fleet import Fleet
 from teleop.studio.wire import LARGEST_MOVE
@@ -43,9 +44,17 @@ class SentMove:
 
     @classmethod
     def read(cls, file: str) -> Self:
-        """The text of a move in a file, or of a shipped one. Raises DocumentError and UsageError."""
+        """The text of a move in a file, or of a shipped one. Raises DocumentError and UsageError.
+
+        What is no YAML is refused here, with its line, and a move that needs another file, which would not be sent.
+        """
         place, _ = find(file, "sequences", "sequence")
-        read_document(place)  # what is no YAML at all is refused here, with its line
+        try:
+            refuse_files(place)
+        except DocumentError:
+            raise
+        except UsageError as error:
+            raise UsageError(f"{file}: {error}") from None
         text = place.read_text(encoding="utf-8-sig")
         if len(text) > LARGEST_MOVE:
             raise UsageError(f"{file}: has more than {LARGEST_MOVE} characters, too many to send")
@@ -90,7 +99,7 @@ def play(
         _refuse_haste(plans, moment)
         started = _each(list(moves), lambda name: _started(fleet, name, moment + offsets[name].loop))
     except FleetError:
-        for name in moves:
+        for name in moves.keys() & {rig.name for rig in fleet.rigs}:
             fleet.command(name, {"do": "abort"}, 1.0)
             fleet.left(name)
         raise

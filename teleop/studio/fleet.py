@@ -89,7 +89,7 @@ class Fleet:
         with self._lock:
             if (found := self._rigs.get(name)) is not None:
                 return found
-            known = ", ".join(sorted(self._rigs)) or "none"
+            known = ", ".join(sorted(self._rigs)) or ", ".join(["none", *self.problems[:1]])
         raise TeleopError(f"there is no rig {name}; seen: {known}")
 
     def wait(self, seconds: float = FIRST) -> None:

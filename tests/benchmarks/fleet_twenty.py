@@ -16,10 +16,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
-from fleet_bench import RigProcess
+from fleet_bench import RigProcess, side_by_side
 from processor_time import processor_time
 
 from teleop.studio.fleet import Fleet
+
+AT_ONCE = 4  # rigs that start together
 
 
 def used(process: int) -> tuple[float, float]:
@@ -52,7 +54,12 @@ def children(process: int) -> dict[str, int]:
 def main(count: int, seconds: float) -> None:
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
-        rigs = [stack.enter_context(RigProcess(folder, f"rig-{number}")) for number in range(count)]
+        names = [f"rig-{number}" for number in range(count)]
+        rigs = [
+            stack.enter_context(rig)
+            for begin in range(0, count, AT_ONCE)
+            for rig in side_by_side(lambda name: RigProcess(folder, name), names[begin : begin + AT_ONCE])
+        ]
         fleet = stack.enter_context(Fleet([rig.endpoint for rig in rigs], memory=False))
         assert fleet.until(lambda: sum(rig.alive for rig in fleet.rigs) == count, 300), len(fleet.rigs)
         runs = [children(rig.process.pid) for rig in rigs]
@@ -68,7 +75,9 @@ def main(count: int, seconds: float) -> None:
                     spent, memory = used(process)
                     figures.setdefault(name, []).append(((spent - before[process][0]) / passed * 100, memory))
         alive = sum(rig.alive for rig in fleet.rigs)
-        print(json.dumps({"rigs": count, "alive at the end": alive, "seconds": round(passed)}))
+        print(
+            json.dumps({"rigs": count, "alive at the end": alive, "seconds": round(passed), "load": os.getloadavg()[0]})
+        )
         for name, values in figures.items():
             each = [sum(value[which] for value in values) / len(values) for which in (0, 1)]
             print(f"{name:15} {each[0]:6.1f} % of a core  {each[1]:7.1f} MB  x {len(values)}")

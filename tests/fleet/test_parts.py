@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
 import sys
 import time
 from contextlib import suppress
@@ -18,11 +19,12 @@ from teleop.core.errors import UsageError
 from teleop.exchange.zenoh.intake import Intake
 from teleop.studio import clocks, memory, wire
 from teleop.studio.access import access_control
+from teleop.studio.common_start import FleetError, SentMove, play
 from teleop.studio.fleet import Fleet
 from teleop.studio.link import Link
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(
     st.binary(max_size=300)
     | st.recursive(st.none() | st.text(), lambda of: st.lists(of)).map(lambda v: json.dumps(v).encode())
@@ -101,6 +103,33 @@ def test_a_start_is_so_far_from_now(text: str, seconds: float):
 def test_no_start_is_refused(text: str):
     with pytest.raises(UsageError, match="--at"):
         start_time(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("include: [{at: 0, move: ./other.yaml}]\nkeyframes: [{at: 0, pan: 0}]\n", "includes the file ./other.yaml"),
+        ("include: [{at: 0, move: /etc/passwd}]\n", "includes the file /etc/passwd"),
+        ("source: {file: rows.csv}\n", "its rows are in rows.csv"),
+        ("keyframes: [\n", "move.yaml:2:1: not YAML"),
+        ("keyframes: !include other.yaml\n", "move.yaml:1:12: keyframes has a tag"),
+    ],
+)
+def test_a_move_that_needs_a_file_that_is_not_sent_is_refused_before_it_is_sent(tmp_path: Path, text: str, why: str):
+    file = tmp_path / "move.yaml"
+    file.write_text(text)
+    with pytest.raises(UsageError, match=re.escape(why)):
+        SentMove.read(str(file))
+    file.write_text("include: [{at: 0, move: nudge}]\nkeyframes: [{at: 0, pan: 0}]\n")  # shipped: every rig has it
+    assert SentMove.read(str(file)).title == "move"
+
+
+def test_a_rig_that_is_not_there_is_named_and_no_rig_plays():
+    with Fleet([], memory=False) as fleet:
+        fleet.heard_alive(Link("tcp/127.0.0.1:1", None, fleet), "cam-a", False)
+        with pytest.raises(FleetError) as refused:
+            play(fleet, dict.fromkeys(["cam-a", "cam-x"], SentMove("m", "")), lambda: 1.0)
+    assert refused.value.problems == {"cam-a": "is not there", "cam-x": "there is no rig cam-x; seen: cam-a"}
 
 
 def test_whoever_is_not_in_the_access_list_can_do_nothing():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 from typing import Any
 
@@ -54,6 +55,18 @@ def test_it_begins_at_the_moment_itself_and_not_at_a_tick(bench: RemoteBench):
     assert bench.at() == pytest.approx(20, abs=1e-3)
 
 
+def test_a_tick_is_at_the_start_so_that_all_rigs_send_their_first_commands_together(bench: RemoteBench):
+    held(bench)
+    at = round(bench.now, 2) + 1.0037
+    assert bench.ask("start", at=at)["ok"]
+    times = []
+    while not bench.state["move"] or bench.state["move"]["phase"] != "playing":
+        bench.tick()
+        times.append(bench.state["time"])
+    assert times[-1] == pytest.approx(at, abs=1e-6)
+    assert {round(later - time, 6) for time, later in itertools.pairwise(times)} == {0.01}
+
+
 def test_it_goes_to_its_first_key_in_time_or_refuses(bench: RemoteBench):
     answer = held(bench, "keyframes: [{at: 0, pan: 60}, {at: 2, pan: 80}]\n")
     assert answer["ease"] > 1
@@ -101,7 +114,9 @@ def test_another_ones_held_move_is_not_started(bench: RemoteBench):
     ("text", "why"),
     [
         ("include: [{at: 0, move: ./other.yaml}]\nkeyframes: [{at: 0, pan: 0}]\n", "which is not sent"),
+        ("include: [{at: 0, move: /etc/passwd}]\n", "which is not sent"),
         ("source: {file: /etc/passwd}\n", "which is not sent"),
+        ("keyframes: !include other.yaml\n", "move.yaml:1:12: keyframes has a tag"),
         ("keyframes: [\n", "move.yaml:"),
         ("keyframes: [{at: 0, pan: 0}, {at: 0.1, pan: 90}]\n", "pan needs"),
     ],

@@ -8,6 +8,7 @@ import signal
 import socket
 import subprocess
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from pathlib import Path
 from threading import Thread
@@ -31,12 +32,18 @@ class RigProcess:
     """`teleop console` with a zenoh entry. `prefix` is what runs it elsewhere, such as in a network namespace."""
 
     def __init__(
-        self, folder: Path, name: str, entry: str = "", prefix: Sequence[str] = (), options: Sequence[str] = ()
+        self,
+        folder: Path,
+        name: str,
+        entry: str = "",
+        prefix: Sequence[str] = (),
+        options: Sequence[str] = (),
+        link: str = "sim:",
     ) -> None:
         self.name, self.folder = name, folder / name
         self.folder.mkdir(exist_ok=True)
         self.endpoint = "" if entry else f"tcp/127.0.0.1:{free_port()}"
-        text = find("sim", "profiles", "rig")[0].read_text(encoding="utf-8")
+        text = find("sim", "profiles", "rig")[0].read_text(encoding="utf-8").replace('"sim:"', f'"{link}"')
         entry = entry or f"listen: {self.endpoint}"
         rig = self.folder / "rig.yaml"
         rig.write_text(f"{text}\nexchange:\n  - {{type: zenoh, name: {name}, {entry}}}\n", encoding="utf-8")
@@ -108,6 +115,12 @@ class FleetCommand:
 def until_alive(command: FleetCommand, *names: str) -> None:
     """Once every named rig is there."""
     wait_until(lambda: all(command.rigs().get(name, {}).get("alive") for name in names), "rigs that are there")
+
+
+def side_by_side(start: Callable[[str], RigProcess], names: Sequence[str]) -> list[RigProcess]:
+    """All of them at once: a rig takes seconds to start, and most of that it waits."""
+    with ThreadPoolExecutor(len(names)) as threads:
+        return list(threads.map(start, names))
 
 
 class JsonProcess:

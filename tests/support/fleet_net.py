@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import shutil
 import subprocess
@@ -20,6 +21,21 @@ class Host:
         self.namespace, self.address, self._switch = namespace, f"{NET}.{number}", switch
         self.run = ["ip", "netns", "exec", namespace]
         self._port = f"p{number}"
+
+    @staticmethod
+    @contextmanager
+    def inside_of(namespace: str) -> Iterator[None]:
+        """Sockets that this thread opens are on that host, and stay there."""
+        home = os.open("/proc/thread-self/ns/net", os.O_RDONLY)
+        there = os.open(f"/var/run/netns/{namespace}", os.O_RDONLY)
+        libc = ctypes.CDLL(None)
+        try:
+            assert libc.setns(there, 0) == 0
+            yield
+        finally:
+            assert libc.setns(home, 0) == 0, "the test is stuck on another host"
+            os.close(home)
+            os.close(there)
 
     def cut(self) -> None:
         """Unplug the cable at the switch: nothing gets through, and nobody is told."""
@@ -56,6 +72,7 @@ def studio(names: Sequence[str]) -> Iterator[dict[str, Host]]:
             ip("-n", namespace, "address", "add", f"{NET}.{number}/24", "dev", "eth0")
             for device in ("lo", "eth0"):
                 ip("-n", namespace, "link", "set", device, "up")
+            ip("-n", namespace, "route", "add", "239.0.0.0/8", "dev", "lo")  # each host has buses of its own
             ip("-n", switch, "link", "set", f"p{number}", "master", "sw0")
             ip("-n", switch, "link", "set", f"p{number}", "up")
             hosts[name] = Host(namespace, number, switch)
