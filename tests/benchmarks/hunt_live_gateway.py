@@ -10,6 +10,7 @@ has to be the same, and its memory is printed.
 
 from __future__ import annotations
 
+import logging
 import os
 import random
 import socket
@@ -133,6 +134,7 @@ def memory(process: int) -> float:
 
 def main() -> None:
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
+    logging.getLogger().setLevel(logging.ERROR)  # python-osc's own word on each
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         if INSTALLED:

@@ -18,7 +18,7 @@ STOP = {"do": "stop"}
 QUIET = ("alive", "state")
 """Messages that ask for nothing of the rig."""
 ATTENDED: Mapping[str, bool] = {"attended": True, "unattended": False}
-"""Whether a move goes on only while its sender is heard. A button sends one message: without a word its move goes on."""
+"""Whether a move goes on only while its sender is heard. A button sends one message: without a word it does."""
 GOTO = (Axis.PAN, Axis.TILT, Axis.ROLL)
 
 Command = Mapping[str, Any]
