@@ -57,7 +57,7 @@ ROWS = (
         Button("REC", "/teleop/record", "", DIM_RED, Lit("/teleop/recording", 1, RED)),
         Button("END\\nREC", "/teleop/stop_recording", "", GRAY),
         Button("SHUTTER", "/teleop/shutter", "", GRAY),
-        Button("PLAY\\nreveal", "/teleop/play", '"reveal" "unattended"', GREEN, Lit("/teleop/playing", 1, 0x00CC00)),
+        Button("PLAY\\nreveal", "/teleop/play", '"reveal"', GREEN, Lit("/teleop/playing", 1, 0x00CC00)),
         Button("PAUSE", "/teleop/pause", "", GRAY, Lit("/teleop/paused", 1, AMBER)),
         Button("RESUME", "/teleop/resume", "", GRAY),
     ),

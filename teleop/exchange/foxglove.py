@@ -7,6 +7,7 @@ stay empty. Nothing is sent before the first reading.
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -58,6 +59,7 @@ class _Topics:
             from foxglove.websocket import Capability
         except ImportError:
             raise TeleopError("needs foxglove-sdk: pip install 'rs-teleop[foxglove]'") from None
+        logging.getLogger("foxglove").setLevel(logging.CRITICAL)  # clients that break off are no matter of the operator
         context = foxglove.Context()
         self._channels = {
             topic: foxglove.Channel(topic, schema=_schema(schema), message_encoding="json", context=context)

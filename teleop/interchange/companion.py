@@ -6,6 +6,7 @@ It is JSON, so that people and programs read it; `teleop import` does when it is
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -23,6 +24,7 @@ from teleop.interchange.table import Format, Hints
 
 MOST_BYTES = 1_000_000
 MARK = "teleop interchange"
+RATE = re.compile(r"[0-9]{1,7}(\.[0-9]{0,20}|/[0-9]{1,7})?")
 
 
 def beside(path: Path) -> Path:
@@ -107,9 +109,10 @@ def hints_of(content: dict[str, Any], name: str, given: Hints, form: Format) -> 
 
 def file_rate(value: object, name: str) -> Fraction:
     """A rate that a file of teleop has. Raises DocumentError."""
-    try:
-        rate = Fraction(str(value)[:40])
-    except (ValueError, ZeroDivisionError):
+    text = str(value)
+    try:  # a pattern, because Fraction would raise 10 to any exponent that a file has
+        rate = Fraction(text) if RATE.fullmatch(text) else Fraction(0)
+    except ZeroDivisionError:
         rate = Fraction(0)
     if not 0 < rate <= MOST_RATE:
         raise DocumentError([f"{name}: frame_rate must be frames a second, up to 1000"])

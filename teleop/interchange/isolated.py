@@ -7,6 +7,7 @@ The child has bounded memory and time, and answers in JSON; one that crashes is 
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -31,7 +32,14 @@ def read_isolated(module: str, raw: bytes, ending: str, name: str) -> Any:
         file.write_bytes(raw)
         command = [sys.executable, "-P", "-m", "teleop.interchange.child", module, str(file)]
         try:
-            done = subprocess.run(command, capture_output=True, timeout=LONGEST, check=False, cwd=folder)
+            done = subprocess.run(
+                command,
+                capture_output=True,
+                timeout=LONGEST,
+                check=False,
+                cwd=folder,
+                env={**os.environ, "TMPDIR": folder},  # where USD leaves its report of a crash
+            )
         except subprocess.TimeoutExpired:
             raise DocumentError([f"{name}: took longer than {LONGEST:g} s to read"]) from None
     if done.returncode == DONE:

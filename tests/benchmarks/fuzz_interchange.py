@@ -1,7 +1,10 @@
-"""Hunt: 100 000 hostile files of each format: `python tests/benchmarks/fuzz_interchange.py [FORMAT...] [COUNT]`.
+"""Hunt: 100 000 hostile files of each format.
 
-Each format runs in children of a few hundred files, so that a library that crashes is seen and counted. Printed are
-the files that were taken for valid, the crashes of a library (which `isolated` catches), the time and the memory.
+python tests/benchmarks/fuzz_interchange.py [FORMAT...] [COUNT [SKIPPED]]
+
+SKIPPED are files of an earlier hunt, which this one goes on from. Each format runs in children of a few hundred files,
+so that a library that crashes is seen and counted. Printed are the files that were taken for valid, the crashes of a
+library (which `isolated` catches), the time and the memory.
 """
 
 from __future__ import annotations
@@ -37,12 +40,12 @@ def _child(name: str, seed: int, folder: Path, out: int, size: int) -> None:
         os._exit(1)
 
 
-def hunt(name: str, count: int) -> None:
+def hunt(name: str, count: int, skipped: int = 0) -> None:
     size = BATCH // 25 if name in LIBRARIES else BATCH
     begin, taken, crashes, faults = time.monotonic(), 0, 0, []
     with tempfile.TemporaryDirectory(dir="/dev/shm" if Path("/dev/shm").is_dir() else None) as folder:
         attack(name, 3, 0, Path(folder))  # loads the library once, for all children
-        for seed in range(1, count // size + 1):
+        for seed in range(skipped // size + 1, (skipped + count) // size + 1):
             inner, outer = os.pipe()
             child = os.fork()
             if child == 0:
@@ -73,4 +76,4 @@ if __name__ == "__main__":
     names = [each for each in sys.argv[1:] if each in READERS] or list(READERS)
     numbers = [int(each) for each in sys.argv[1:] if each.isdigit()]
     for each in names:
-        hunt(each, numbers[0] if numbers else 100_000)
+        hunt(each, *(numbers or [100_000]))

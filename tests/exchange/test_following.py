@@ -211,8 +211,8 @@ def test_a_serial_line_gets_whole_messages():
 @pytest.mark.parametrize(
     ("address", "arguments", "asks"),
     [
-        ("/teleop/track", (), {"do": "track"}),
-        ("/teleop/track/2", ("unattended",), {"do": "track", "source": 2, "attended": False}),
+        ("/teleop/track", (), {"do": "track", "attended": False}),
+        ("/teleop/track/2", ("attended",), {"do": "track", "source": 2, "attended": True}),
         ("/teleop/track/2", (0.0,), None),
     ],
 )

@@ -106,6 +106,20 @@ def test_the_topics_of_a_take_come_live_with_their_schemas(tmp_path: Path) -> No
     with_client(tmp_path, work)
 
 
+def test_one_who_speaks_no_websocket_makes_no_line_for_the_operator(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    async def work(bench: RemoteBench, client: Client) -> None:
+        host, port = client._connection.remote_address[:2]
+        reader, writer = await asyncio.open_connection(host, port)
+        writer.write(b"x\r\n\r\n")
+        await reader.read()  # until it is closed
+        writer.close()
+
+    with_client(tmp_path, work)
+    assert not [each for each in caplog.records if each.name.startswith("foxglove")]
+
+
 def test_parameters_are_read_and_never_set(tmp_path: Path) -> None:
     async def work(bench: RemoteBench, client: Client) -> None:
         info = await client.until(lambda: client.text("serverInfo"))

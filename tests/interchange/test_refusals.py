@@ -12,6 +12,7 @@ from made_motions import content, made_motion
 from teleop.config.documents.document import DocumentError
 from teleop.core.axes import Axis
 from teleop.interchange import isolated
+from teleop.interchange.companion import file_rate
 from teleop.interchange.table import BY_NAME, Hints
 
 RATE = Fraction(24)
@@ -110,11 +111,21 @@ def test_it_is_refused_in_one_line(name: str, raw: bytes, hints: Hints, error: s
     assert "\n" not in str(refused.value)
 
 
+@pytest.mark.parametrize("text", ["1e-999999999", "1e999999999", "24/0", "1_0", "nan", "-24", "", None])
+def test_a_rate_that_is_none_is_refused_at_once(text: object) -> None:
+    """One with an exponent would take the memory of the computer as a fraction."""
+    with pytest.raises(DocumentError, match="file: frame_rate must be frames a second"):
+        file_rate(text, "file")
+
+
 READ = [
     ("a byte order mark", b"\xef\xbb\xbfpan,tilt\n1,2\n3,4\n"),
     ("UTF-16", "pan,tilt\n1,2\n3,4\n".encode("utf-16")),
     ("mixed line ends", b"pan,tilt\r1,2\r\n3,4\n"),
     ("semicolons and a last one", b"pan;tilt;\n1;2;\n3;4;\n"),
+    ("a last one in the rows alone", b"pan,tilt\n1,2,\n3,4,\n"),
+    ("a last column that is empty in the first row", b"pan,tilt,actions\n1,2,\n3,4,record\n"),
+    ("a last column that is empty in all rows", b"pan,tilt,actions\n1,2,\n3,4,\n"),
     ("names in capitals, and others", b"Tilt,x,PAN\n2,9,1\n4,9,3\n"),
     ("quotes", b'"pan","tilt"\n"1","2"\n"3","4"\n'),
     ("empty lines and comments", b"# made by hand\n\npan,tilt\n1,2\n\n3,4\n\n"),
@@ -187,3 +198,16 @@ def test_a_library_that_never_ends_is_stopped(monkeypatch: pytest.MonkeyPatch, t
     monkeypatch.setattr(isolated.sys, "executable", str(slow))
     with pytest.raises(DocumentError, match=r"^file: took longer than 0.2 s to read"):
         BY_NAME["otio"].load().read(content("otio", made_motion(3)), "file", Hints())
+
+
+def test_what_a_crash_leaves_behind_goes_too(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """USD writes a report of a crash into TMPDIR, else into /var/tmp."""
+    crash, kept = tmp_path / "crash", tmp_path / "kept"
+    crash.write_text('#!/bin/sh\n: > "$TMPDIR/report"\nexit 134\n')
+    crash.chmod(0o755)
+    kept.mkdir()
+    monkeypatch.setenv("TMPDIR", str(kept))
+    monkeypatch.setattr(isolated.sys, "executable", str(crash))
+    with pytest.raises(DocumentError, match="gave up"):
+        BY_NAME["otio"].load().read(content("otio", made_motion(3)), "file", Hints())
+    assert not list(kept.iterdir())

@@ -9,7 +9,7 @@ import subprocess
 import urllib.request
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Self
+from typing import IO, Any, Self
 
 import pytest
 from command import TELEOP
@@ -37,14 +37,16 @@ another try."""
 class RealConsole:
     """The rig, the control process and its gateway. `state` is what /api/state answers."""
 
-    def __init__(self, folder: Path, *options: str, rig: str = "sim") -> None:
+    def __init__(
+        self, folder: Path, *options: str, rig: str = "sim", errors: IO[bytes] | int = subprocess.DEVNULL
+    ) -> None:
         environment = {**os.environ, "XDG_STATE_HOME": str(folder / "state")}
         self.folder = folder
         options = ("--rig", rig, "--bind", "127.0.0.1:0", "--json", "--realtime", *options)
         self._process = subprocess.Popen(
             [TELEOP, "console", *options],
             stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
+            stderr=errors,
             cwd=folder,
             env=environment,
         )

@@ -17,7 +17,8 @@ ROOT = "/teleop/"
 STOP = {"do": "stop"}
 QUIET = ("alive", "state")
 """Messages that ask for nothing of the rig."""
-UNATTENDED = "unattended"
+ATTENDED: Mapping[str, bool] = {"attended": True, "unattended": False}
+"""Whether a move goes on only while its sender is heard. A button sends one message: without a word it does."""
 GOTO = (Axis.PAN, Axis.TILT, Axis.ROLL)
 
 Command = Mapping[str, Any]
@@ -86,9 +87,9 @@ def _preset(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> C
 
 def _play(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> Command:  # noqa: ARG001
     words = [*parts, *(each for each in arguments if isinstance(each, str))]
-    if not 1 <= len(words) <= 2 or words[1:] not in ([], [UNATTENDED]):
-        raise Invalid('play: needs the name of a move, as in /teleop/play "reveal"; "unattended" may follow')
-    return {"do": "play", "move": words[0], **({"attended": False} if words[1:] else {})}
+    if not 1 <= len(words) <= 2 or not ATTENDED.keys() >= set(words[1:]):
+        raise Invalid('play: needs the name of a move, as in /teleop/play "reveal"; "attended" may follow')
+    return {"do": "play", "move": words[0], "attended": any(ATTENDED[word] for word in words[1:])}
 
 
 def _speed(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> Command:  # noqa: ARG001
@@ -99,11 +100,11 @@ def _speed(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> Co
 
 
 def _track(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> Command:  # noqa: ARG001
-    """`/teleop/track`, or `/teleop/track/N`, with the text `unattended` where it goes on in silence."""
+    """`/teleop/track`, or `/teleop/track/N`, with the text `attended` where it ends in silence."""
     if len(parts) > 1 or (parts and not (parts[0].isascii() and parts[0].isdigit() and len(parts[0]) < 3)):
         raise Invalid("track: needs the number of a tracking source, as in /teleop/track/1")
     source = {"source": int(parts[0])} if parts else {}
-    return {"do": "track", **source, **({"attended": False} if UNATTENDED in arguments else {})}
+    return {"do": "track", **source, "attended": "attended" in arguments}
 
 
 MAKERS: Mapping[str, Callable[[list[str], Arguments, Collection[Axis]], Command]] = {

@@ -130,6 +130,8 @@ def parse_table(text: str, name: str, *, chan: bool = False) -> Table:
         raise DocumentError([f"{name}:{rows[MOST_FRAMES].line}:1: is too much: at most {MOST_FRAMES} frames"])
     comments = [line for number, line in lines if number < rows[0].line and _is_comment(line, separator)]
     above += [Row(0, _cells(_COMMENT.sub("", line, count=1), separator)) for line in comments[-1:]]
+    width = max(_filled(row) for row in (*rows, *(row for row in above if len(row.cells) == len(rows[0].cells))))
+    rows, above = ([Row(row.line, _ended(row, width)) for row in each] for each in (rows, above))
     named = next((row for row in reversed(above) if len(row.cells) == len(rows[0].cells) and not _has_units(row)), None)
     names = [cell.text for cell in named.cells] if named else CHAN[: len(rows[0].cells)] if chan else []
     return Table(name, names, rows)
@@ -164,9 +166,17 @@ def _cells(line: str, separator: str) -> Sequence[Cell]:
         quoted = len(text) > 1 and text[0] == text[-1] == '"'
         cells.append(Cell(text[1:-1].replace('""', '"').strip() if quoted else text, column))
         start += len(part) + 1
-    if len(cells) > 1 and not cells[-1].text:
-        cells.pop()  # a separator at the end of the line
     return cells
+
+
+def _filled(row: Row) -> int:
+    """How many cells it has, without an empty one at its end."""
+    return len(row.cells) - (len(row.cells) > 1 and not row.cells[-1].text)
+
+
+def _ended(row: Row, width: int) -> Sequence[Cell]:
+    """Its cells, without a separator at its end that begins no column: a last column may be empty in some rows."""
+    return row.cells[: _filled(row)] if len(row.cells) > width else row.cells
 
 
 def _split(line: str, separator: str) -> Sequence[str]:

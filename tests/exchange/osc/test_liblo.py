@@ -107,8 +107,13 @@ def test_record_and_play(studio: Studio) -> None:
     until(lambda: studio.says("/teleop/recording", "i 1"))
     studio.send("/teleop/stop_recording")
     until(lambda: studio.says("/teleop/recording", "i 0"))
-    studio.send("/teleop/play", "s", "nudge")
+    studio.send("/teleop/play", "ss", "nudge", "attended")
     until(lambda: studio.says("/teleop/playing", "i 1"))
     until(lambda: studio.console.state["move"]["phase"] == "paused")  # nobody has been heard for 2 s
+    studio.send("/teleop/abort")
+    until(lambda: studio.says("/teleop/move", '""'))
+    studio.send("/teleop/play", "s", "nudge")  # as a button does: one message
+    until(lambda: studio.says("/teleop/playing", "i 1"))
+    assert studio.console.state["move"]["attended"] is False
     studio.send("/teleop/abort")
     until(lambda: studio.says("/teleop/playing", "i 0"))

@@ -74,7 +74,8 @@ def test_a_table_without_names_has_numbers(tmp_path: Path) -> None:
         ),
         ("a;b\n1;2\n1;20,5\n", ["track.csv:3:3: 20,5: write 20.5"]),
         ("a b\n1 2\n1 nan\n", ["track.csv:3:3: 'b' must be a number, not 'nan'"]),
-        ("a,b\n1,2\n1,\n2,\n", ["track.csv:3:1: has 1 values", "track.csv:4:1: has 1 values"]),
+        ("a,b\n1,2\n1\n2\n", ["track.csv:3:1: has 1 values", "track.csv:4:1: has 1 values"]),
+        ("a,b\n1,2\n1,\n", ["track.csv:3:3: 'b' must be a number, not empty"]),
     ],
 )
 def test_a_cell_that_is_no_number_is_named_by_line_and_column(text: str, problems: list[str], tmp_path: Path) -> None:
