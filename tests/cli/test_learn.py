@@ -24,7 +24,7 @@ LONG = 120.0  # s: longer than any machine takes
 def recorded(file: Path, unplugged: float = LONG) -> Path:
     """An F310 whose stick goes right again and again; a slow machine answers with the next one."""
     rows = [{"time": 0, "report": REST}]
-    begin = 1.0
+    begin = 3.0
     while begin + 1.3 < unplugged:
         rows += [{"time": begin, "report": RIGHT}, {"time": begin + 0.4, "report": REST}]
         begin += 1.3

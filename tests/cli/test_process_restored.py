@@ -78,10 +78,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_ten_runs_in_one_process_leave_it_as_they_found_it(name: str, folder: Path) -> None:
+def test_five_runs_in_one_process_leave_it_as_they_found_it(name: str, folder: Path) -> None:
     assert run(COMMANDS[name], folder) == 0  # what is loaded once stays loaded
     before = state()
-    for number in range(1, 10):
+    for number in range(1, 5):
         assert run(COMMANDS[name], folder, number) == 0
         assert state() == before
 

@@ -236,10 +236,12 @@ def test_debug_shows_where_an_error_came_from() -> None:
 
 def wait_for(process, text: str) -> None:
     """Read stderr up to a line with `text`."""
+    said: list[str] = []
     for line in process.stderr:
         if text in line:
             return
-    pytest.fail(f"{text!r} never came")
+        said.append(line)
+    pytest.fail(f"{text!r} never came: {' '.join(said)}")
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
@@ -274,12 +276,18 @@ def bus() -> Iterator[str]:
         yield BUS
 
 
-def test_two_processes_talk_over_a_real_bus(bus: str) -> None:
+def short_move(folder: Path) -> str:
+    """On a real bus a move takes as long as it is."""
+    (folder / "short.yaml").write_text("keyframes: [{at: 0, pan: 0}, {at: 2s, pan: 12}, {at: 4s, pan: 0}]")
+    return str(folder / "short.yaml")
+
+
+def test_two_processes_talk_over_a_real_bus(bus: str, tmp_path: Path) -> None:
     with running("sim", "--link", bus) as far:
         assert far.stdout is not None
         assert "simulated gimbal" in far.stdout.readline()
-        done = teleop("play", "reveal", "--link", bus, "--json")
-        assert done.returncode == 0, done.stderr
+        done = teleop("play", short_move(tmp_path), "--link", bus, "--json")
+        assert done.returncode == 0, f"{done.stdout} {done.stderr}"
         assert json.loads(done.stdout)["axes"]["pan"]["rms"] < 0.5
         far.send_signal(signal.SIGINT)
         far.communicate(timeout=DEADLINE)

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import cbor2
 import pytest
-from real_time import children_in_real_time
+from priorities import children_in_real_time
 from tracking_bench import TrackingBench, tracking_bench
 
 from teleop.exchange.freed.codec import decode

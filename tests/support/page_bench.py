@@ -14,6 +14,7 @@ from typing import Any, Self
 
 from console_rig import ConsoleRig
 from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
+from priorities import browser_gives_way
 
 from teleop.console.server import serve
 from teleop.console.settings import ConsoleSettings, listen
@@ -107,6 +108,7 @@ def chrome() -> Iterator[Chrome]:
     with sync_playwright() as playwright:
         options = ["--no-sandbox", "--disable-gpu", "--force-color-profile=srgb", "--font-render-hinting=none"]
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=options)
+        browser_gives_way()
         try:
             yield Chrome(browser)
         finally:

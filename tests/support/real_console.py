@@ -11,27 +11,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import IO, Any, Self
 
-import pytest
 from command import TELEOP
 from page_bench import until
-
-
-def may_be_real_time() -> bool:
-    """Whether `--realtime` is permitted here: nothing that other programs do then stalls a run."""
-    if not hasattr(os, "sched_setscheduler"):
-        return False
-    before, parameters = os.sched_getscheduler(0), os.sched_getparam(0)
-    try:
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
-        os.sched_setscheduler(0, before, parameters)
-    except OSError:
-        return False
-    return True
-
-
-STALLS = pytest.mark.flaky(reruns=2, only_rerun="the computer stalled", condition=not may_be_real_time())
-"""Where it is not permitted, a stall ends a run in real time, as it has to; what else was to be seen is then seen in
-another try."""
 
 
 class RealConsole:

@@ -53,7 +53,9 @@ class Terminal:
 
     def wait_for(self, text: str) -> None:
         """Until it has been shown, since the last key that was waited for."""
-        wait_until(lambda: text in self.shown, f"{text!r} on the terminal")
+        wait_until(lambda: text in self.shown or self.process.poll() is not None, f"{text!r} on the terminal")
+        if text not in self.shown:  # it has ended
+            wait_until(lambda: text in self.shown, f"{text!r} in {self.shown!r}", patience=1.0)
 
     def wait_for_keys(self) -> None:
         """Until the program reads single keys."""

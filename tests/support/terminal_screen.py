@@ -24,6 +24,7 @@ from command import TELEOP
 
 PATIENCE = 40.0  # s: far beyond anything here, on a machine that does much else
 SIZES = [(80, 24), (120, 40)]
+HOME = b"\x1b[H"  # with which each picture of a view begins
 BROKEN = ("Traceback (most recent call last)", "AttributeError", "UnicodeEncodeError", "cannot draw the view")
 
 
@@ -153,15 +154,23 @@ class TerminalScreen:
     def _resize(self, descriptor: int) -> None:
         fcntl.ioctl(descriptor, termios.TIOCSWINSZ, struct.pack("HHHH", self.lines, self.columns, 0, 0))
 
+    def _take(self, data: bytes) -> None:
+        """What is on the screen where the next picture begins was a whole one, also while this comes far behind."""
+        first, *others = data.split(HOME)
+        with self._lock:
+            self.raw += data
+            self._stream.feed(first)
+        for picture in others:
+            self._whole = self.rows
+            with self._lock:
+                self._stream.feed(HOME + picture)
+
     def _read(self) -> None:
         changed = True
         while True:
             ended = self._over.is_set()  # before the look, so that nothing written until then is missed
             if select.select([self._master], [], [], 0 if ended else 0.005)[0]:
-                data = os.read(self._master, 65536)
-                with self._lock:
-                    self.raw += data
-                    self._stream.feed(data)
+                self._take(os.read(self._master, 65536))
                 changed = True
                 continue
             if changed:

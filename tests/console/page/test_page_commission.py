@@ -19,8 +19,6 @@ from teleop.config.sinks_section import GimbalSection
 
 URL = "udp_multicast:239.74.163.67"
 STALLED = "the computer stalled"
-# A computer that stalls ends a step, as it has to; what was to be seen is then seen in another try.
-pytestmark = pytest.mark.flaky(reruns=2, only_rerun=STALLED)
 
 
 @pytest.fixture(scope="module")

@@ -6,11 +6,9 @@ import pytest
 from page_bench import REFUSED, take_control, until
 from playwright.sync_api import expect
 from real_commission import click
-from real_console import STALLS, RealConsole
+from real_console import RealConsole
 
 from teleop.config.profile import load_profile
-
-pytestmark = STALLS
 
 
 @pytest.fixture
