@@ -17,15 +17,15 @@ INSTALLED = shutil.which("jackd") is not None
 
 
 @contextmanager
-def jack_server() -> Iterator[None]:
-    """A server of this process's own, which it and its children find by the environment."""
+def jack_server(period: int = 1024) -> Iterator[None]:
+    """A server of this process's own, which it and its children find by the environment; `period` in samples."""
     name = f"teleop{os.getpid()}"
     before = os.environ.get("JACK_DEFAULT_SERVER")
     os.environ["JACK_DEFAULT_SERVER"] = name
     # It waits for its clients in each period: without real time it would go on without one that is late, and drop
     # what that one was sent.
     waits = ["--sync", "--timeout", "10000"]
-    command = ["jackd", "--no-realtime", *waits, "--name", name, "-d", "dummy", "-r", "48000", "-p", "1024"]
+    command = ["jackd", "--no-realtime", *waits, "--name", name, "-d", "dummy", "-r", "48000", "-p", str(period)]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         until(_answers)
