@@ -38,11 +38,18 @@ settings.register_profile("random", deadline=None, print_blob=True, suppress_hea
 settings.load_profile("same")
 
 
+# A stall of the computer ends a run in real time, as it has to: the test has another try. Any other failure fails. Only
+# slow tests have such runs, and a mark at every test would double the time of the quick ones.
+STALLS = pytest.mark.flaky(reruns=2, only_rerun="the computer stalled")
+
+
 def pytest_collection_modifyitems(items: Sequence[pytest.Item]) -> None:
     """Mark what takes long, as measured: tests/slow.txt."""
     for item in items:
         if name_of(item.nodeid) in NAMES:
             item.add_marker(pytest.mark.slow)
+            if item.get_closest_marker("flaky") is None:
+                item.add_marker(STALLS)
 
 
 @pytest.fixture(autouse=True)
