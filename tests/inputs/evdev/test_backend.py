@@ -122,7 +122,7 @@ def test_one_that_may_not_be_opened_is_refused_with_its_place_and_the_cure(
 ) -> None:
     monkeypatch.setattr("os.access", lambda path, mode: not str(path).endswith("event5"))
     hand.machine.plug(FakeEvents())
-    held = hand.until(lambda held: "Permission denied" in held.trouble)  # at first it may be found before all of it is there
+    held = hand.until(lambda held: "Permission denied" in held.trouble)  # not half plugged in
     assert "event5" in held.trouble
     assert held.trouble.endswith("check its udev rule: teleop doctor")
 
