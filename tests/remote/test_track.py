@@ -157,14 +157,19 @@ def test_a_target_behind_the_camera_is_on_the_turn_that_the_limits_allow(tmp_pat
         tracker.assert_legal()
 
 
+def pan_by_hand(bench: RemoteBench, tracker: Tracker) -> None:
+    """With the stick at the rig, which is let go again."""
+    bench.pad.deflections = {Axis.PAN: 1.0}
+    tracker.run(0.3)
+    bench.pad.deflections = {}
+    tracker.run(1.5)
+    assert bench.rests
+
+
 def test_the_stick_at_the_rig_outranks_it_and_ends_it(tmp_path):
     with followed(tmp_path) as (bench, tracker):
         tracker.run(1.0)
-        bench.pad.deflections = {Axis.PAN: 1.0}
-        tracker.run(0.3)
-        bench.pad.deflections = {}
-        tracker.run(1.5)
-        assert bench.rests
+        pan_by_hand(bench, tracker)
         assert list(bench.ends.values())[-1]["error"] == "an operator moved pan"
 
 
@@ -259,11 +264,7 @@ def test_following_that_a_key_began_ends_by_a_stick_and_says_so(tmp_path):
         tracker.run(0.3)
         press(bench, 1)
         tracker.run(1.0)
-        bench.pad.deflections = {Axis.PAN: 1.0}
-        tracker.run(0.3)
-        bench.pad.deflections = {}
-        tracker.run(1.5)
-        assert bench.rests
+        pan_by_hand(bench, tracker)
         assert "tracking ends: an operator moved pan" in bench.lines
         bench.ask("stop", BOB)
         press(bench, 1)
