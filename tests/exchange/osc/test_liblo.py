@@ -7,6 +7,7 @@ import socket
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from page_bench import until
@@ -36,6 +37,10 @@ class Studio:
         """The arguments of every message there was to that address, as printed."""
         lines = (line.split(" ", 2)[1:] for line in self._dumped.read_text().splitlines() if line.count(" ") > 1)
         return [rest for head, rest in lines if head == address]
+
+    @property
+    def move(self) -> dict[str, Any]:
+        return self.console.state["move"] or {}
 
     def says(self, address: str, end: str) -> bool:
         """Whether the newest message to that address ends so."""
@@ -109,11 +114,11 @@ def test_record_and_play(studio: Studio) -> None:
     until(lambda: studio.says("/teleop/recording", "i 0"))
     studio.send("/teleop/play", "ss", "nudge", "attended")
     until(lambda: studio.says("/teleop/playing", "i 1"))
-    until(lambda: studio.console.state["move"]["phase"] == "paused")  # nobody has been heard for 2 s
+    until(lambda: studio.move.get("phase") == "paused")  # nobody has been heard for 2 s
     studio.send("/teleop/abort")
-    until(lambda: studio.says("/teleop/move", '""'))
+    until(lambda: studio.says("/teleop/move", '""') and studio.console.rests and studio.console.state["holder"] is None)
     studio.send("/teleop/play", "s", "nudge")  # as a button does: one message
+    until(lambda: studio.move.get("attended") is False)
     until(lambda: studio.says("/teleop/playing", "i 1"))
-    assert studio.console.state["move"]["attended"] is False
     studio.send("/teleop/abort")
     until(lambda: studio.says("/teleop/playing", "i 0"))
