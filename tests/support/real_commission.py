@@ -30,6 +30,7 @@ class RealCommission(RealConsole):
 
     def __init__(self, folder: Path, url: str, far: FarGimbal | None, *options: str) -> None:
         self.folder, self.far = folder, far
+        self.began = 0.0  # deg: where pan was when a step began
         link = ["--link", f"gimbal={url}"] if url else []
         command = [TELEOP, "commission", *link, "--console", "127.0.0.1:0", "--json", *options]
         environment = {**os.environ, "XDG_STATE_HOME": str(folder / "state")}

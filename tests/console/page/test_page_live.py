@@ -196,7 +196,7 @@ def test_words_are_typed_as_in_the_terminal_and_space_is_stop_in_them_too(visit,
         ("t", "door,4.2", "mark_target", {"text": "door,4.2"}),
     ):
         page.keyboard.press(key)
-        page.locator(".word").wait_for()
+        expect(page.locator(".word")).to_be_focused()
         page.keyboard.type(word)
         page.keyboard.press("Enter")
         until(lambda name=name, fields=fields: was_asked(rig, name, fields))
