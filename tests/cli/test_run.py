@@ -303,6 +303,7 @@ def test_two_programs_on_one_bus_are_recognised(bus: str) -> None:
             running("calibrate", "delay", "--axis", "roll", "--link", bus) as other,
         ):
             out, said = one.communicate(timeout=60)
+            other.send_signal(signal.SIGINT)
             other.communicate(timeout=60)
     assert "another program is driving this gimbal (link gimbal, udp_multicast:239.74.163.2)" in said
     assert json.loads(out)["links"]["gimbal"]["foreign_replies"] > 10
