@@ -17,8 +17,8 @@ ROOT = "/teleop/"
 STOP = {"do": "stop"}
 QUIET = ("alive", "state")
 """Messages that ask for nothing of the rig."""
-ATTENDED: Mapping[str, bool] = {"attended": True, "unattended": False}
-"""Whether a move goes on only while its sender is heard. A button sends one message: without a word it does."""
+ATTENDED, UNATTENDED = "attended", "unattended"
+"""Whether a move goes on only while its sender is heard. A button sends one message: without a word it goes on."""
 GOTO = (Axis.PAN, Axis.TILT, Axis.ROLL)
 
 Command = Mapping[str, Any]
@@ -87,9 +87,9 @@ def _preset(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> C
 
 def _play(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> Command:  # noqa: ARG001
     words = [*parts, *(each for each in arguments if isinstance(each, str))]
-    if not 1 <= len(words) <= 2 or not ATTENDED.keys() >= set(words[1:]):
+    if not 1 <= len(words) <= 2 or words[1:] not in ([], [ATTENDED], [UNATTENDED]):
         raise Invalid('play: needs the name of a move, as in /teleop/play "reveal"; "attended" may follow')
-    return {"do": "play", "move": words[0], "attended": any(ATTENDED[word] for word in words[1:])}
+    return {"do": "play", "move": words[0], "attended": words[1:] == [ATTENDED]}
 
 
 def _speed(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> Command:  # noqa: ARG001
@@ -104,7 +104,7 @@ def _track(parts: list[str], arguments: Arguments, axes: Collection[Axis]) -> Co
     if len(parts) > 1 or (parts and not (parts[0].isascii() and parts[0].isdigit() and len(parts[0]) < 3)):
         raise Invalid("track: needs the number of a tracking source, as in /teleop/track/1")
     source = {"source": int(parts[0])} if parts else {}
-    return {"do": "track", **source, "attended": "attended" in arguments}
+    return {"do": "track", **source, "attended": ATTENDED in arguments}
 
 
 MAKERS: Mapping[str, Callable[[list[str], Arguments, Collection[Axis]], Command]] = {
