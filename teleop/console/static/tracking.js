@@ -1,14 +1,16 @@
 // The tracking sources of the rig: a button for each that has the camera follow it, and how that goes.
 import { html } from "./vendor/preact/preact.min.js";
 import { command } from "./connection.js";
-import { able, inControl, part } from "./store.js";
+import { able, inControl, notify, part } from "./store.js";
 
 const tracking = part((s) => s.tracking, null);
 
 /** Follows that source; what is followed already, or 0, ends it. @param {number} source */
 export function track(source) {
   const now = tracking.peek()?.follows ?? 0;
-  command(now && (!source || source === now) ? "abort" : "track", now && (!source || source === now) ? {} : { source: source || 1 });
+  if (source && source !== now) command("track", { source });
+  else if (now) command("abort");
+  else notify("track: no source is followed");
 }
 
 export function Tracking() {

@@ -317,6 +317,9 @@ def test_a_tracker_is_followed_by_a_button_and_by_a_key_and_the_page_says_how_th
     page.keyboard.press("a")
     page.keyboard.press("0")
     expect(word).to_have_text("ready")
+    page.keyboard.press("a")  # when none is followed, 0 begins nothing
+    page.keyboard.press("0")
+    expect(page.get_by_text("track: no source is followed").first).to_be_visible()
     assert len(commands(rig, "track")) == len(commands(rig, "abort")) == 2
 
 
