@@ -186,6 +186,7 @@ def test_a_plan_of_20_keys_is_asked_for_once_when_a_key_is_let_go(editor, server
     page = visit()
     page.get_by_test_id("tab-move").click()
     expect(page.get_by_test_id("key-pan-20")).to_have_count(1)
+    expect(page.locator(".curves .line.stroke-pan path")).to_have_count(1)  # the first plan, of the move as it is
     drag(page, "key-pan-10", 3, -20)
     page.evaluate("performance.clearResourceTimings()")
     page.mouse.up()
