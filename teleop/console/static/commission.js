@@ -1,5 +1,5 @@
 // The page of a commissioning: one step a screen, as the terminal has it. What is pressed names the page that it answers.
-import { html, useEffect, useRef, useSignal, signal } from "./vendor/preact/preact.min.js";
+import { html, useEffect, useLayoutEffect, useRef, useSignal, signal } from "./vendor/preact/preact.min.js";
 import { command, ping, stop } from "./connection.js";
 import { fresh, holder, mayOperate, mine, notify, part } from "./store.js";
 
@@ -99,7 +99,7 @@ const Results = ({ files }) => html`<div class="row results" data-testid="commis
 /** @param {{page: CommissionState}} props */
 function Keys({ page }) {
   const word = useSignal(""), has = new Map(page.keys), typing = page.typed != null, field = useRef(/** @type {any} */ (null));
-  useEffect(() => typing && field.current?.focus(), [typing]);
+  useLayoutEffect(() => typing && field.current?.focus(), [typing]);
   const off = !mayOperate.value || !fresh.value || (!mine.value && !!holder.value) || sending.value === page.page;
   const send = (/** @type {Event} */ event) => (event.preventDefault(), press("enter", { text: word.peek().trim() || " " }));
   const choices = page.keys.filter(([key]) => page.stage === "asking" && !OWN.includes(key));

@@ -1,5 +1,5 @@
 // The keyboard of the console: the same keys as `teleop live`, `teleop play` and a shoot have in a terminal.
-import { html, signal, useEffect, useRef } from "./vendor/preact/preact.min.js";
+import { html, signal, useEffect, useLayoutEffect, useRef } from "./vendor/preact/preact.min.js";
 import { command, stop } from "./connection.js";
 import { commission, pressedKey } from "./commission.js";
 import { able, mine, notify, state } from "./store.js";
@@ -136,7 +136,7 @@ export function watchKeyboard() {
 /** A word that is typed after its key; the space bar is STOP in it too. */
 export function Word() {
   const field = useRef(/** @type {any} */ (null)), word = WORDS[spelling.value];
-  useEffect(() => word && field.current?.focus(), [spelling.value]);
+  useLayoutEffect(() => word && field.current?.focus(), [spelling.value]); // before the next key is pressed
   if (!word) return null;
   const send = (/** @type {Event} */ event) => {
     event.preventDefault();

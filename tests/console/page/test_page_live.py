@@ -195,19 +195,14 @@ def test_words_are_typed_as_in_the_terminal_and_space_is_stop_in_them_too(visit,
         ("d", "Home-off", "drone", {"command": "home-off"}),
         ("t", "door,4.2", "mark_target", {"text": "door,4.2"}),
     ):
-        page.keyboard.press(key)
-        expect(page.locator(".word")).to_be_focused()
-        page.keyboard.type(word)
+        page.keyboard.type(key + word)  # at once: no key of the word is one of the console's
         page.keyboard.press("Enter")
         until(lambda name=name, fields=fields: was_asked(rig, name, fields))
         expect(page.locator(".word")).to_have_count(0)
     page.keyboard.press("d")
-    page.locator(".word").wait_for()
     page.keyboard.press("Escape")
     expect(page.locator(".word")).to_have_count(0)
-    page.keyboard.press("d")
-    page.locator(".word").wait_for()
-    page.keyboard.type("ar m")
+    page.keyboard.type("dar m")
     until(lambda: rig.more["stopped"])
     assert len(commands(rig, "drone")) == 1
 
