@@ -1,7 +1,7 @@
 """Issue 18's figures of the door, in real time: `python tests/benchmarks/chaos_door.py [SECONDS]` prints them.
 
 How late the loop is at the 99th percentile, without a gateway and with one (then also with four watching pages), each
-twice and in turns, so that what else the machine does falls on all of them. How long a STOP takes from a client to the
+TURNS times and in turns, so that what else the machine does falls on all of them. How long a STOP takes from a client to the
 loop. What 1e5 datagrams that are no commands do.
 """
 
@@ -29,6 +29,8 @@ from teleop.app.run import undisturbed
 from teleop.core.clock import SystemClock
 from teleop.remote.gateway_child import Gateway
 
+TURNS = 6
+SETTLE = 2  # s in which all that is started has loaded what it needs
 STOPS = 300
 FLOOD = 100_000
 WATCHERS = 4
@@ -69,7 +71,7 @@ def late(seconds: float, watchers: int | None, fifo: bool) -> Sequence[float]:
         if watchers:
             watching = subprocess.Popen([sys.executable, "-c", WATCH, url, str(watchers)], stderr=subprocess.DEVNULL)
             stack.callback(watching.kill)
-            time.sleep(2)
+        time.sleep(SETTLE)
         clock.forget()
         time.sleep(seconds)
         measured = list(clock.late)
@@ -80,7 +82,7 @@ def late(seconds: float, watchers: int | None, fifo: bool) -> Sequence[float]:
 
 def lateness(seconds: float, fifo: bool) -> None:
     found: dict[int | None, list[float]] = {None: [], 0: [], WATCHERS: []}
-    for _ in range(2):
+    for _ in range(TURNS):
         for watchers, values in found.items():
             values += late(seconds, watchers, fifo)
     if not all(found.values()):
@@ -107,7 +109,7 @@ def flood() -> None:
         client = bench.client("flood", FLOOD)
         assert client.stdout is not None
         begin = time.monotonic()
-        client.stdout.readline()
+        wait_until(lambda: client.stdout.readline() == "flooded\n", "the end of the flood")
         counts = bench.door.counts
         print(
             f"{FLOOD} datagrams in {time.monotonic() - begin:.0f} s: {counts.malformed} malformed,"
