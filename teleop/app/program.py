@@ -13,7 +13,7 @@ from typing import Protocol
 
 from teleop.core.axes import Axis, Motion, Reading
 from teleop.core.errors import DeviceError, TeleopError
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import SourceEvent, Tick, TickEvent
 from teleop.core.interfaces import Feedback, Observer, Source
 from teleop.core.setpoints import Demand, PositionTarget, Stop, VelocityTarget
 
@@ -33,7 +33,7 @@ class Job(Protocol):
 
     def start(self, now: float, motion: Motion) -> None: ...
 
-    def read(self, now: float, feedback: Feedback, /) -> tuple[Demand, Sequence[TickEvent]]: ...
+    def read(self, now: float, feedback: Feedback, /) -> tuple[Demand, Sequence[SourceEvent]]: ...
 
     def done(self, tick: Tick) -> bool:
         """Whether it is complete, seen from this tick; raises TeleopError when it cannot be completed."""
@@ -58,7 +58,7 @@ class MoveJob:
     def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - the planner knows where the axes are
         self._end = None if self._seconds is None else now + self._seconds
 
-    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         left = None if self._end is None else max(0.0, self._end - now)
         return {
             axis: PositionTarget(target, left or None, self._speeds.get(axis)) for axis, target in self._targets.items()
@@ -94,7 +94,7 @@ class JogJob:
     def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - the planner knows where the axes are
         self._end = now + self._seconds
 
-    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         over = now >= self._end - 1e-6
         return {axis: Stop() if over else VelocityTarget(speed) for axis, speed in self._velocities.items()}, ()
 
@@ -115,7 +115,7 @@ class SourceJob:
     def start(self, now: float, motion: Motion) -> None:
         self._source.start(now, motion)
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         demand, events = self._source.read(now, feedback)
         self._over = self._source.next_change(now) == float("inf")
         return demand, events
@@ -136,7 +136,7 @@ class EventJob:
 
     def start(self, now: float, motion: Motion) -> None: ...
 
-    def read(self, _now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, _now: float, _feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         events, self._events = self._events, []
         return {}, events
 
@@ -230,7 +230,7 @@ class ProgramSource:
 
     def start(self, now: float, motion: Motion) -> None: ...  # jobs begin later
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         with self._lock:
             job, fresh, ending = self._job, self._fresh, self._ending
             self._fresh = False

@@ -188,27 +188,34 @@ class ControlLoop:
             self._take_interrupt()
             self._stop(now, steps)
             return
-        demand, actions = asked
+        demand, events, moments = asked
         self._motion = _finite(self._planner.step(demand, steps))
         self._resting = self._planner.at_rest
         self._wake = min(source.next_change(now) for source in self._sources)
-        self._emit(now, demand, [action for action in actions if not isinstance(action, TickAt)])
-        for action in actions:
-            if isinstance(action, TickAt) and self._resting:
-                self._move_ticks_to(action.time)
+        self._emit(now, demand, events)
+        if self._resting and moments:
+            self._move_ticks_to(moments[0])
         if self._resting and math.isinf(self._wake) and self.supervisor.state is RunState.RUNNING:
             self.supervisor.handle(RunEvent.FINISHED)
 
-    def _ask(self, now: float) -> tuple[Demand, Sequence[TickEvent]]:
-        """What the sources demand for this tick; of two that demand something of an axis, the first."""
+    def _ask(self, now: float) -> tuple[Demand, Sequence[TickEvent], Sequence[float]]:
+        """What the sources demand for this tick, and what is due; when they want a tick to be.
+
+        Of two that demand something of an axis, the first is heard.
+        """
         demand: dict[Axis, Setpoint] = {}
         events: list[TickEvent] = []
+        moments: list[float] = []
         feedback = Feedback(self._motion, self._reported)
         for source in reversed(self._sources):
             setpoints, due = source.read(now, feedback)
             demand.update(setpoints)
-            events.extend(due)
-        return demand, events
+            for event in due:
+                if isinstance(event, TickAt):
+                    moments.append(event.time)
+                else:
+                    events.append(event)
+        return demand, events, moments
 
     def _stop(self, now: float, steps: int) -> None:
         """Ramp to rest; once even the planner has failed, by the closed form alone, from what was last sent."""

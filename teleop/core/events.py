@@ -66,13 +66,14 @@ class ShutterResult(NamedTuple):
 class TickAt(NamedTuple):
     """Has the loop, while all rests, move its ticks so that one is at `time` (s, its clock).
 
-    Rigs that start together thus send their first commands together. No sink and no observer gets it.
+    Rigs that start together thus send their first commands together.
     """
 
     time: float
 
 
-TickEvent = Action | DeviceCommand | DialInput | Exposure | TickAt
+TickEvent = Action | DeviceCommand | DialInput | Exposure  # as sinks and observers get it
+SourceEvent = TickEvent | TickAt  # as sources give it
 
 
 @dataclass(frozen=True, slots=True)

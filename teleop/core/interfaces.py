@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from teleop.core.axes import Axis, Motion, Reading, State
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import SourceEvent, Tick
 from teleop.core.setpoints import Demand
 
 
@@ -29,7 +29,7 @@ class Source(Protocol):
         """The run begins at `now`, with the axes where `motion` says."""
         ...
 
-    def read(self, now: float, feedback: Feedback, /) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback, /) -> tuple[Demand, Sequence[SourceEvent]]:
         """The demand for the tick that ends at `now`, and the events due since the last read.
 
         What is raised here ends the run, without losing the tick: the ramp to rest begins in it.

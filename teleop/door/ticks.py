@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from teleop.core.axes import Axis, Reading, State
-from teleop.core.events import Action, DeviceCommand, DialInput, Exposure, ShutterStep, Tick, TickAt, TickEvent
+from teleop.core.events import Action, DeviceCommand, DialInput, Exposure, ShutterStep, Tick, TickEvent
 from teleop.core.setpoints import PositionTarget, Setpoint, StateTarget, Stop, VelocityTarget
 
 _SETPOINTS: tuple[type[Setpoint], ...] = (VelocityTarget, PositionTarget, StateTarget, Stop)
@@ -46,14 +46,11 @@ def _event(event: TickEvent) -> Sequence[Any]:
             return "dial", event
         case Exposure():
             return "exposure", (event.frame, event.step.value)
-        case TickAt(moment):
-            return "tick_at", (moment,)
 
 
 _EVENTS: Mapping[str, Any] = {
     "action": Action,
     "command": lambda fields: DeviceCommand(fields[0], fields[1], tuple(fields[2])),
     "dial": lambda fields: DialInput(*fields),
-    "tick_at": lambda fields: TickAt(*fields),
     "exposure": lambda fields: Exposure(fields[0], ShutterStep(fields[1])),
 }

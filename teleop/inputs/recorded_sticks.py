@@ -17,7 +17,7 @@ from pathlib import Path
 from teleop.config.documents.document import DocumentError
 from teleop.config.documents.messages import nearest
 from teleop.core.axes import Axis, Motion
-from teleop.core.events import TickEvent
+from teleop.core.events import SourceEvent, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, PositionTarget, Setpoint, VelocityTarget
 
@@ -134,7 +134,7 @@ class SticksSource:
     def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - sticks do not mind where the axes are
         self.begin = now
 
-    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         """The deflections of the last row whose time has come, as velocities."""
         row = bisect.bisect_right(self._sticks.times, now - self.begin + 1e-9) - 1
         if row < 0 or row == len(self._sticks.times) - 1:

@@ -15,7 +15,7 @@ from teleop.config.device_commands import DRONE
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
 from teleop.core.axes import Axis, Limits, Motion, Reading, moves
-from teleop.core.events import Action, DeviceCommand, DialInput, TickEvent
+from teleop.core.events import Action, DeviceCommand, DialInput, SourceEvent
 from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Input, Press
 from teleop.core.setpoints import Demand, PositionTarget, Setpoint, Stop
@@ -66,7 +66,7 @@ class Operator:
         self._manual_control = self._beneath_unlocked = True
         self._dial = 0.0
         self._follow = ""
-        self._actions: list[TickEvent] = []
+        self._actions: list[SourceEvent] = []
         self._log = MessageLog()
         self._commands: Mapping[Command, Callable[[Interlock, Press], None]] = {
             Command.STOP: self._stop,
@@ -118,7 +118,7 @@ class Operator:
         elif action is Action.STOP:
             self._recording = self._filming  # the next press asks it to stop once more
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         self._motion, self._readings = feedback.motion, feedback.readings
         seconds, self._now, self._actions = now - self._now, now, []
         presses = [(lock, press) for lock in self._locks for press in lock.read(now, self._manual_control).presses]

@@ -16,7 +16,7 @@ from typing import Protocol
 
 from teleop.core.axes import Motion
 from teleop.core.errors import DeviceError, Interrupted
-from teleop.core.events import TickEvent
+from teleop.core.events import SourceEvent, TickEvent
 from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Held, Input, Press
 from teleop.core.run_status import Hint, RunStatus, stop_state
@@ -151,7 +151,7 @@ class StopGuard:
         if self._hold is not Hold.FREE:
             self._source.suspend(now)
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         """Raises Interrupted once an operator has ended it, DeviceError where a lost input does."""
         self._motion = feedback.motion
         # A STOP has the last word: a clear in the same tick does not undo it.

@@ -15,7 +15,7 @@ from enum import Enum
 from typing import Any
 
 from teleop.core.axes import Axis, State
-from teleop.core.events import DeviceCommand, DialInput, Exposure, Tick, TickAt, TickEvent
+from teleop.core.events import DeviceCommand, DialInput, Exposure, Tick, TickEvent
 from teleop.core.setpoints import PositionTarget, Setpoint, StateTarget, VelocityTarget
 from teleop.recording.played import PlaceWriter, Played
 
@@ -173,8 +173,6 @@ def _action(event: TickEvent) -> dict[str, Any]:
             return {"action": "dialled", "speed": speed}
         case Exposure(frame, step):
             return {"action": step.value, "frame": frame}
-        case TickAt(moment):
-            return {"action": "tick_at", "time": moment}
         case _:
             return {"action": event.value}
 

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 from teleop.core.axes import Axis, Motion
 from teleop.core.errors import TeleopError
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import SourceEvent, Tick
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, StateTarget
 from teleop.planner.go_motion import RAMP, ExposureRuns
@@ -44,7 +44,7 @@ class GoMotionJob:
     def start(self, now: float, motion: Motion) -> None:  # noqa: ARG002 - `check_start` has seen it
         self._pressed = now + RAMP
 
-    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         return {axis: StateTarget(*state) for axis, state in self._move.at(now - self._pressed).items()}, ()
 
     def done(self, tick: Tick) -> bool:

@@ -12,7 +12,7 @@ from typing import Protocol
 from teleop.app.program import MoveJob
 from teleop.core.axes import Axis, Motion
 from teleop.core.errors import TeleopError
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import SourceEvent, Tick, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand
 from teleop.devices.gimbal.outlook import Foreseen
@@ -33,7 +33,7 @@ class RemoteJob(Protocol):
 
     def start(self, now: float, motion: Motion) -> None: ...
 
-    def read(self, now: float, feedback: Feedback, /) -> tuple[Demand, Sequence[TickEvent]]: ...
+    def read(self, now: float, feedback: Feedback, /) -> tuple[Demand, Sequence[SourceEvent]]: ...
 
     def done(self, tick: Tick) -> bool:
         """Whether it is complete, seen from this tick; raises TeleopError when it cannot be completed."""
@@ -121,7 +121,7 @@ class JobSource:
 
     def start(self, now: float, motion: Motion) -> None: ...  # jobs begin later
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         events, self.events = self.events, []
         job = self.job
         if job is not None and (lost := set(job.axes) & set(self._taken())):

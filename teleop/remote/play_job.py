@@ -12,7 +12,7 @@ from typing import Any
 
 from teleop.core.axes import Axis, Motion
 from teleop.core.errors import TeleopError
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import SourceEvent, Tick
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand
 from teleop.planner.chasing import Reference
@@ -57,7 +57,7 @@ class PlayJob:
         if self.halted:
             self.source.suspend(now)
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         self._motion = feedback.motion
         if self.halted and self._going and self._rests:
             self.halted, self._going = "", False

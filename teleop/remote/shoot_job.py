@@ -13,7 +13,7 @@ from typing import Any
 
 from teleop.core.axes import Axis, Motion
 from teleop.core.errors import TeleopError
-from teleop.core.events import ShutterResult, Tick, TickEvent
+from teleop.core.events import ShutterResult, SourceEvent, Tick
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand
 from teleop.monitors.tracking_error import TrackingErrorMonitor
@@ -72,7 +72,7 @@ class ShootJob:
         if self.halted:
             self._source.suspend(now)
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         """What goes wrong ends the job and not the run of the rig."""
         self._motion = feedback.motion
         try:

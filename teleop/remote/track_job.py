@@ -12,7 +12,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 
 from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.errors import TeleopError
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import SourceEvent, Tick
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, Setpoint, StateTarget, Stop
 from teleop.remote.aims import ENDED, AimStream
@@ -60,7 +60,7 @@ class TrackJob:
         for axis, followed in self._followed.items():
             followed.start(self._stream.at(axis, now).position, motion[axis])
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         seconds, self._now = now - self._now, now
         if not self._stream.fresh(now) or self._stream.axes != tuple(self._followed):
             return {axis: Stop() for axis in self._followed}, ()

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from teleop.core.axes import Axis, Motion, State
 from teleop.core.errors import Interrupted
-from teleop.core.events import TickEvent
+from teleop.core.events import SourceEvent, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input, Press
 from teleop.core.run_status import Hint, RunStatus
@@ -121,7 +121,7 @@ class PlaybackControls:
         self._note = ""
         self._sequence.resume(now, bare)
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         """Raises Interrupted once an operator has ended it."""
         self._check_keys(now)
         if self._stopped:

@@ -14,7 +14,7 @@ from concurrent.futures import Executor
 
 from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.errors import DeviceError
-from teleop.core.events import TickAt, TickEvent
+from teleop.core.events import SourceEvent, TickAt
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand, StateTarget
 from teleop.core.timing import KEEP_ALIVE, SAME_TIME, whole_ticks
@@ -63,7 +63,7 @@ class SequenceSource:
         self.cues: list[Cue] = []  # still to come in this pass
         self._ease, self._ease_begin = Move({}), math.inf
         self.until = math.inf  # when the phase is over, if that is known
-        self._events: list[TickEvent] = []
+        self._events: list[SourceEvent] = []
         self._go_pressed = False
         self._prepared = 0  # the last pass for which the settings were made
         self.missed = ""  # why the trigger can no longer come: it was due while the run was stopped
@@ -90,7 +90,7 @@ class SequenceSource:
         self._ease_to_time(self.playback.opening, now, motion)
         self._foresee_begin()
 
-    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         self._events = []
         self._advance(now)
         if self.waiting and self._go_pressed:

@@ -12,7 +12,7 @@ from enum import Enum, auto
 
 from teleop.core.axes import Motion
 from teleop.core.errors import Interrupted
-from teleop.core.events import ShutterResult, TickEvent
+from teleop.core.events import ShutterResult, SourceEvent, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input
 from teleop.core.setpoints import Demand, StateTarget
@@ -81,7 +81,7 @@ class ByHandSource:
         self._mover.approach(now, motion, self.frame)
         self.begin = self._mover.arrival
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:  # noqa: ARG002 - not asked
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:  # noqa: ARG002 - not asked
         self._check_keys(now)
         self._advance(now)
         demand = {axis: StateTarget(*state) for axis, state in self._mover.at(now).items()}

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from teleop.core.axes import Motion
 from teleop.core.errors import Interrupted
-from teleop.core.events import ShutterResult, TickEvent
+from teleop.core.events import ShutterResult, SourceEvent, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command, Input
 from teleop.core.setpoints import Demand, StateTarget
@@ -59,7 +59,7 @@ class TimelapseSource:
         self._set_out(now, motion, self._timelapse.delay if self._cycle.frame == 0 else 0.0)
         self.begin = self.slot
 
-    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         self._check_keys(now)
         if self.phase is TimelapsePhase.SETTLE:
             self._cycle.settle_detector.update(feedback.readings)

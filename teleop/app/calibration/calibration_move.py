@@ -12,7 +12,7 @@ from itertools import pairwise
 
 from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.errors import DeviceError, UsageError
-from teleop.core.events import TickEvent
+from teleop.core.events import SourceEvent, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.run_status import RunStatus
 from teleop.core.setpoints import Demand, Setpoint, StateTarget
@@ -72,7 +72,7 @@ class CalibrationMove:
         """From the first swing, where the axis rests now."""
         self.start(now, motion)
 
-    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:
+    def read(self, now: float, _feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:
         place, velocity, acceleration = self._at(now - self.begin)
         setpoint: Setpoint = StateTarget(
             self._rest + self._side * place, self._side * velocity, self._side * acceleration

@@ -15,7 +15,7 @@ from statistics import fmean
 from teleop.config.wiring import Wiring
 from teleop.core.axes import Axis, Limits, Motion
 from teleop.core.errors import DeviceError
-from teleop.core.events import Tick, TickEvent
+from teleop.core.events import SourceEvent, Tick, TickEvent
 from teleop.core.interfaces import Feedback
 from teleop.core.setpoints import Demand
 from teleop.devices.connection import Connection
@@ -78,7 +78,7 @@ class SignProbe:
             if min(limits.maximum - place, place - limits.minimum) < ROOM:
                 raise DeviceError(f"{axis} has no room for a test move of {REACH:g} deg: move it further in")
 
-    def read(self, _now: float, _feedback: Feedback) -> tuple[Demand, Sequence[TickEvent]]:  # the planner only rests
+    def read(self, _now: float, _feedback: Feedback) -> tuple[Demand, Sequence[SourceEvent]]:  # the planner only rests
         return {}, ()
 
     def next_change(self, now: float) -> float:
