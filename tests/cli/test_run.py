@@ -294,12 +294,13 @@ def test_two_processes_talk_over_a_real_bus(bus: str, tmp_path: Path) -> None:
         assert far.returncode == 130
 
 
-def test_two_programs_on_one_bus_are_recognised(bus: str) -> None:
+def test_two_programs_on_one_bus_are_recognised(bus: str, tmp_path: Path) -> None:
+    (tmp_path / "slow.yaml").write_text("keyframes: [{at: 0, pan: 0}, {at: 7s, pan: 12}]")
     with running("sim", "--link", bus) as far:
         assert far.stdout is not None
         far.stdout.readline()
         with (
-            running("play", "reveal", "--link", bus, "--json") as one,
+            running("play", str(tmp_path / "slow.yaml"), "--link", bus, "--json") as one,
             running("calibrate", "delay", "--axis", "roll", "--link", bus) as other,
         ):
             out, said = one.communicate(timeout=60)
