@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
-from time import monotonic, sleep
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Event, Thread
+from time import sleep
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from teleop.cli.fleet.options import DEFAULTS, FleetOptions
+from teleop.cli.screens.folded import complain
 
 if TYPE_CHECKING:
     from teleop.studio.fleet import Fleet
@@ -25,11 +29,33 @@ def fleet_table(
 ) -> int:
     """Show all rigs: state, holder of control, move, error, age of the link, battery, offset of the clock."""
     with options.fleet() as fleet:
-        fleet.measure_clocks()
         if once:
+            fleet.measure_clocks()
             _print(fleet, options.json)
+            for problem in fleet.problems:
+                complain(f"teleop: {problem}")
             return 0
-        return _lines(fleet) if options.json else _live(fleet)
+        with _clocks_kept(fleet):
+            return _lines(fleet) if options.json else _live(fleet)
+
+
+@contextmanager
+def _clocks_kept(fleet: Fleet) -> Iterator[None]:
+    """The clocks are looked at meanwhile, beside the table: a rig that does not answer holds no picture up."""
+    over = Event()
+
+    def look() -> None:
+        fleet.measure_clocks()
+        while not over.wait(CLOCKS_EVERY):
+            fleet.measure_clocks()
+
+    thread = Thread(target=look, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        over.set()
+        thread.join()
 
 
 def _print(fleet: Fleet, as_json: bool) -> None:
@@ -41,8 +67,6 @@ def _print(fleet: Fleet, as_json: bool) -> None:
     from teleop.cli.screens.fleet_rows import fleet_table as drawn
 
     Console().print(drawn(fleet.rigs))
-    for problem in fleet.problems:
-        Console(stderr=True).print(f"teleop: {problem}", markup=False, highlight=False)
 
 
 def _lines(fleet: Fleet) -> int:
@@ -50,7 +74,6 @@ def _lines(fleet: Fleet) -> int:
     while True:
         _print(fleet, True)
         sleep(EVERY_LINE)
-        fleet.measure_clocks()
 
 
 def _live(fleet: Fleet) -> int:
@@ -58,11 +81,7 @@ def _live(fleet: Fleet) -> int:
 
     from teleop.cli.screens.fleet_rows import fleet_table as drawn
 
-    measured = monotonic()
     with Live(drawn(fleet.rigs, fleet.problems), auto_refresh=False, screen=False) as live:
         while True:
             sleep(EVERY)
-            if monotonic() - measured > CLOCKS_EVERY:
-                measured = monotonic()
-                fleet.measure_clocks()
             live.update(drawn(fleet.rigs, fleet.problems), refresh=True)
