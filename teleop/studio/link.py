@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from teleop.core.errors import TeleopError
 from teleop.studio import wire
+from teleop.studio.diagnosis import why_not
 from teleop.studio.transport import Reader, opened, require, ring
 
 if TYPE_CHECKING:
@@ -73,7 +74,8 @@ class Link:
             try:
                 session = opened("client", connect=[self.endpoint], credentials=self._credentials)
             except TeleopError as error:
-                self._problem = str(error)
+                why = why_not(self.endpoint, self._credentials)
+                self._problem = f"{self.endpoint}: {why}" if why else str(error)
                 self.tried.set()
                 self._over.wait(AGAIN)
                 continue

@@ -126,6 +126,10 @@ def test_an_operator_operates_a_watcher_stops_and_a_stranger_does_nothing(tmp_pa
             assert odd.rigs == []
             assert odd.problems == [f"{endpoint}: answers, but shows no rig: is odd in its access.yaml?"]
             assert stop(odd, patience=0.1) == [endpoint]
+        with fleet(foreign.folder / "anna.yaml") as stranger:
+            stranger.wait(10)
+            assert stranger.problems[0].startswith(f"{endpoint}: its certificate is of another fleet: both sides need")
+            assert stop(stranger, patience=0.1) == [endpoint]
         with pytest.raises(DeviceError):
             opened("client", connect=[endpoint], credentials=load(str(foreign.folder / "anna.yaml")))
         with pytest.raises(DeviceError):

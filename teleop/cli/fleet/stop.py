@@ -33,7 +33,8 @@ def fleet_stop(
         for name in stopped:
             tell(f"{name}: stopped")
         for name in missed:
-            complain(f"teleop: {name} NOT REACHED: no state of it shows the STOP; switch it off")
+            what = "no rig answers there" if "/" in name else "its state does not show the STOP"
+            complain(f"teleop: {name} NOT REACHED: {what}; switch it off")
     for problem in problems:
         complain(f"teleop: {problem}")
     if not stopped and not missed:

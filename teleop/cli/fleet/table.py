@@ -13,11 +13,13 @@ from cyclopts import Parameter
 
 from teleop.cli.fleet.options import DEFAULTS, FleetOptions
 from teleop.cli.screens.folded import complain
+from teleop.studio.rig_state import LOST
 
 if TYPE_CHECKING:
     from teleop.studio.fleet import Fleet
 
 EVERY = 0.1  # s between two pictures of the table
+SOONEST = 0.02  # s between two pictures at least
 EVERY_LINE = 1.0  # s between two lines of --json
 CLOCKS_EVERY = 2.0  # s between two looks at the clocks
 
@@ -79,9 +81,15 @@ def _lines(fleet: Fleet) -> int:
 def _live(fleet: Fleet) -> int:
     from rich.live import Live
 
-    from teleop.cli.screens.fleet_rows import fleet_table as drawn
+    from teleop.cli.screens.fleet_rows import FleetView
 
-    with Live(drawn(fleet.rigs, fleet.problems), auto_refresh=False, screen=False) as live:
+    with Live(FleetView(fleet.rigs, fleet.problems), auto_refresh=False, screen=False) as live:
         while True:
-            sleep(EVERY)
-            live.update(drawn(fleet.rigs, fleet.problems), refresh=True)
+            sleep(_pause(fleet))
+            live.update(FleetView(fleet.rigs, fleet.problems), refresh=True)
+
+
+def _pause(fleet: Fleet) -> float:
+    """s to the next picture: where a rig is silent, when it would be lost."""
+    silence = max((rig.age or 0.0 for rig in fleet.rigs if rig.alive), default=0.0)
+    return max(SOONEST, min(EVERY, LOST - silence))

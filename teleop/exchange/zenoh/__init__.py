@@ -7,6 +7,7 @@ import asyncio
 from teleop.config.exchange.zenoh import ZenohSection
 from teleop.exchange.served import Served
 from teleop.exchange.zenoh.bridge import Bridge
+from teleop.exchange.zenoh.reaching import tell_reached
 from teleop.studio.credentials import load
 from teleop.studio.transport import opened
 
@@ -17,7 +18,9 @@ async def serve(section: ZenohSection, served: Served) -> None:
     access = None if credentials is None else credentials.access()
     listen = [section.listen] if section.listen else []
     session = await asyncio.to_thread(opened, "peer", listen, section.connect, credentials, access)
+    reaching = asyncio.create_task(tell_reached(section, served, session, credentials))
     try:
         await Bridge(section, served, session, asyncio.get_running_loop()).run()
     finally:
+        reaching.cancel()
         session.close()  # else its threads keep the process
