@@ -131,9 +131,14 @@ def _each(names: Sequence[str], work: Callable[[str], Any]) -> dict[str, Any]:
 
 def _accepted(fleet: Fleet, name: str, move: SentMove, attended: bool, options: Mapping[str, Any]) -> Mapping[str, Any]:
     """The rig's plan of its move: it has control of it for us, and holds the move."""
-    if not fleet.rig(name).alive:
+    rig = fleet.rig(name)
+    if not rig.alive:
         raise TeleopError("is not there")
     _good(fleet.command(name, {"do": "take_control"}))
+    if (rig.state.get("move") or {}).get(
+        "phase"
+    ) == "paused":  # as a STOP has left it, and nothing of a fleet resumes it
+        _good(fleet.command(name, {"do": "abort", "wait": True}))
     fleet.measure_clock(name)
     load = {"title": move.title, "text": move.text, "attended": attended, **options}
     return _good(fleet.ask(name, "command/load", load, PLANNING))

@@ -132,6 +132,22 @@ def test_a_rig_that_is_not_there_is_named_and_no_rig_plays():
     assert refused.value.problems == {"cam-a": "is not there", "cam-x": "there is no rig cam-x; seen: cam-a"}
 
 
+def test_a_move_that_a_stop_has_paused_is_given_up_for_the_new_one(monkeypatch: pytest.MonkeyPatch):
+    fleet = Fleet([], memory=False)
+    state = {"move": {"title": "wide", "phase": "paused"}}
+    fleet.heard_state(Link("tcp/127.0.0.1:1", None, fleet), "cam-a", state, time.monotonic() + 60)
+    asked: list[str] = []
+
+    def ask(_name: str, what: str, message: dict, _timeout: float = 0.0) -> dict:
+        asked.append(message.get("do", what))
+        return {"ok": True} if message.get("do") else {"error": "enough", "kind": "refused"}
+
+    monkeypatch.setattr(fleet, "ask", ask)
+    with pytest.raises(FleetError, match="enough"):
+        play(fleet, {"cam-a": SentMove("m", "")}, lambda: 1.0)
+    assert [each for each in asked if each != "command/clock"][:3] == ["take_control", "abort", "command/load"]
+
+
 def test_whoever_is_not_in_the_access_list_can_do_nothing():
     found = access_control({"anna": "operate"})
     assert (found["enabled"], found["default_permission"]) == (True, "deny")
