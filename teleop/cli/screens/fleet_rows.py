@@ -70,7 +70,7 @@ def _move(move: Any) -> str:
     if not isinstance(move, Mapping):
         return NOTHING
     at, duration = move.get("at"), move.get("duration")
-    timed = f" {at:.1f}/{duration:.1f}\N{NO-BREAK SPACE}s" if isinstance(at, int | float) and isinstance(duration, int | float) else ""
+    timed = f" {at:.1f}/{duration:.1f} s" if isinstance(at, int | float) and isinstance(duration, int | float) else ""
     return plain(f"{move.get('title')}{timed}")
 
 
