@@ -39,9 +39,7 @@ def _refused(plain: socket.socket, credentials: Credentials) -> str:
             protected.settimeout(REFUSING)
             return "" if protected.recv(1) else "it closes the connection"
     except ssl.SSLCertVerificationError as error:
-        expired = "expired" in error.verify_message or "not yet valid" in error.verify_message
-        what = f"{error.verify_message}: set this computer's clock" if expired else f"is of another fleet: {SAME}"
-        return f"its certificate {what}"
+        return f"its certificate {_unverified(error.verify_message)}"
     except TimeoutError:
         return ""
     except ssl.SSLError as error:
@@ -50,3 +48,11 @@ def _refused(plain: socket.socket, credentials: Credentials) -> str:
         return "it speaks no TLS: something else listens there"
     except OSError:
         return "it closes the connection"
+
+
+def _unverified(why: str) -> str:
+    if "purpose" in why:
+        return "is an operator's: a rig and a router need their own"
+    if "expired" in why or "not yet valid" in why:
+        return f"is not valid now ({why}): are the clocks of both computers right?"
+    return f"is of another fleet: {SAME}"

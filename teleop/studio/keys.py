@@ -63,7 +63,7 @@ class KeyFolder:
         self._write(f"{name}.pem", _pem(certificate))
         self._write(f"{name}.key", _secret(key))
         self.members[name] = role
-        self._write_access()
+        self.write_access()
         found = {"name": name, "ca": f"{AUTHORITY}.pem", "certificate": f"{name}.pem", "key": f"{name}.key"}
         self._write(f"{name}.yaml", _yaml({**found, **({"access": ACCESS} if serves else {})}))
         self.write_routers()
@@ -93,7 +93,8 @@ class KeyFolder:
         self._write(f"{AUTHORITY}.pem", _pem(certificate))
         return certificate, key
 
-    def _write_access(self) -> None:
+    def write_access(self) -> None:
+        """The access list of the members that there are by now."""
         head = "# Roles: rig, watch, operate or router. All others can do nothing. Copy it to every rig.\n"
         self._write(ACCESS, head + _yaml({"members": dict(self.members)}))
 

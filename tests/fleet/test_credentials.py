@@ -99,7 +99,7 @@ def test_an_operator_operates_a_watcher_stops_and_a_stranger_does_nothing(tmp_pa
     made.add("wim", "watch", serves=False)
     made.add("odd", "watch", serves=False)
     made.members.pop("odd")  # of this authority, and no member any more
-    made._write_access()
+    made.write_access()
     foreign = KeyFolder(tmp_path / "foreign")
     foreign.add("anna", "operate", serves=False)
     endpoint = f"tls/127.0.0.1:{free_port()}"

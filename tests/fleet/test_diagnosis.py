@@ -15,7 +15,7 @@ import pytest
 from fleet_bench import free_port
 
 from teleop.config.exchange.zenoh import ZenohSection
-from teleop.exchange.zenoh import reaching
+from teleop.exchange.zenoh import reaching, unfit
 from teleop.studio.credentials import Credentials, load
 from teleop.studio.diagnosis import why_not
 from teleop.studio.keys import KeyFolder
@@ -64,12 +64,26 @@ def test_the_reason_is_one_that_the_operator_can_act_on(tmp_path: Path):
         assert why_not(endpoint, half) == f"it does not take the certificate of anna: {FLEET}"  # type: ignore[arg-type]
     with listening(rig) as endpoint:
         assert why_not(endpoint, anna) == ""
+    rig.load_cert_chain(tmp_path / "keys" / "anna.pem", tmp_path / "keys" / "anna.key")
+    with listening(rig) as endpoint:
+        assert why_not(endpoint, anna) == "its certificate is an operator's: a rig and a router need their own"
     with listening(None) as endpoint:
         assert why_not(endpoint, anna) == "it speaks no TLS: something else listens there"
     with listening(None) as endpoint:
         assert why_not(f"tcp{endpoint[3:]}", None) == "something else listens there, or it needs tls/ and --credentials"
     assert why_not(f"tls/127.0.0.1:{free_port()}", anna).startswith("nothing listens there")
     assert why_not("tls/no.invalid:7447", anna) == "there is no computer no.invalid on this network"
+
+
+def test_a_rig_needs_a_rig_s_credentials_of_its_own_name(tmp_path: Path):
+    keys = KeyFolder(tmp_path)
+    file, anna = keys.add("cam-a", "rig", serves=True), keys.add("anna", "operate", serves=False)
+    assert unfit("cam-a", load(str(file))) == ""
+    assert unfit("cam-b", load(str(file))) == "is of cam-a, and the entry is called cam-b: both must have one name"
+    assert unfit("anna", load(str(anna))).startswith("its access list does not have anna: make it with")
+    keys.members["cam-a"] = "watch"
+    keys.write_access()
+    assert unfit("cam-a", load(str(file))).startswith("its access list has cam-a as `watch`: make it with")
 
 
 def mixed(folder: Path) -> ssl.SSLContext:
