@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from rich.box import HEAVY_HEAD
+from rich.box import SIMPLE_HEAD
 from rich.console import Console, ConsoleOptions, RenderResult
 from rich.table import Table
 from rich.text import Text
@@ -42,7 +42,7 @@ class FleetView:
 def fleet_table(rigs: Sequence[RigState], problems: Sequence[str] = (), short: bool = False) -> Table:
     """`problems` are why endpoints are not connected; `short` has one line for each rig."""
     below = Text("\n".join(map(plain, problems)), no_wrap=short, overflow="ellipsis") if problems else None
-    table = Table(caption=below, caption_justify="left", box=None if short else HEAVY_HEAD, pad_edge=not short)
+    table = Table(caption=below, caption_justify="left", box=None if short else SIMPLE_HEAD, padding=(0, 1, 0, 0))
     for title in ("rig", "state", "holder", "move", "error", "link", "battery", "clock"):
         right, fixed = title in ("link", "battery", "clock"), title not in FOLDED
         table.add_column(title, justify="right" if right else "left", no_wrap=fixed, overflow="fold")
