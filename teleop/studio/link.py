@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from teleop.studio.credentials import Credentials
 
 AGAIN = 0.3  # s between two tries
+REPEATED = ("command/stop", "command/clock")  # rather lost than late; others are asked once
 HISTORY, TRIES = 1.0, 3  # s for the rigs that are there already, and how often they are asked for
 
 
@@ -125,7 +126,7 @@ class Link:
             payload=wire.encoded(message),
             timeout=timeout,
             consolidation=package.ConsolidationMode.NONE,  # the first answer counts, at once
-            congestion_control=package.CongestionControl.DROP,
+            congestion_control=package.CongestionControl.DROP if what in REPEATED else package.CongestionControl.BLOCK,
             priority=package.Priority.INTERACTIVE_HIGH,
             express=True,
         )
