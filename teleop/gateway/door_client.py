@@ -41,7 +41,7 @@ class DoorClient:
     def __init__(self, address: DoorAddress) -> None:
         self.address = address
         self._ids = itertools.count(1)
-        self._answers: dict[int, asyncio.Future[dict[str, Any]]] = {}
+        self._answers: dict[int, asyncio.Queue[dict[str, Any]]] = {}
         self._ends: OrderedDict[int, asyncio.Future[dict[str, Any]]] = OrderedDict()
         self._unpacker = StateUnpacker()
         self._number, self._decoded = 0, {}
@@ -141,7 +141,7 @@ class DoorClient:
             data = packed(message)
         except CommandError as error:
             return {"error": str(error), "kind": "invalid"}
-        self._answers[number], self._ends[number] = self._loop.create_future(), self._loop.create_future()
+        self._answers[number], self._ends[number] = asyncio.Queue(), self._loop.create_future()
         try:
             found = await self._answered(number, data, do == "stop")
         finally:
@@ -153,25 +153,26 @@ class DoorClient:
         return found
 
     async def _answered(self, number: int, data: bytes, stops: bool) -> dict[str, Any]:
-        answer = self._answers[number]
+        answers = self._answers[number]
         end = monotonic() + TIMEOUT
         while monotonic() < end:
             self._send(data, first=stops)
-            await asyncio.wait([answer], timeout=STOP_REPEAT if stops else REPEAT)
-            if answer.done():
-                found = answer.result()
-                if not found.pop("planning", False):
-                    if stops:
-                        self._start(self._repeat_stop(data))
-                    return found
-                return await self._planned(number)
+            with suppress(TimeoutError):
+                found = await asyncio.wait_for(answers.get(), STOP_REPEAT if stops else REPEAT)
+                if found.get("planning"):
+                    return await self._planned(answers)
+                if stops:
+                    self._start(self._repeat_stop(data))
+                return found
         return {"error": LOST, "kind": "lost"}
 
-    async def _planned(self, number: int) -> dict[str, Any]:
-        """The answer proper, of a command that had to be planned."""
-        answer = self._answers[number] = self._loop.create_future()
+    async def _planned(self, answers: asyncio.Queue[dict[str, Any]]) -> dict[str, Any]:
+        """The answer proper, of a command that had to be planned; it may have come together with the first one."""
         with suppress(TimeoutError):
-            return await asyncio.wait_for(answer, PLANNING)
+            async with asyncio.timeout(PLANNING):
+                while (found := await answers.get()).get("planning"):
+                    pass  # the command was sent twice, and so was this
+                return found
         return {"error": "the rig has not planned it in time", "kind": "lost"}
 
     async def _repeat_stop(self, data: bytes) -> None:
@@ -288,9 +289,11 @@ class DoorClient:
         number = answer.get("id")
         if not isinstance(number, int):
             return
-        future = (self._ends if answer.pop("done", False) else self._answers).get(number)
-        if future is not None and not future.done():
-            future.set_result(answer)
+        if not answer.pop("done", False):
+            if (answers := self._answers.get(number)) is not None:
+                answers.put_nowait(answer)
+        elif (end := self._ends.get(number)) is not None and not end.done():
+            end.set_result(answer)
 
 
 def _older(age: float | None, since: float) -> float | None:

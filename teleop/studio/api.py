@@ -71,7 +71,7 @@ class Rigs:
     def stop(self, *names: str, seconds: float = PATIENCE) -> list[str]:
         """STOP these rigs, or all; it is repeated until the state of each shows it. Returns those that do not show it.
 
-        It is no emergency stop: the motors stay powered.
+        For all, that has the endpoints too at which no rig was heard. It is no emergency stop: the motors stay powered.
         """
         for name in names:
             self._fleet.rig(name)

@@ -92,15 +92,17 @@ def play(
 
     Raises FleetError with the rigs that cannot and why; then none plays.
     """
+    held: set[str] = set()
     try:
-        plans = _each(list(moves), lambda name: _accepted(fleet, name, moves[name], attended, options or {}))
+        plans = _each(list(moves), lambda name: _accepted(fleet, name, moves[name], attended, options or {}, held))
         offsets = _each(list(moves), lambda name: _offset(fleet, name))
         moment = monotonic() + when()
         _refuse_haste(plans, moment)
         started = _each(list(moves), lambda name: _started(fleet, name, moment + offsets[name].loop))
     except FleetError:
         for name in moves.keys() & {rig.name for rig in fleet.rigs}:
-            fleet.command(name, {"do": "abort"}, 1.0)
+            if name in held:  # a move that plays there, and is why it has refused, goes on
+                fleet.command(name, {"do": "abort"}, 1.0)
             fleet.left(name)
         raise
     now = monotonic()
@@ -129,14 +131,24 @@ def _each(names: Sequence[str], work: Callable[[str], Any]) -> dict[str, Any]:
     return {name: found[name] for name in names}
 
 
-def _accepted(fleet: Fleet, name: str, move: SentMove, attended: bool, options: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The rig's plan of its move: it has control of it for us, and holds the move."""
-    if not fleet.rig(name).alive:
+def _accepted(
+    fleet: Fleet, name: str, move: SentMove, attended: bool, options: Mapping[str, Any], held: set[str]
+) -> Mapping[str, Any]:
+    """The rig's plan of its move: we have control of it, and it is one of those that have `held` the move."""
+    rig = fleet.rig(name)
+    if not rig.alive:
         raise TeleopError("is not there")
     _good(fleet.command(name, {"do": "take_control"}))
+    if (rig.state.get("move") or {}).get(
+        "phase"
+    ) == "paused":  # as a STOP has left it, and nothing of a fleet resumes it
+        _good(fleet.command(name, {"do": "abort", "wait": True}))
     fleet.measure_clock(name)
     load = {"title": move.title, "text": move.text, "attended": attended, **options}
-    return _good(fleet.ask(name, "command/load", load, PLANNING))
+    answer = fleet.ask(name, "command/load", load, PLANNING)
+    if "error" not in answer or answer.get("kind") == "lost":
+        held.add(name)
+    return _good(answer)
 
 
 def _offset(fleet: Fleet, name: str) -> Offset:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ssl
 from pathlib import Path
 from typing import Any, Literal
 
@@ -54,6 +55,13 @@ class Credentials:
     def tls(self) -> dict[str, Any]:
         """Zenoh's settings of TLS."""
         return tls_settings(self._ca, self._certificate, self._key)
+
+    def context(self) -> ssl.SSLContext:
+        """Python's TLS with the same certificates, to find out what is wrong with them."""
+        context = ssl.create_default_context(cafile=self._ca)
+        context.check_hostname = False
+        context.load_cert_chain(self._certificate, self._key)
+        return context
 
     def access(self) -> dict[str, Any]:
         """Zenoh's access control for this member's own session."""

@@ -32,6 +32,7 @@ ANSWER = 3.0  # s for the answer to a command
 CLOCK_ANSWER = 0.2  # s for the answer of a clock: a later one tells nothing
 ROUNDS = 8  # of the clock at once
 LOOK = 0.01  # s
+ROLE = "the role `operate` in its access.yaml"
 
 
 class Fleet:
@@ -81,8 +82,13 @@ class Fleet:
 
     @property
     def problems(self) -> list[str]:
-        """Why endpoints are not connected."""
+        """Why there is no rig at some endpoints."""
         return [link.problem for link in self._links if link.problem]
+
+    @property
+    def silent(self) -> list[str]:
+        """Endpoints at which no rig was heard yet, or not all those that are there."""
+        return [link.endpoint for link in self._links if not (link.heard and link.ready.is_set())]
 
     def rig(self, name: str) -> RigState:
         """Raises TeleopError for one that was never seen."""
@@ -132,10 +138,14 @@ class Fleet:
 
     def ask(self, name: str, what: str, message: dict[str, Any], timeout: float = ANSWER) -> dict[str, Any]:
         """The answer of a rig: `{"ok": True, ...}`, or `error` with its `kind` and for "busy" the `holder`."""
-        link = self.rig(name).link
-        if link is None:
+        rig = self.rig(name)
+        if (link := rig.link) is None:
             return {"error": f"{name} cannot be reached", "kind": "lost"}
-        return link.ask(name, what, {**message, "session": self.session, "name": self.name}, timeout)
+        asked = monotonic()
+        answer = link.ask(name, what, {**message, "session": self.session, "name": self.name}, timeout)
+        if answer.get("kind") == "lost" and link.member and rig.alive and monotonic() - asked < timeout:
+            return {**answer, "error": f"{name} does not answer {link.member}: that needs {ROLE}"}
+        return answer
 
     def command(self, name: str, message: dict[str, Any], timeout: float = ANSWER) -> dict[str, Any]:
         """As `ask`, of any command of the door. From then on the rig knows whether this operator is there."""
@@ -164,6 +174,8 @@ class Fleet:
             sent = monotonic()
             answer = self.ask(name, "command/clock", {}, CLOCK_ANSWER)
             arrived = monotonic()
+            if "error" in answer and not rig.alive:
+                break
             if "error" not in answer:
                 with suppress(ValueError, OverflowError):  # it tells no time: its clock stays unknown
                     rig.offset = clocks.better(rig.offset, clocks.measured(answer, sent, arrived))

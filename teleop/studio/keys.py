@@ -63,12 +63,18 @@ class KeyFolder:
         self._write(f"{name}.pem", _pem(certificate))
         self._write(f"{name}.key", _secret(key))
         self.members[name] = role
-        self._write_access()
+        self.write_access()
         found = {"name": name, "ca": f"{AUTHORITY}.pem", "certificate": f"{name}.pem", "key": f"{name}.key"}
         self._write(f"{name}.yaml", _yaml({**found, **({"access": ACCESS} if serves else {})}))
-        if role == "router":
-            self._write(f"{name}.{ROUTER}", router_settings(name, self.members))
+        self.write_routers()
         return file
+
+    def write_routers(self) -> list[Path]:
+        """The configuration of each router anew, for the members that there are by now; the files."""
+        names = sorted(name for name, role in self.members.items() if role == "router")
+        for name in names:
+            self._write(f"{name}.{ROUTER}", router_settings(name, self.members))
+        return [self.folder / f"{name}.{ROUTER}" for name in names]
 
     def _loaded(self) -> tuple[x509.Certificate, ec.EllipticCurvePrivateKey]:
         from cryptography import x509
@@ -87,8 +93,9 @@ class KeyFolder:
         self._write(f"{AUTHORITY}.pem", _pem(certificate))
         return certificate, key
 
-    def _write_access(self) -> None:
-        head = "# Roles: rig, watch, operate or router. All others can do nothing. Copy it to every rig and router.\n"
+    def write_access(self) -> None:
+        """The access list of the members that there are by now."""
+        head = "# Roles: rig, watch, operate or router. All others can do nothing. Copy it to every rig.\n"
         self._write(ACCESS, head + _yaml({"members": dict(self.members)}))
 
     def _write(self, name: str, text: str) -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from teleop.core.errors import TeleopError
 from teleop.studio import wire
+from teleop.studio.diagnosis import why_not
 from teleop.studio.transport import Reader, opened, require, ring
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from teleop.studio.credentials import Credentials
 
 AGAIN = 0.3  # s between two tries
+REPEATED = ("command/stop", "command/clock")  # rather lost than late; others are asked once
 HISTORY, TRIES = 1.0, 3  # s for the rigs that are there already, and how often they are asked for
 
 
@@ -32,18 +34,28 @@ class Heard(Protocol):
 
 
 class Link:
-    """`ready` is set once the rigs behind the endpoint are known, `tried` once it was tried; `problem` is why it is
-    not open."""
+    """`ready` is set once the rigs behind the endpoint are known, `tried` once it was tried; `heard` is whether a rig
+    was heard there."""
 
     def __init__(self, endpoint: str, credentials: Credentials | None, heard: Heard) -> None:
         self.endpoint, self._credentials, self._heard = endpoint, credentials, heard
-        self.problem = ""
+        self.member = "" if credentials is None else credentials.name
+        self.heard = False
+        self._problem = ""
         self.tried, self.ready = threading.Event(), threading.Event()
         self._over = threading.Event()
         self._session: zenoh.Session | None = None
         self._readers: list[Reader] = []
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
         self._thread = threading.Thread(target=self._run, name=f"zenoh {endpoint}", daemon=True)
+
+    @property
+    def problem(self) -> str:
+        """Why there is no rig, "" where there was one."""
+        if self._problem or self.heard or not self.ready.is_set():
+            return self._problem
+        missing = f"{self.endpoint}: answers, but shows no rig"
+        return f"{missing}: is {self.member} in its access.yaml?" if self.member else missing
 
     def start(self) -> None:
         self._thread.start()
@@ -63,11 +75,12 @@ class Link:
             try:
                 session = opened("client", connect=[self.endpoint], credentials=self._credentials)
             except TeleopError as error:
-                self.problem = str(error)
+                why = why_not(self.endpoint, self._credentials)
+                self._problem = f"{self.endpoint}: {why}" if why else str(error)
                 self.tried.set()
                 self._over.wait(AGAIN)
                 continue
-            self.problem, self._session = "", session
+            self._problem, self._session = "", session
             self._subscribe(session)
             self.tried.set()
             self.ready.set()
@@ -83,9 +96,11 @@ class Link:
             except ValueError:
                 return
             self._heard.heard_state(self, wire.rig_of(str(sample.key_expr)), state, arrived)
+            self.heard = True
 
         def on_alive(sample: zenoh.Sample) -> None:
             self._heard.heard_alive(self, wire.rig_of(str(sample.key_expr)), sample.kind == put)
+            self.heard = self.heard or sample.kind == put
 
         live = session.liveliness()
         self._readers.append(Reader(session.declare_subscriber(wire.STATES, ring()), on_state))
@@ -94,6 +109,7 @@ class Link:
             known = [reply.ok for reply in live.get(wire.ALIVES, timeout=HISTORY) if reply.ok is not None]
             for sample in known:
                 self._heard.heard_alive(self, wire.rig_of(str(sample.key_expr)), True)
+                self.heard = True
             if known or self._over.wait(AGAIN):
                 return
 
@@ -110,7 +126,7 @@ class Link:
             payload=wire.encoded(message),
             timeout=timeout,
             consolidation=package.ConsolidationMode.NONE,  # the first answer counts, at once
-            congestion_control=package.CongestionControl.DROP,
+            congestion_control=package.CongestionControl.DROP if what in REPEATED else package.CongestionControl.BLOCK,
             priority=package.Priority.INTERACTIVE_HIGH,
             express=True,
         )

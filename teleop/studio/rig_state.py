@@ -22,7 +22,7 @@ MOVING = ("waiting", "stopping", "releasing", "over")
 class RigState:
     """`token` is whether the rig's own token is there, `arrived` when its newest state came (monotonic, s).
 
-    `seen` is when it was last alive, by the wall clock. `states` and `missed` count its states.
+    `seen` is when it was last alive, by the wall clock.
     """
 
     name: str

@@ -120,6 +120,8 @@ def main(minutes: float, file: str, busy: int) -> None:
                 "minutes": round((time.monotonic() - begin) / 60, 2),
                 "load": round(os.getloadavg()[0], 1),
                 "rigs live": [rig.process.poll() is None for rig in rigs],
+                "ended": {rig.name: rig.last_lines() for rig in rigs if rig.process.poll() is not None},
+                "sent": {name: number for name, (number, _, _) in sorted(fleet.newest.items())},
                 "came": fleet.came,
                 "silence": {name: round(each, 3) for name, each in fleet.silence.items()},
                 "restarts": fleet.restarts,

@@ -38,10 +38,11 @@ def test_tiles_show_the_other_rigs_and_stop_all_stops_them(tmp_path: Path):
                 found = tiles(rig)
                 return [found.get(name, {}).get("state") for name in ("cam-a", "cam-b")] == [state, state]
 
-            for rig in (first, second):
-                wait_until(lambda rig=rig: both("ready", rig), "both rigs on both consoles")
+            wait_until(lambda: both("ready", first), "both rigs")
+            # The first that is asked of this console: it knows no rig yet.
             assert asked(second, "api/fleet/stop", b"{}") == {"ok": True, "not_reached": []}
-            wait_until(lambda: both("stopped", first), "both rigs stopped")
+            for rig in (first, second):
+                wait_until(lambda rig=rig: both("stopped", rig), "both rigs stopped on both consoles")
             second.kill()
             wait_until(lambda: tiles(first)["cam-b"]["alive"] is False, "a lost rig")
             assert asked(first, "api/fleet/stop", b"{}") == {"ok": False, "not_reached": ["cam-b"]}

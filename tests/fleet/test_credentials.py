@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import stat
 from pathlib import Path
 
 import pytest
 from fleet_bench import RigProcess, free_port
 
+from teleop.cli.fleet.keys import fleet_keys
 from teleop.config.documents.document import DocumentError
 from teleop.config.profile import checked_profile
 from teleop.config.resources import find
@@ -45,6 +47,7 @@ def with_entry(entry: str):
         ("listen: 'tcp/127.0.0.1:7447#iface=eth0'", "must be tcp/HOST:PORT"),
         ("listen: 127.0.0.1:7447", "must be tcp/HOST:PORT"),
         ("connect: [tcp/192.168.1.1:7447]", "can be reached by others"),
+        ("listen: tcp/127.0.0.1:7447, rate: 4", "rate"),  # it would be lost between two states
         ("rate: 10", "needs listen, connect or both"),
     ],
 )
@@ -70,6 +73,25 @@ def test_keys_are_for_their_owner_alone_and_made_once(tmp_path: Path):
             again.add(name, "watch", serves=False)
 
 
+def test_the_file_of_a_router_has_those_who_are_members_now(tmp_path: Path):
+    def named() -> set[str]:
+        subjects = json.loads((tmp_path / "studio.router.json5").read_text().partition("\n")[2])["access_control"][
+            "subjects"
+        ]
+        return {name for each in subjects for name in each["cert_common_names"]}
+
+    made = KeyFolder(tmp_path)
+    made.add("studio", "router", serves=True)
+    made.add("anna", "operate", serves=False)
+    assert named() == {"studio", "anna"}
+    access = tmp_path / "access.yaml"
+    access.write_text(access.read_text().replace("  anna: operate\n", ""))
+    assert fleet_keys(tmp_path) == 0
+    assert named() == {"studio"}
+    with pytest.raises(UsageError, match="name the members"):
+        fleet_keys(tmp_path / "new")
+
+
 def test_an_operator_operates_a_watcher_stops_and_a_stranger_does_nothing(tmp_path: Path):
     made = KeyFolder(tmp_path / "keys")
     made.add("cam-a", "rig", serves=True)
@@ -77,7 +99,7 @@ def test_an_operator_operates_a_watcher_stops_and_a_stranger_does_nothing(tmp_pa
     made.add("wim", "watch", serves=False)
     made.add("odd", "watch", serves=False)
     made.members.pop("odd")  # of this authority, and no member any more
-    made._write_access()
+    made.write_access()
     foreign = KeyFolder(tmp_path / "foreign")
     foreign.add("anna", "operate", serves=False)
     endpoint = f"tls/127.0.0.1:{free_port()}"
@@ -93,7 +115,7 @@ def test_an_operator_operates_a_watcher_stops_and_a_stranger_does_nothing(tmp_pa
             assert "error" not in anna.command("cam-a", {"do": "take_control"})
             with fleet(made.folder / "wim.yaml") as wim:
                 assert wim.until(lambda: [rig for rig in wim.rigs if rig.alive], 60)
-                with pytest.raises(FleetError, match="does not answer"):
+                with pytest.raises(FleetError, match="does not answer wim: that needs the role `operate` in its"):
                     play(wim, {"cam-a": MOVE}, lambda: 1.0)
                 assert wim.command("cam-a", {"do": "release_control"})["kind"] == "lost"
                 assert stop(wim) == []
@@ -102,6 +124,12 @@ def test_an_operator_operates_a_watcher_stops_and_a_stranger_does_nothing(tmp_pa
         with fleet(made.folder / "odd.yaml") as odd:
             odd.wait(10)
             assert odd.rigs == []
+            assert odd.problems == [f"{endpoint}: answers, but shows no rig: is odd in its access.yaml?"]
+            assert stop(odd, patience=0.1) == [endpoint]
+        with fleet(foreign.folder / "anna.yaml") as stranger:
+            stranger.wait(10)
+            assert stranger.problems[0].startswith(f"{endpoint}: its certificate is of another fleet: both sides need")
+            assert stop(stranger, patience=0.1) == [endpoint]
         with pytest.raises(DeviceError):
             opened("client", connect=[endpoint], credentials=load(str(foreign.folder / "anna.yaml")))
         with pytest.raises(DeviceError):

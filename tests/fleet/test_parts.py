@@ -132,6 +132,38 @@ def test_a_rig_that_is_not_there_is_named_and_no_rig_plays():
     assert refused.value.problems == {"cam-a": "is not there", "cam-x": "there is no rig cam-x; seen: cam-a"}
 
 
+def test_a_move_that_a_stop_has_paused_is_given_up_for_the_new_one(monkeypatch: pytest.MonkeyPatch):
+    fleet = Fleet([], memory=False)
+    state = {"move": {"title": "wide", "phase": "paused"}}
+    fleet.heard_state(Link("tcp/127.0.0.1:1", None, fleet), "cam-a", state, time.monotonic() + 60)
+    asked: list[str] = []
+
+    def ask(_name: str, what: str, message: dict, _timeout: float = 0.0) -> dict:
+        asked.append(message.get("do", what))
+        return {"ok": True} if message.get("do") else {"error": "enough", "kind": "refused"}
+
+    monkeypatch.setattr(fleet, "ask", ask)
+    with pytest.raises(FleetError, match="enough"):
+        play(fleet, {"cam-a": SentMove("m", "")}, lambda: 1.0)
+    assert [each for each in asked if each != "command/clock"] == ["take_control", "abort", "command/load", "leave"]
+
+
+def test_a_move_that_plays_goes_on_where_a_new_one_is_refused(monkeypatch: pytest.MonkeyPatch):
+    fleet = Fleet([], memory=False)
+    for name in ("cam-a", "cam-b"):
+        fleet.heard_state(Link("tcp/127.0.0.1:1", None, fleet), name, {}, time.monotonic() + 60)
+    asked: list[tuple[str, str]] = []
+
+    def ask(name: str, what: str, message: dict, _timeout: float = 0.0) -> dict:
+        asked.append((name, message.get("do", what)))
+        return {"error": "plays", "kind": "refused"} if (name, what) == ("cam-b", "command/load") else {"ok": True}
+
+    monkeypatch.setattr(fleet, "ask", ask)
+    with pytest.raises(FleetError, match="plays"):
+        play(fleet, dict.fromkeys(["cam-a", "cam-b"], SentMove("m", "")), lambda: 1.0)
+    assert [name for name, do in asked if do == "abort"] == ["cam-a"]
+
+
 def test_whoever_is_not_in_the_access_list_can_do_nothing():
     found = access_control({"anna": "operate"})
     assert (found["enabled"], found["default_permission"]) == (True, "deny")

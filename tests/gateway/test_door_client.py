@@ -107,3 +107,23 @@ def test_where_there_is_no_door_the_error_says_so(tmp_path: Path) -> None:
 
     with pytest.raises(TeleopError, match="ring"):
         asyncio.run(run())
+
+
+def test_the_answer_counts_that_comes_together_with_the_word_that_it_is_planned(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(door_client, "PLANNING", 1.0)
+
+    async def run() -> None:
+        with remote_bench(tmp_path) as bench:
+            async with DoorClient(bench.hands.door.address) as door:
+
+                def sent(_data: bytes, first: bool = False) -> None:
+                    (number,) = door._answers
+                    for answer in ({"planning": True}, {"planning": True}, {"ok": True}):  # the command went twice
+                        door._take({"id": number, **answer})
+
+                monkeypatch.setattr(door, "_send", sent)
+                assert "ok" in await door.command({"do": "play", "move": "reveal"}, "s1", "Anna")
+
+    asyncio.run(run())

@@ -50,7 +50,7 @@ class RigProcess:
         self.process = subprocess.Popen(
             [*prefix, TELEOP, "console", "--rig", str(rig), "--bind", "127.0.0.1:0", "--json", "--realtime", *options],
             stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
+            stderr=(self.folder / "errors.txt").open("wb"),
             cwd=self.folder,
             env={**os.environ, "XDG_STATE_HOME": str(self.folder / "state")},
         )
@@ -73,6 +73,10 @@ class RigProcess:
     def kill(self) -> None:
         self.process.kill()
         self.process.wait()
+
+    def last_lines(self, count: int = 5) -> list[str]:
+        """What it said last: of a run that has ended, why."""
+        return (self.folder / "errors.txt").read_text(encoding="utf-8", errors="replace").splitlines()[-count:]
 
     @property
     def stalled(self) -> bool:

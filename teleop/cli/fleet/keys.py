@@ -31,12 +31,13 @@ def fleet_keys(
     """Make a certificate and a key for each member of a fleet, and the access list with their roles.
 
     The first time this founds the fleet: ca.key signs all its certificates, so it stays where it was made. Each member
-    needs its own NAME.yaml, NAME.pem, NAME.key and ca.pem; rigs and routers need access.yaml too, again after a change.
+    needs its own NAME.yaml, NAME.pem, NAME.key and ca.pem; rigs need access.yaml too, and routers NAME.router.json5,
+    again after a change. Without members it only makes the files of routers anew, as after a change in access.yaml.
     """
     from teleop.studio.keys import ACCESS, AUTHORITY, KeyFolder
 
     named = [*rig, *operator, *watcher, *router]
-    if not named:
+    if not named and not (folder / ACCESS).exists():
         raise UsageError("name the members, as in --rig cam-a --operator anna")
     for name in named:
         if not re.fullmatch(RIG_NAME, name) or named.count(name) > 1:
@@ -46,5 +47,7 @@ def fleet_keys(
     for role, names in roles.items():
         for name in names:
             tell(f"{keys.add(name, role, serves=role in ('rig', 'router'))}: {role}")
-    tell(f"{folder / ACCESS}: copy it to every rig and router. Keep {AUTHORITY}.key here: it signs for the fleet.")
+    for file in keys.write_routers():
+        tell(f"{file}: copy it to the router, and start the router again")
+    tell(f"{folder / ACCESS}: copy it to every rig. Keep {AUTHORITY}.key here: it signs for the fleet.")
     return 0

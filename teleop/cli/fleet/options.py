@@ -40,15 +40,16 @@ class FleetOptions:
     debug: Annotated[bool, Parameter(help="Print tracebacks.", negative=(), show_default=False)] = False
 
     @contextmanager
-    def fleet(self) -> Iterator[Fleet]:
-        """The rigs, connected, as soon as those that are there are known. Raises UsageError and DocumentError."""
+    def fleet(self, wait: bool = True) -> Iterator[Fleet]:
+        """The rigs; with `wait`, as soon as those that are there are known. Raises UsageError and DocumentError."""
         from teleop.studio.credentials import load
         from teleop.studio.fleet import Fleet
 
         endpoints = self._endpoints()
         credentials = None if self.credentials is None else load(str(self.credentials))
         with Fleet(endpoints, credentials) as fleet:
-            fleet.wait()
+            if wait:
+                fleet.wait()
             yield fleet
 
     def _endpoints(self) -> list[str]:

@@ -17,9 +17,10 @@ from teleop.core.errors import UsageError
 if TYPE_CHECKING:
     from teleop.core.operator_input import Input
     from teleop.studio.fleet import Fleet
+    from teleop.studio.rig_state import RigState
     from teleop.studio.sticks import RigSticks
 
-EVERY = 0.1  # s between two pictures
+EVERY = 0.05  # s between two pictures
 NO_INPUT = "fleet sticks: no joystick and no terminal: plug in a joystick, or run it on a terminal"
 
 
@@ -102,11 +103,16 @@ def _shown(stack: ExitStack, fleet: Fleet, sticks: RigSticks, name: str, lines: 
 
     def draw() -> None:
         rig = fleet.rig(name)
-        waits = (
-            f"the stick is locked: {sticks.waits_for} (e takes control)" if sticks.waits_for else "the stick moves it"
-        )
-        below = Text("\n".join(map(plain, [waits if rig.alive else f"{name} is lost", *lines[-3:]])))
+        below = Text("\n".join(map(plain, [_waits(rig, sticks), *lines[-3:]])))
         keys = Text("space STOP   c clear   e take control   arrows step   r record   q quit", style="dim")
         live.update(Group(fleet_table([rig], fleet.problems), below, keys), refresh=True)
 
     return draw
+
+
+def _waits(rig: RigState, sticks: RigSticks) -> str:
+    if not rig.alive:
+        return f"{rig.name} is lost"
+    if rig.stopped:
+        return "STOP is not cleared: c clears it"
+    return f"the stick is locked: {sticks.waits_for} (e takes control)" if sticks.waits_for else "the stick moves it"

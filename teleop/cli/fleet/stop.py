@@ -20,26 +20,23 @@ def fleet_stop(
     options: FleetOptions = DEFAULTS,
 ) -> int:
     """STOP rigs. It is repeated until the state of each shows it; those that do not show it are named."""
-    from teleop.studio.stopping import stop
+    from teleop.studio.stopping import stop_rigs
 
     if every and names:
         raise UsageError("--all: not together with names of rigs")
-    with options.fleet() as fleet:
-        known = {rig.name for rig in fleet.rigs}
-        unknown = [name for name in dict.fromkeys(names) if name not in known]
-        asked = [name for name in dict.fromkeys(names) if name in known] if names else None
-        chosen = [rig.name for rig in fleet.rigs if not rig.ended] if asked is None else asked
-        missed = stop(fleet, asked)
+    with options.fleet(wait=False) as fleet:
+        stopped, missed = stop_rigs(fleet, names or None)
         problems = fleet.problems
-    stopped = [name for name in chosen if name not in missed]
-    missed += unknown
     if options.json:
         print(json.dumps({"ok": not missed and bool(stopped), "stopped": stopped, "not_reached": missed}))
     else:
         for name in stopped:
             tell(f"{name}: stopped")
         for name in missed:
-            complain(f"teleop: {name} NOT REACHED: its state does not show the STOP; switch it off")
-    if not chosen and not missed:
-        raise UsageError("; ".join(["no rig is there to stop", *problems]))
+            what = "no rig answers there" if "/" in name else "its state does not show the STOP"
+            complain(f"teleop: {name} NOT REACHED: {what}; switch it off")
+    for problem in problems:
+        complain(f"teleop: {problem}")
+    if not stopped and not missed:
+        raise UsageError("no rig is there to stop")
     return 1 if missed else 0

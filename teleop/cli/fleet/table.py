@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import json
-from time import monotonic, sleep
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Event, Thread
+from time import sleep
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from teleop.cli.fleet.options import DEFAULTS, FleetOptions
+from teleop.cli.screens.folded import complain
+from teleop.studio.rig_state import LOST
 
 if TYPE_CHECKING:
     from teleop.studio.fleet import Fleet
 
 EVERY = 0.1  # s between two pictures of the table
+SOONEST = 0.02  # s between two pictures at least
 EVERY_LINE = 1.0  # s between two lines of --json
 CLOCKS_EVERY = 2.0  # s between two looks at the clocks
 
@@ -25,11 +31,33 @@ def fleet_table(
 ) -> int:
     """Show all rigs: state, holder of control, move, error, age of the link, battery, offset of the clock."""
     with options.fleet() as fleet:
-        fleet.measure_clocks()
         if once:
+            fleet.measure_clocks()
             _print(fleet, options.json)
+            for problem in fleet.problems:
+                complain(f"teleop: {problem}")
             return 0
-        return _lines(fleet) if options.json else _live(fleet)
+        with _clocks_kept(fleet):
+            return _lines(fleet) if options.json else _live(fleet)
+
+
+@contextmanager
+def _clocks_kept(fleet: Fleet) -> Iterator[None]:
+    """The clocks are looked at meanwhile, beside the table: a rig that does not answer holds no picture up."""
+    over = Event()
+
+    def look() -> None:
+        fleet.measure_clocks()
+        while not over.wait(CLOCKS_EVERY):
+            fleet.measure_clocks()
+
+    thread = Thread(target=look, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        over.set()
+        thread.join()
 
 
 def _print(fleet: Fleet, as_json: bool) -> None:
@@ -41,8 +69,6 @@ def _print(fleet: Fleet, as_json: bool) -> None:
     from teleop.cli.screens.fleet_rows import fleet_table as drawn
 
     Console().print(drawn(fleet.rigs))
-    for problem in fleet.problems:
-        Console(stderr=True).print(f"teleop: {problem}", markup=False, highlight=False)
 
 
 def _lines(fleet: Fleet) -> int:
@@ -50,19 +76,20 @@ def _lines(fleet: Fleet) -> int:
     while True:
         _print(fleet, True)
         sleep(EVERY_LINE)
-        fleet.measure_clocks()
 
 
 def _live(fleet: Fleet) -> int:
     from rich.live import Live
 
-    from teleop.cli.screens.fleet_rows import fleet_table as drawn
+    from teleop.cli.screens.fleet_rows import FleetView
 
-    measured = monotonic()
-    with Live(drawn(fleet.rigs, fleet.problems), auto_refresh=False, screen=False) as live:
+    with Live(FleetView(fleet.rigs, fleet.problems), auto_refresh=False, screen=False) as live:
         while True:
-            sleep(EVERY)
-            if monotonic() - measured > CLOCKS_EVERY:
-                measured = monotonic()
-                fleet.measure_clocks()
-            live.update(drawn(fleet.rigs, fleet.problems), refresh=True)
+            sleep(_pause(fleet))
+            live.update(FleetView(fleet.rigs, fleet.problems), refresh=True)
+
+
+def _pause(fleet: Fleet) -> float:
+    """s to the next picture: where a rig is silent, when it would be lost."""
+    silence = max((rig.age or 0.0 for rig in fleet.rigs if rig.alive), default=0.0)
+    return max(SOONEST, min(EVERY, LOST - silence))

@@ -27,8 +27,8 @@ class ZenohSection(Section):
     """Routers and other rigs to connect to."""
     credentials: str | None = None
     """File that `teleop fleet keys` has made for this rig: certificates, key and access list."""
-    rate: Annotated[float, Field(ge=1, le=50)] = 20.0
-    """States per second (Hz)."""
+    rate: Annotated[float, Field(ge=5, le=50)] = 20.0
+    """States per second (Hz); with fewer than 5 a rig would count as lost between two of them."""
 
     @model_validator(mode="after")
     def _protected(self) -> Self:

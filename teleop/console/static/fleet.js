@@ -2,14 +2,24 @@
 import { html, useEffect, signal } from "./vendor/preact/preact.min.js";
 
 /** @typedef {{name: string, alive: boolean, state: string, holder: string?, error: string?, move: {title: string, at: number?}?, link_age_ms: number?}} Rig */
-const EVERY = 500, ALONE = 5000; // ms between two looks: at a fleet, and where there is none
+const EVERY = 200, ALONE = 5000; // ms between two looks: at a fleet, and where there is none
+const LOST = 400, SOONEST = 30; // ms of silence that make a rig lost, and between two looks at least
+const MANY = 8; // rigs, above which those that something is wrong with come first
+const PATIENCE = 1000; // ms for an answer, after which nothing is known
 const rigs = signal(/** @type {Rig[]} */ ([])), own = signal(""), told = signal("");
 
 async function look() {
-  const answer = await fetch("/api/fleet", { cache: "no-store" }).catch(() => null);
+  const answer = await fetch("/api/fleet", { cache: "no-store", signal: AbortSignal.timeout(PATIENCE) }).catch(() => null);
   const found = answer?.ok ? await answer.json().catch(() => null) : null;
   if (found) [rigs.value, own.value] = [found.rigs ?? [], found.name ?? ""];
   else rigs.value = rigs.value.map((rig) => ({ ...rig, alive: false, state: "unknown" }));
+}
+
+/** ms to the next look: where a rig is silent, when it would be lost. */
+function pause() {
+  if (rigs.value.length < 2) return ALONE;
+  const silence = Math.max(0, ...rigs.value.map((rig) => (rig.alive ? rig.link_age_ms ?? 0 : 0)));
+  return Math.max(SOONEST, Math.min(EVERY, LOST - silence));
 }
 
 export async function stopAll() {
@@ -21,12 +31,19 @@ export async function stopAll() {
   else told.value = found.not_reached ? `NOT REACHED: ${found.not_reached.join(", ")}. Switch them off.` : found.error;
 }
 
+/** @param {Rig} rig */
+const well = (rig) => rig.alive && rig.state !== "stopped" && !rig.error;
+
+function ordered() {
+  return rigs.value.length > MANY ? [...rigs.value].sort((a, b) => Number(well(a)) - Number(well(b))) : rigs.value;
+}
+
 /** Nothing for a rig that is alone. */
 export function FleetTiles() {
   useEffect(() => {
     let timer = 0, over = false;
     const again = () => look().then(() => {
-      if (!over) timer = setTimeout(again, rigs.value.length > 1 ? EVERY : ALONE);
+      if (!over) timer = setTimeout(again, pause());
     });
     again();
     return () => {
@@ -36,7 +53,7 @@ export function FleetTiles() {
   }, []);
   if (rigs.value.length < 2) return null;
   return html`<section class="fleet" aria-label="Fleet" data-testid="fleet">
-    <ul>${rigs.value.map((rig) => html`<${FleetTile} key=${rig.name} rig=${rig} />`)}</ul>
+    <ul tabindex="0" aria-label="Rigs">${ordered().map((rig) => html`<${FleetTile} key=${rig.name} rig=${rig} />`)}</ul>
     <button class="stop-all" data-testid="stop-all" onClick=${stopAll}>STOP ALL</button>
     ${told.value && html`<p role="alert" data-testid="fleet-told">${told.value}</p>`}
   </section>`;
