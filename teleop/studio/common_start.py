@@ -139,9 +139,8 @@ def _accepted(
     if not rig.alive:
         raise TeleopError("is not there")
     _good(fleet.command(name, {"do": "take_control"}))
-    if (rig.state.get("move") or {}).get(
-        "phase"
-    ) == "paused":  # as a STOP has left it, and nothing of a fleet resumes it
+    playing = rig.state.get("move") or {}
+    if playing.get("phase") == "paused":  # as a STOP has left it, and nothing of a fleet resumes it
         _good(fleet.command(name, {"do": "abort", "wait": True}))
     fleet.measure_clock(name)
     load = {"title": move.title, "text": move.text, "attended": attended, **options}

@@ -1,8 +1,8 @@
 """Issue 18's figures of the door, in real time: `python tests/benchmarks/chaos_door.py [SECONDS]` prints them.
 
 How late the loop is at the 99th percentile, without a gateway and with one (then also with four watching pages), each
-TURNS times and in turns, so that what else the machine does falls on all of them. How long a STOP takes from a client to the
-loop. What 1e5 datagrams that are no commands do.
+TURNS times and in turns, so that what else the machine does falls on all of them. How long a STOP takes from a client
+to the loop. What 1e5 datagrams that are no commands do.
 """
 
 from __future__ import annotations
