@@ -21,6 +21,12 @@ AGAIN, LONGEST = 1.0, 30.0  # s until an entry that failed is served again: doub
 WORKED = 60.0  # s of serving after which a failure is a new one: said, and tried again soon
 
 
+def load(settings: Mapping[str, Any]) -> None:
+    """Import what serves the entries: what takes time is done before any of them is served."""
+    for entry in settings["entries"]:
+        importlib.import_module(SERVERS[entry["type"]])
+
+
 async def serve(settings: Mapping[str, Any], door: DoorClient) -> None:
     """Serve what `opening` put into the settings of the gateway, until cancelled."""
     limits = {Axis(name): Limits(*values) for name, values in settings["rig"]["limits"].items()}

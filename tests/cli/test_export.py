@@ -74,6 +74,14 @@ def test_what_a_format_cannot_carry_is_one_line_each(move: Path, capsys: pytest.
     assert "not carried" not in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("ending", ["usda", "py"])
+def test_a_file_with_a_place_for_notes_has_within_what_it_does_not_carry(move: Path, ending: str) -> None:
+    assert run(["export", "shot.yaml", "-o", f"shot.{ending}"]) == 0
+    text = move.with_name(f"shot.{ending}").read_text()
+    for what in ("keys, with their tension and repeats", "holds: ", "eases: ", "2 cues: export them as .otio"):
+        assert what in text
+
+
 def test_a_move_without_a_rate_is_written_at_24_and_says_so(move: Path, capsys: pytest.CaptureFixture[str]) -> None:
     move.write_text(MOVE.replace("fps: 23.976\n", ""))
     assert run(["export", "shot.yaml", "-o", "shot.chan"]) == 0

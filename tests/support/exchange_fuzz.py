@@ -101,8 +101,20 @@ def asks_by_osc(data: bytes) -> bool:
     if re.search(rb",[^\0]*[cSI]", data):
         return True
     with suppress(Exception):
-        return any(timed.message.address.startswith("/teleop/") for timed in OscPacket(data).messages)
+        return any(timed.message.address.startswith("/teleop/") for timed in OscPacket(_ending(data)).messages)
     return False
+
+
+def _ending(data: bytes) -> bytes:
+    """A packet up to the first element of negative size: python-osc goes back by it, and would never end."""
+    at = len(BUNDLE) + 8
+    while data.startswith(BUNDLE) and at + 4 <= len(data):
+        (size,) = struct.unpack_from(">i", data, at)
+        element = data[at + 4 : at + 4 + size] if size >= 0 else b""
+        if size < 0 or _ending(element) != element:
+            return data[:at]
+        at += 4 + size
+    return data
 
 
 def osc_hunt(count: int, seed: int = 1) -> int:
