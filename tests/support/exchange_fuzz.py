@@ -149,7 +149,7 @@ def dfmoco_hunt(count: int, seed: int = 1) -> int:
     async def run() -> int:
         door, moved = FakeDoor(), 0
         door.action_seconds = 0.0
-        served = Served(door, Rig("fake", LIMITS), None, str)  # pyright: ignore[reportArgumentType]
+        served = Served(door, Rig("fake", LIMITS, LIMITS), None, str)  # pyright: ignore[reportArgumentType]
         controller = Controller(served, motors_of(DfmocoSection(type="dfmoco", listen="tcp:[::1]:1"), LIMITS), str)
         client, reader, since = Client(door, "DFMoco 127.0.0.1", str), LineReader(), b""
         for _ in range(count):
