@@ -100,7 +100,7 @@ def test_sound_that_a_busy_computer_hears_late_at_first_is_of_the_right_speed(la
 
 
 def test_sound_that_was_interrupted_is_timed_anew_when_it_comes_back() -> None:
-    """As from a program that writes nothing while its code stands: the rig would run ahead by the whole pause."""
+    """As from a program that writes nothing while its code is stopped: the rig would run ahead by the whole pause."""
     clock, decoder, tracker = SampleClock(SAMPLES), LtcDecoder(SAMPLES, 25.0), Tracker(25.0, (1, 0, 0, 0))
     heard = 50.0
     for begin, pause in (((1, 0, 0, 0), 3.0), ((1, 0, 7, 0), 0.0)):
