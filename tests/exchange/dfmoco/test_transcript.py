@@ -47,15 +47,6 @@ class Dragonframe:
         *whole, self._rest = self._rest.split(b"\r\n")
         self.lines += [line.decode() for line in whole]
 
-    def since(self, start: int, count: int = 1) -> list[str]:
-        """The next lines from there on, as soon as there are so many."""
-
-        def found() -> list[str] | None:
-            self._hear()
-            return self.lines[start : start + count] if len(self.lines) >= start + count else None
-
-        return until(found)
-
     def ask(self, line: str) -> list[str]:
         """Its direct answer: unasked positions that come before it are left out."""
         start = self.send(line)
