@@ -99,9 +99,9 @@ def exported(motion: Motion, form: Format, ending: str, vfov: float | None) -> E
         raise DocumentError([f"{motion.origin}: moves {', '.join(motion.axes)}, and {form.title} has none of them"])
     if not form.by_time and not motion.by_frame:
         raise DocumentError([f"{motion.origin}: {form.title} has a row for each frame: give --rate, as in --rate 24"])
-    options = WriteOptions(vfov, axes)
-    content = writer.write(motion, options, ending) if form.name == "usd" else writer.write(motion, options)
     lost = list(not_carried(motion, form, vfov))
+    options = WriteOptions(vfov, axes, lost)
+    content = writer.write(motion, options, ending) if form.name == "usd" else writer.write(motion, options)
     beside = None if form.notes is None else companion.text(motion, form, axes, lost)
     return Exported(content, beside, lost, motion)
 

@@ -72,7 +72,7 @@ def export(
     if is_take(file):
         motion = _recorded(Path(file), chosen, frames, first_frame, commanded, number, options.json)
     else:
-        motion = _planned(file, chosen, frames, first_frame, options)
+        motion = _planned(file, frames, first_frame, options)
     with problems_as_json(options.json):
         done = exported(motion, chosen, output.suffix.lower(), vfov)
     with replacing(output) as stream:
@@ -83,12 +83,10 @@ def export(
     return 0
 
 
-def _planned(file: str, form: Format, rate: Fraction | None, first: int, options: Options) -> Motion:
+def _planned(file: str, rate: Fraction | None, first: int, options: Options) -> Motion:
     """The path of a move."""
     plan = options.plan(file)
-    motion = planned_motion(plan, file, rate, first)
-    if not form.cues:
-        motion = keys_of(plan, motion)
+    motion = keys_of(plan, planned_motion(plan, file, rate, first))
     if rate is None and own_rate(plan) is None:
         complain(f"{file}: has no fps: written at {shown(motion.known_rate)}; --rate gives another")
     return motion

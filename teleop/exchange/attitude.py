@@ -74,6 +74,10 @@ class AttitudeFeed:
         if state is not self._state:
             self._state = state
             self._measured.take(state)
+            known = state.get("axes", {})
+            if not all(axis.value in known for axis in self._angles):  # the run does not move all of them
+                for axis, reading in self._served.door.readings().items():
+                    self._measured.add(axis, reading.time, reading.position)
 
     def at(self, instant: float) -> Attitude | None:
         """Where the camera was at `instant` (s, monotonic clock); None where that is not known, or no longer."""

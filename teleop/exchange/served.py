@@ -12,10 +12,14 @@ from teleop.gateway.door_client import DoorClient
 
 @dataclass(frozen=True)
 class Rig:
-    """The rig as the run knows it: its name, and what each axis may do in this run."""
+    """The rig as the run knows it: its name, and what each axis may do in this run.
+
+    `moved` are those that the run moves: a move has none but its own, and a device that is absent takes its axes out.
+    """
 
     name: str
     limits: Mapping[Axis, Limits]
+    moved: Mapping[Axis, Limits]
 
 
 @dataclass(frozen=True)

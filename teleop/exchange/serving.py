@@ -18,13 +18,23 @@ from teleop.exchange.served import Rig, Served
 from teleop.gateway.door_client import DoorClient
 
 AGAIN, LONGEST = 1.0, 30.0  # s until an entry that failed is served again: doubled each time, up to the longest
+LOOK = 0.02  # s between two looks for the first state
 WORKED = 60.0  # s of serving after which a failure is a new one: said, and tried again soon
 
 
+def load(settings: Mapping[str, Any]) -> None:
+    """Import what serves the entries: what takes time is done before any of them is served."""
+    for entry in settings["entries"]:
+        importlib.import_module(SERVERS[entry["type"]])
+
+
 async def serve(settings: Mapping[str, Any], door: DoorClient) -> None:
-    """Serve what `opening` put into the settings of the gateway, until cancelled."""
+    """Serve what `opening` put into the settings of the gateway, until cancelled; from the rig's first state on."""
     limits = {Axis(name): Limits(*values) for name, values in settings["rig"]["limits"].items()}
-    rig = Rig(settings["rig"]["name"], limits)
+    while not (state := door.newest()):
+        await asyncio.sleep(LOOK)
+    moved = {axis: of for axis, of in limits.items() if axis.value in state["axes"]}
+    rig = Rig(settings["rig"]["name"], limits, moved)
     entries = ENTRIES.validate_python(settings["entries"])
     tracker = 0
     async with asyncio.TaskGroup() as tasks:

@@ -35,12 +35,22 @@ def main() -> int:
     line = sys.stdin.buffer.readline()
     if not line:
         return 0
+    settings = json.loads(line)
+    _load(settings)
     try:
-        asyncio.run(_serve(json.loads(line)))
+        asyncio.run(_serve(settings))
     except TeleopError as error:
         sys.stderr.write(f"{error}\n")
         return 1
     return 0
+
+
+def _load(settings: dict[str, Any]) -> None:
+    """Import what will be served before the first word: on a busy computer it takes seconds, which would be a hang."""
+    if "console" in settings:
+        importlib.import_module("teleop.console.server")
+    if "exchange" in settings:
+        importlib.import_module("teleop.exchange.serving").load(settings["exchange"])
 
 
 async def _serve(settings: dict[str, Any]) -> None:

@@ -15,6 +15,7 @@ from contextlib import suppress
 from time import monotonic
 from typing import Any, Self
 
+from teleop.core.axes import Axis, Reading
 from teleop.core.errors import TeleopError
 from teleop.core.events import Tick
 from teleop.door.address import DoorAddress
@@ -44,7 +45,7 @@ class DoorClient:
         self._answers: dict[int, asyncio.Queue[dict[str, Any]]] = {}
         self._ends: OrderedDict[int, asyncio.Future[dict[str, Any]]] = OrderedDict()
         self._unpacker = StateUnpacker()
-        self._number, self._decoded = 0, {}
+        self._number, self._decoded, self._beside = 0, {}, None
         self._outbox: deque[bytes] = deque()
         self._sticks: dict[str, bytes] = {}  # the newest of each stream that could not leave yet
         self._writing = False
@@ -82,8 +83,14 @@ class DoorClient:
     def newest(self) -> Mapping[str, Any]:
         """The newest state as the rig wrote it, its ages as of its `time`; {} before there is one. Never waits."""
         if self._ring.number != self._number and (newest := self._ring.newest()) is not None:
-            self._number, self._decoded = newest.number, self._unpacker.unpack(newest.data)
+            self._number = newest.number
+            self._decoded, self._beside = self._unpacker.both(newest.data)
         return self._decoded
+
+    def readings(self) -> Mapping[Axis, Reading]:
+        """Where each axis was measured by the newest state's tick, those that the run does not move among them."""
+        self.newest()
+        return {} if self._beside is None else from_plain(self._beside[0]).reported
 
     def state(self) -> dict[str, Any]:
         """The newest state, with every age as of now. Never waits. {} before there is one."""

@@ -68,7 +68,7 @@ def write(motion: Motion, options: WriteOptions) -> bytes:
     rate = motion.known_rate
     whole = math.ceil(rate)
     known = {
-        **facts(motion, options.axes, ()),
+        **facts(motion, options.axes, options.not_carried),
         "units": "quaternions w, x, y, z by frame; z is up, pan 0 looks along +y; angles in degrees",
         "vfov": options.vfov,
         "blender_fps": [whole, float(whole / rate)],

@@ -56,7 +56,8 @@ def text(motion: Motion, form: Format, axes: Sequence[Axis], not_carried: Sequen
     content = {"format": form.name, **facts(motion, axes, not_carried), **(form.notes or {})}
     if form.name == "csv" and not motion.by_frame:
         content["frame_rate"] = content["first_frame"] = None  # its rows have times, and are no frames
-    content.setdefault("columns", [axis.value for axis in axes])
+    before = [*(["frame"] if motion.by_frame else []), "time"] if form.name == "csv" else []
+    content.setdefault("columns", [*before, *(axis.value for axis in axes)])
     return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
 
 

@@ -49,7 +49,7 @@ def write(motion: Motion, options: WriteOptions) -> bytes:
         return otio.opentime.RationalTime(frame, rate)
 
     known = {
-        **facts(motion, options.axes, ()),
+        **facts(motion, options.axes, options.not_carried),
         "units": "degrees; + is right, up, clockwise seen from behind; focus 0..1",
     }
     columns = [motion.times, *(motion.column(axis) for axis in options.axes)]

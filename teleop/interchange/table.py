@@ -25,10 +25,14 @@ HEADS = (*CAMERA, Axis.FOCUS)
 
 @dataclass(frozen=True)
 class WriteOptions:
-    """What a writer needs beside the path: the vertical field of view in degrees, None where it is not known."""
+    """What a writer needs beside the path: the vertical field of view in degrees, None where it is not known.
+
+    `not_carried` are the lines that a format with a place for them has within.
+    """
 
     vfov: float | None = None
     axes: Sequence[Axis] = ()
+    not_carried: Sequence[str] = ()
 
 
 @dataclass(frozen=True)

@@ -66,9 +66,10 @@ def _stage(motion: Motion, options: WriteOptions) -> Any:
         focus = camera.GetPrim().CreateAttribute(FOCUS, sdf.ValueTypeNames.Double)
         for frame, position in zip(frames, motion.column(Axis.FOCUS).tolist(), strict=True):
             focus.Set(position, frame)
-    known = facts(motion, options.axes, ())
+    known = facts(motion, options.axes, options.not_carried)
     known["begins_at"] = ",".join(repr(float(motion.column(axis)[0])) for axis in CAMERA)
-    known |= {"axes": ",".join(known["axes"]), "units": "degrees, meters, frames", "not_carried": ""}
+    known |= {"axes": ",".join(known["axes"]), "not_carried": "; ".join(known["not_carried"])}
+    known["units"] = "degrees, meters, frames"
     stage.GetRootLayer().customLayerData = {"teleop": known}
     return stage
 

@@ -42,6 +42,11 @@ class Follower:
         self._reference, self._free, self._heard = reference, free, now
         self._pausing = False
 
+    def pause(self, source: SequenceSource, now: float) -> None:
+        """Come to rest on the path, and follow nothing before the clock is heard again."""
+        self._reference, self._pausing = None, True
+        source.playback.pause(now)
+
     def halt(self) -> None:
         """The move is away from its path: it is not followed before it is heard again."""
         self._reference = None
@@ -68,9 +73,8 @@ class Follower:
             return
         if now - self._heard > SILENT:
             self._reference = None
-            if source.phase is SequencePhase.PLAYING and not playback.paused:
-                self._pausing = True
-                playback.pause(now)
+            if source.phase is SequencePhase.PLAYING and (not playback.paused or playback.changing(now)):
+                self.pause(source, now)  # also of one that is paused, and about to go on
             return
         place = reference.place(now)
         if source.phase is SequencePhase.ARMED:

@@ -105,7 +105,10 @@ class PlayJob:
         if self.halted:
             self._going = False
         elif self.source.phase is SequencePhase.PLAYING and not self.source.waiting:
-            self.source.playback.pause(now)
+            if self.follower is None:
+                self.source.playback.pause(now)
+            else:
+                self.follower.pause(self.source, now)
         else:
             self.halt(now, why)
 

@@ -28,7 +28,8 @@ from exchange_fuzz import MOVING, asks_by_osc, dfmoco_bytes, osc_packet
 from jack_server import INSTALLED, JackController, jack_server
 from real_exchange import free_port, real_exchange
 from tracking_fuzz import freed_message, opentrackio_packet
-from websockets.sync.client import connect
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
 
 HERE = "127.0.0.1"
 MIDI = INSTALLED and "without-midi" not in sys.argv
@@ -95,11 +96,16 @@ class Hunt:
                 raw.sendall(chance.randbytes(chance.randrange(1, 200)))
             with (
                 suppress(Exception),
-                connect(f"ws://{HERE}:{self.ports['foxglove']}", subprotocols=["foxglove.sdk.v1"]) as client,  # type: ignore[list-item]
+                self._client() as client,
             ):
                 for _ in range(100):
                     text = chance.choice(texts) % (chance.randrange(-9, 99), chance.randrange(99))
                     client.send(chance.choice([text, text[: chance.randrange(20)], chance.randbytes(30)]))
+
+    def _client(self) -> ClientConnection:
+        """One that waits for no answer to its end: it has sent what no server has to answer."""
+        address = f"ws://{HERE}:{self.ports['foxglove']}"
+        return connect(address, subprotocols=[Subprotocol("foxglove.sdk.v1")], close_timeout=0.5)
 
     def zenoh(self) -> None:
         chance = random.Random("zenoh")

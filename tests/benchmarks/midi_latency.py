@@ -24,7 +24,7 @@ from teleop.exchange.midi import server
 from teleop.exchange.served import Served
 from teleop.exchange.timecode.ltc import LtcDecoder
 
-SECTION = {"type": "midi", "port": "desk", "controls": [{"on": "cc 60", "jog": "tilt", "step": 0.01}]}
+SECTION = {"type": "midi", "port": "desk", "controls": [{"sends": "cc 60", "jog": "tilt", "step": 0.01}]}
 PRESSES = 100
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -71,7 +72,17 @@ def test_what_a_format_cannot_carry_is_one_line_each(move: Path, capsys: pytest.
         assert sum(line.startswith(f"not carried: {what}") for line in lines) == 1, what
     assert json.loads(move.with_name("shot.chan.json").read_text())["not_carried"] == [line[13:] for line in lines]
     assert run(["export", "shot.yaml", "-o", "shot.otio"]) == 0
-    assert "not carried" not in capsys.readouterr().err
+    lines = [line.partition(": ")[2] for line in capsys.readouterr().err.splitlines()]
+    assert [line[:5] for line in lines] == ["keys,", "holds", "eases"]
+    assert all(line in move.with_name("shot.otio").read_text() for line in lines)
+
+
+@pytest.mark.parametrize("ending", ["usda", "py"])
+def test_a_file_with_a_place_for_notes_has_within_what_it_does_not_carry(move: Path, ending: str) -> None:
+    assert run(["export", "shot.yaml", "-o", f"shot.{ending}"]) == 0
+    text = move.with_name(f"shot.{ending}").read_text()
+    for what in ("keys, with their tension and repeats", "holds: ", "eases: ", "2 cues: export them as .otio"):
+        assert what in text
 
 
 def test_a_move_without_a_rate_is_written_at_24_and_says_so(move: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -97,6 +108,15 @@ def test_a_take_has_the_measured_positions_at_the_times_of_the_recording(
     assert [float(row["pan"]) for row in rows] == pytest.approx(positions.tolist(), abs=1e-6)
     facts = json.loads(take.with_name("run.csv.json").read_text())
     assert (facts["kind"], facts["row_times"]) == ("measured", "those of the recording")
+
+
+@pytest.mark.parametrize("rate", [[], ["--rate", "25"]])
+def test_the_columns_that_the_file_beside_a_table_names_are_those_of_its_first_line(
+    take: Path, rate: Sequence[str]
+) -> None:
+    assert run(["export", "run.mcap", "-o", "run.csv", *rate]) == 0
+    first = take.with_name("run.csv").read_text().splitlines()[0]
+    assert json.loads(take.with_name("run.csv.json").read_text())["columns"] == first.split(",")
 
 
 def test_a_take_by_the_frame_lies_between_its_readings(take: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,7 +8,7 @@ import fake_served
 import pytest
 from fake_served import LIMITS, FakeServed
 
-from teleop.core.axes import Axis, Limits
+from teleop.core.axes import Axis, Limits, Reading
 from teleop.core.errors import TeleopError
 from teleop.exchange import attitude
 from teleop.exchange.attitude import LENS, OLD, AttitudeFeed
@@ -96,3 +96,14 @@ def test_a_latency_that_is_too_short_is_told_once(clock):
 def test_a_rig_without_angles_is_refused():
     with pytest.raises(TeleopError, match="no pan, tilt or roll"):
         AttitudeFeed(FakeServed({Axis.FOCUS: FOCUS[Axis.FOCUS]}).served, "freed", 0.1)
+
+
+def test_an_angle_that_the_run_does_not_move_is_sent_as_it_was_measured(clock):
+    """As in a move of pan and tilt: the gimbal reports its roll all the same."""
+    fake = FakeServed({**LIMITS, Axis.ROLL: LIMITS[Axis.PAN]})
+    feed = AttitudeFeed(fake.served, "freed", 0.0)
+    fake.door.measure(pan=10.0, tilt=-5.0)
+    assert feed.at(clock.now + 0.01) is None
+    fake.door.beside[Axis.ROLL] = Reading(1.5, clock.now)
+    fake.door.measure(pan=10.0, tilt=-5.0)
+    assert feed.at(clock.now + 0.01) == (10.0, -5.0, 1.5, None)

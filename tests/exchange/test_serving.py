@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import asyncio
-from dataclasses import replace
+from dataclasses import astuple, replace
 from types import SimpleNamespace
 
 import pytest
-from fake_served import FakeServed
+from fake_served import LIMITS, FakeServed
 
 from teleop.config.exchange.foxglove import FoxgloveSection
 from teleop.core.errors import DeviceError
 from teleop.exchange import serving
+from teleop.exchange.served import Served
 
 
 class VirtualLoop(asyncio.SelectorEventLoop):
@@ -71,3 +72,28 @@ def test_an_entry_that_has_worked_for_a_minute_is_served_again_soon_and_its_fail
     pauses, said = pauses_of(0.0, 0.0, 0.0, 59.0, 60.0, 0.0, monkeypatch=monkeypatch)
     assert pauses == [1, 2, 4, 8, 1, 2]
     assert len(said) == 2
+
+
+def test_what_moves_the_rig_is_given_the_axes_of_the_run_once_there_is_a_state(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A move of pan alone: a fader or a motor of tilt would look for an axis that no state has."""
+    fake, given = FakeServed(), list[Served]()
+
+    class Server:
+        async def serve(self, _section: object, served: Served) -> None:
+            given.append(served)
+
+    async def run() -> None:
+        work = asyncio.ensure_future(serving.serve(settings, served.door))
+        await asyncio.sleep(3 * serving.LOOK)
+        assert not given
+        fake.door.measure(pan=0.0)
+        await work
+
+    monkeypatch.setattr(serving, "importlib", SimpleNamespace(import_module=lambda _: Server()))
+    served = fake.served
+    limits = {axis.value: astuple(of) for axis, of in LIMITS.items()}
+    entry = {"type": "foxglove", "listen": "127.0.0.1:0"}
+    settings = {"entries": [entry], "listeners": [None], "rig": {"name": "rig", "limits": limits}}
+    asyncio.run(run())
+    assert [sorted(served.rig.limits) for served in given] == [["pan", "tilt"]]
+    assert [sorted(served.rig.moved) for served in given] == [["pan"]]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from at_once import AtOnce
@@ -57,15 +57,21 @@ def sender(
 class ChaseBench:
     """A move, played as the rig does it, steered by what the tracker says."""
 
-    def __init__(self, rate: float | None = None) -> None:
-        compiled = CompiledSequence("Test", plan(KEYS, LIMITS), [], [], KEYS)
+    def __init__(
+        self,
+        rate: float | None = None,
+        keys: Mapping[Axis, Sequence[Key]] = KEYS,
+        limits: Mapping[Axis, Limits] = LIMITS,
+    ) -> None:
+        compiled = CompiledSequence("Test", plan(keys, limits), [], [], keys)
         self.follower = Follower()
         cycle = Cycle(0.0, trigger=self.follower)
-        self.source = SequenceSource(compiled, LIMITS, 1.0, AtOnce(), cycle)
+        self.source = SequenceSource(compiled, limits, 1.0, AtOnce(), cycle)
         self.decoder, self.tracker = MtcDecoder(rate), Tracker(rate, (1, 0, 0, 0))
         self.points: list[Point] = []
         self.faults: list[tuple[float, str]] = []
         self.now = 0.0
+        self.told = False  # whether the gateway tells the move to pause once the code is lost
         start = compiled.move.at(compiled.move.opening)
         self._motion = dict(start)
         self.source.start(0.0, start)
@@ -85,6 +91,8 @@ class ChaseBench:
             self.tracker.look(self.now)
             if self.tracker.why and (not self.faults or self.faults[-1][1] != self.tracker.why):
                 self.faults.append((self.now, self.tracker.why))
+                if self.told:
+                    self.follower.pause(self.source, self.now)
             if self.now - self._said >= SAID and (reference := self.tracker.reference(self.now)) is not None:
                 self._said = self.now
                 self.follower.follow(reference, False, self.now)

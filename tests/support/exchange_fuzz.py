@@ -101,8 +101,20 @@ def asks_by_osc(data: bytes) -> bool:
     if re.search(rb",[^\0]*[cSI]", data):
         return True
     with suppress(Exception):
-        return any(timed.message.address.startswith("/teleop/") for timed in OscPacket(data).messages)
+        return any(timed.message.address.startswith("/teleop/") for timed in OscPacket(_ending(data)).messages)
     return False
+
+
+def _ending(data: bytes) -> bytes:
+    """A packet up to the first element of negative size: python-osc goes back by it, and would never end."""
+    at = len(BUNDLE) + 8
+    while data.startswith(BUNDLE) and at + 4 <= len(data):
+        (size,) = struct.unpack_from(">i", data, at)
+        element = data[at + 4 : at + 4 + size] if size >= 0 else b""
+        if size < 0 or _ending(element) != element:
+            return data[:at]
+        at += 4 + size
+    return data
 
 
 def osc_hunt(count: int, seed: int = 1) -> int:
@@ -137,7 +149,7 @@ def dfmoco_hunt(count: int, seed: int = 1) -> int:
     async def run() -> int:
         door, moved = FakeDoor(), 0
         door.action_seconds = 0.0
-        served = Served(door, Rig("fake", LIMITS), None, str)  # pyright: ignore[reportArgumentType]
+        served = Served(door, Rig("fake", LIMITS, LIMITS), None, str)  # pyright: ignore[reportArgumentType]
         controller = Controller(served, motors_of(DfmocoSection(type="dfmoco", listen="tcp:[::1]:1"), LIMITS), str)
         client, reader, since = Client(door, "DFMoco 127.0.0.1", str), LineReader(), b""
         for _ in range(count):

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from time import monotonic
 from typing import Any, cast
 
-from teleop.core.axes import Axis, Limits
+from teleop.core.axes import Axis, Limits, Reading
 from teleop.exchange.served import Rig, Served
 from teleop.gateway.door_client import DoorClient
 
@@ -15,14 +15,18 @@ LIMITS = {axis: Limits(-180.0, 180.0, 60.0, 240.0, 2400.0) for axis in (Axis.PAN
 
 
 class FakeDoor:
-    """`aims` are what followers have passed on."""
+    """`aims` are what followers have passed on, `beside` readings of axes that the run does not move."""
 
     def __init__(self) -> None:
         self.state: Mapping[str, Any] = {}
+        self.beside: dict[Axis, Reading] = {}
         self.aims: list[tuple[int, dict[str, float], float]] = []
 
     def newest(self) -> Mapping[str, Any]:
         return self.state
+
+    def readings(self) -> Mapping[Axis, Reading]:
+        return self.beside
 
     def aim(self, source: int, axes: dict[str, float], time: float) -> None:
         self.aims.append((source, axes, time))
@@ -38,4 +42,4 @@ class FakeServed:
 
     def __init__(self, limits: Mapping[Axis, Limits] = LIMITS, listener: socket.socket | None = None) -> None:
         self.door, self.lines = FakeDoor(), list[str]()
-        self.served = Served(cast(DoorClient, self.door), Rig("rig", limits), listener, self.lines.append, 1)
+        self.served = Served(cast(DoorClient, self.door), Rig("rig", limits, limits), listener, self.lines.append, 1)

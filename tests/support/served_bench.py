@@ -26,7 +26,8 @@ def beside_a_rig(folder: Path, server: Server, work: Work, pace: float = PACE) -
     async def run() -> None:
         with remote_bench(folder) as bench:
             async with DoorClient(bench.hands.door.address) as door:
-                served = Served(door, Rig("Bench", dict(bench.hands._limits)), None, lines.append)
+                limits = dict(bench.hands._limits)
+                served = Served(door, Rig("Bench", limits, limits), None, lines.append)
                 async with asyncio.timeout(30):
                     with turning(bench, pace), _task(server(served)):
                         await work(bench, served)

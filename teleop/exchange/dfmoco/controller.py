@@ -27,7 +27,7 @@ class Controller:
     """`notify` gets why the rig has refused something."""
 
     def __init__(self, served: Served, motors: Sequence[Motor], notify: Callable[[str], object]) -> None:
-        self._door, self._limits = served.door, served.rig.limits
+        self._door, self._limits = served.door, served.rig.moved
         self.motors, self._ways = motors, Ways(motors, notify)
         self._exposure: Exposure | None = None
         self._commands: Mapping[str, Callable[[Client, Numbers], Any]] = {

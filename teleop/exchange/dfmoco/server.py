@@ -27,7 +27,7 @@ WAITING = 65536  # bytes that a peer may leave unread before it is told no more 
 
 async def serve(section: DfmocoSection, served: Served) -> None:
     """Serve until cancelled. Raises DeviceError where the serial line cannot be opened, or is gone."""
-    controller = Controller(served, motors_of(section, served.rig.limits), served.notify)
+    controller = Controller(served, motors_of(section, served.rig.moved), served.notify)
     line = serial_line(section.listen)
     if line is not None:
         await _serve_serial(controller, served, *line)

@@ -77,7 +77,7 @@ class Controller:
 
     def __init__(self, section: MidiSection, served: Served) -> None:
         self._section, self._served = section, served
-        self._surface = Surface(section, served.rig.limits)
+        self._surface = Surface(section, served.rig.moved)
         self._feedback = Feedback(self._surface)
         self._client = Client(served.door, f"MIDI {section.port}", self._say)
         self._stick = WheelStick(served.door, self._client, self._say)

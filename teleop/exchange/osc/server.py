@@ -29,7 +29,7 @@ async def serve(section: OscSection, served: Served) -> None:
     with ExitStack() as stack:
         outlet = Outlet(await _receiver(section, stack))
         peers = Peers(served.door, "OSC", section.allow, outlet.error)
-        inlet = Inlet(peers, served.rig.limits, outlet)
+        inlet = Inlet(peers, served.rig.moved, outlet)
         if served.listener is not None:
             copy = served.listener.dup()  # the transport closes its own
             transport, _ = await loop.create_datagram_endpoint(lambda: inlet, sock=copy)

@@ -18,6 +18,7 @@ from teleop.core.errors import DeviceError
 
 BLOCK = 0.01  # s of sound read at a time
 QUICKEST = 5.0  # s of blocks that tell
+GAP = 0.2  # s without a block, after which the sound counts as interrupted: its samples no longer tell what was before
 AGAIN = 0.2  # s between two looks whether it is over
 
 Heard = Callable[[bytes, float], object]
@@ -34,6 +35,8 @@ class SampleClock:
         """So many more have come by now."""
         self._count += count
         offset = now - self._count / self._samples
+        if self._offsets and now - self._offsets[-1][0] > GAP:
+            self._offsets.clear()
         while self._offsets and self._offsets[-1][1] >= offset:
             self._offsets.pop()
         self._offsets.append((now, offset))

@@ -10,12 +10,12 @@ import pytest
 
 from teleop.cli.screens.axis_table import axis_rows
 from teleop.cli.screens.live_rows import Traffic, banner, help_rows, key_rows, state_rows, title_row
-from teleop.cli.screens.live_view import LiveView
+from teleop.cli.screens.live_view import LiveView, new_messages
 from teleop.core.axes import Axis, Limits, Reading, State
 from teleop.core.events import Tick
 from teleop.inputs.keyboard import Keyboard
 from teleop.inputs.keymaps import HELP, KeyReader
-from teleop.manual.status import KEPT, InputStatus, Message, OperatorStatus
+from teleop.manual.status import KEPT, InputStatus, Message, MessageLog, OperatorStatus
 
 LIMITS = {
     Axis.PAN: Limits(-180, 180, 120, 240, 1200),
@@ -162,3 +162,13 @@ def test_without_a_screen_each_message_comes_once_and_the_axes_each_second(
     assert [line.strip() for line in lines if "unplugged" in line] == ["0.0 s  old stick: unplugged: tilt stopped"]
     assert [line.strip() for line in lines if "by keys" in line] == ["1.2 s  STOP by keys"]
     assert lines[-1].endswith("stopping")  # the axes still move
+
+
+def test_a_message_that_comes_again_is_the_only_one_that_is_new() -> None:
+    """It takes the place of the one before: all the others were printed again with it."""
+    log, printed, last = MessageLog(), list[str](), None
+    for now, text in ((1.0, "first"), (2.0, "refused"), (3.0, "refused"), (3.0, "refused"), (4.0, "second")):
+        log.notify(now, text)
+        printed += [message.text for message in reversed(new_messages(log.messages, last))]
+        last = log.messages[0]
+    assert printed == ["first", "refused", "refused", "second"]

@@ -27,7 +27,7 @@ class Bench:
     def __init__(self, door: DoorClient, rig: RemoteBench) -> None:
         self.said: list[str] = []
         limits = {axis: rig.hands._limits[axis] for axis in rig.hands._limits}
-        served = Served(door, Rig("bench", limits), None, self.said.append)
+        served = Served(door, Rig("bench", limits, limits), None, self.said.append)
         section = DfmocoSection(type="dfmoco", listen="tcp:127.0.0.1:0")
         self.door, self.rig = door, rig
         self.controller = Controller(served, motors_of(section, limits), self.said.append)
@@ -240,7 +240,7 @@ def test_nothing_but_hi_and_ms_is_answered_before_the_first_reading() -> None:
         door.positions = dict.fromkeys(door.positions)  # pyright: ignore[reportAttributeAccessIssue]
         section = DfmocoSection(type="dfmoco", listen="tcp:127.0.0.1:0")
         limits = {Axis.PAN: Limits(-180.0, 180.0, 60.0, 240.0, 2400.0)}
-        served = Served(door, Rig("fake", limits), None, print)  # pyright: ignore[reportArgumentType]
+        served = Served(door, Rig("fake", limits, limits), None, print)  # pyright: ignore[reportArgumentType]
         controller = Controller(served, motors_of(section, limits), print)
         client = Client(door, "DFMoco 10.0.0.2", print)
         for line, answer in ((b"hi", ["hi 2 4 2.0.0"]), (b"ms", ["ms 0000"]), (b"mp 1", ()), (b"mm 1 5", ())):

@@ -20,7 +20,7 @@ LIMITS = {axis: Limits(-180.0, 180.0, 60.0, 240.0, 2400.0) for axis in (Axis.PAN
 
 
 def served(door: FakeDoor) -> Served:
-    return Served(door, Rig("fake", LIMITS), None, print)  # pyright: ignore[reportArgumentType]
+    return Served(door, Rig("fake", LIMITS, LIMITS), None, print)  # pyright: ignore[reportArgumentType]
 
 
 async def read_line(descriptor: int) -> bytes:

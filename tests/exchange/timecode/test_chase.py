@@ -10,10 +10,12 @@ from chase_bench import LIMITS, ChaseBench, sender
 from midi_sender import RATES, quarters
 from timecode.timecode import Timecode
 
+from teleop.core.axes import Axis, Limits
 from teleop.core.timing import PERIOD
 from teleop.exchange.timecode.mtc import MtcDecoder
 from teleop.exchange.timecode.reading import Fault, Reading, frame
 from teleop.exchange.timecode.tracker import Tracker
+from teleop.planner.keyframes.planner import Key
 
 BEGIN = 4.0
 HALF, LOCKED = 0.5, 2.0
@@ -62,6 +64,20 @@ def test_a_code_that_ends_is_a_legal_stop_on_the_path(seconds: float) -> None:
     )
     assert rests < BEGIN + seconds + 2.5
     assert_within_limits(bench)
+
+
+@pytest.mark.parametrize("told", [False, True])
+@pytest.mark.parametrize("seconds", [0.9, 1.5, 2.9, 3.5, 4.7])
+def test_a_move_that_rests_soon_after_the_code_has_ended_does_not_begin_anew(seconds: float, told: bool) -> None:
+    """It rested before its last word of the code was too old, followed that word, and then played on for good."""
+    keys = {Axis.PAN: [Key(0, 0), Key(3, 10), Key(9, -10), Key(12, 0)]}
+    bench = ChaseBench(keys=keys, limits={Axis.PAN: Limits(-180, 180, 120, 240, 1200)})
+    bench.told = told
+    end = BEGIN + seconds
+    bench.run(end + 3.0, sender(1, BEGIN, seconds, 0.004), lambda now: now - BEGIN)
+    places = [point.place for point in bench.points if point.time > end + 1.5 and point.place is not None]
+    assert max(places) == min(places)
+    assert bench.rests
 
 
 def test_it_joins_a_code_that_comes_back_and_one_that_goes_on_elsewhere() -> None:

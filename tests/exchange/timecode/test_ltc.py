@@ -97,3 +97,24 @@ def test_sound_that_a_busy_computer_hears_late_at_first_is_of_the_right_speed(la
     assert reference is not None
     assert reference.at == pytest.approx(3.0, abs=1e-3)
     assert tracker.locks == 1
+
+
+def test_sound_that_was_interrupted_is_timed_anew_when_it_comes_back() -> None:
+    """As from a program that writes nothing while its code is stopped: the rig would run ahead by the whole pause."""
+    clock, decoder, tracker = SampleClock(SAMPLES), LtcDecoder(SAMPLES, 25.0), Tracker(25.0, (1, 0, 0, 0))
+    heard = 50.0
+    for begin, pause in (((1, 0, 0, 0), 3.0), ((1, 0, 7, 0), 0.0)):
+        sound = encoded(begin, 50, 25.0)
+        for first in range(0, len(sound), 960):
+            heard += 0.01
+            clock.add(480, heard)
+            tracker.offset = clock.offset
+            for found in decoder.take(sound[first : first + 960]):
+                tracker.take(found, heard)
+            tracker.look(heard)
+        tracker.look(heard + pause)
+        heard += pause
+    decoder.close()
+    reference = tracker.reference(heard)
+    assert reference is not None
+    assert reference.at == pytest.approx(9.0, abs=0.02)

@@ -56,7 +56,7 @@ class Door:
 class Bench:
     def __init__(self, **fields: Any) -> None:
         self.door, self.lines = Door(), []
-        served = Served(cast(DoorClient, self.door), Rig("Bench", {}), None, self.lines.append)
+        served = Served(cast(DoorClient, self.door), Rig("Bench", {}, {}), None, self.lines.append)
         self.chaser = Chaser(TimecodeSection.model_validate({**SECTION, **fields}), served)
         self.now = 100.0
 
@@ -173,7 +173,7 @@ def test_what_cannot_be_opened_is_said_once_and_tried_again(monkeypatch: pytest.
 
     async def work() -> None:
         lines: list[str] = []
-        served = Served(cast(DoorClient, Door()), Rig("Bench", {}), None, lines.append)
+        served = Served(cast(DoorClient, Door()), Rig("Bench", {}, {}), None, lines.append)
         task = asyncio.create_task(server.serve_input(TimecodeSection.model_validate(SECTION), served, opener))
         async with asyncio.timeout(20):
             while opened.count(-1) < 2:
