@@ -107,9 +107,10 @@ def stops() -> None:
 def flood() -> None:
     with tempfile.TemporaryDirectory() as folder, chaos_bench(Path(folder), fifo=True) as bench:
         client = bench.client("flood", FLOOD)
-        assert client.stdout is not None
+        said = client.stdout
+        assert said is not None
         begin = time.monotonic()
-        wait_until(lambda: client.stdout.readline() == "flooded\n", "the end of the flood")
+        wait_until(lambda: said.readline() == "flooded\n", "the end of the flood")
         counts = bench.door.counts
         print(
             f"{FLOOD} datagrams in {time.monotonic() - begin:.0f} s: {counts.malformed} malformed,"

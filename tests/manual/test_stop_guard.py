@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from teleop.app.calibration.calibration_move import CalibrationMove
 from teleop.core.axes import Axis, Limits, Motion, State
 from teleop.core.errors import DeviceError, Interrupted
-from teleop.core.events import Action, DeviceCommand, TickEvent
+from teleop.core.events import Action, DeviceCommand, SourceEvent
 from teleop.core.guard_stop import stop_phases, stop_state
 from teleop.core.interfaces import Feedback
 from teleop.core.operator_input import Command
@@ -82,7 +82,7 @@ class Run:
         self.motion: Motion = {PAN: State(start), TILT: State(0.0)}
         self.planner.reset(self.motion)
         self.now = 0.0
-        self.acts: list[TickEvent] = []
+        self.acts: list[SourceEvent] = []
         self.demand: Demand = {}
         self.ended: BaseException | None = None
         self.guard.start(self.now, self.motion)

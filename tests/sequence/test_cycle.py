@@ -9,7 +9,7 @@ from at_once import AtOnce
 from fakes import NO_FEEDBACK
 
 from teleop.core.axes import Axis, Limits, State
-from teleop.core.events import Action, DeviceCommand, TickEvent
+from teleop.core.events import Action, DeviceCommand, SourceEvent
 from teleop.core.setpoints import StateTarget
 from teleop.core.timing import KEEP_ALIVE
 from teleop.planner.keyframes.planner import Key, plan
@@ -60,7 +60,7 @@ class Stage:
         self.source.start(self.now, {PAN: State(here)})
         self.live = Live(LIMITS, DT)
         self.live.reset({PAN: State(here)})
-        self.acts: list[tuple[float, TickEvent]] = []
+        self.acts: list[tuple[float, SourceEvent]] = []
         self.pan = State(here)
 
     def step(self) -> None:

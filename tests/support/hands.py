@@ -8,7 +8,7 @@ from pathlib import Path
 from teleop.config.operator_settings import SticksSection
 from teleop.config.presets import Presets
 from teleop.core.axes import Axis, Limits, Motion, Reading, State
-from teleop.core.events import DeviceCommand, TickEvent
+from teleop.core.events import DeviceCommand, SourceEvent
 from teleop.core.interfaces import Feedback, Source
 from teleop.core.operator_input import Command, Held, Press
 from teleop.core.setpoints import Demand
@@ -85,7 +85,7 @@ class Desk:
         self.planner.reset(self.motion)
         self.now = 10.0
         self.demand: Demand = {}
-        self.actions: list[TickEvent] = []
+        self.actions: list[SourceEvent] = []
         self.history: list[Motion] = []
         self.operator.start(self.now, self.motion)
 
