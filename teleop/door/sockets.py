@@ -4,6 +4,9 @@ A queue that is full is the sender's to deal with: the control process drops an 
 what it has to send and tries again. They are sockets in the door's folder, which only this user can reach. Where a
 system has none (Windows), they are UDP of 127.0.0.1, which every user of the computer reaches: so each of them begins
 with a secret, which stands in a file of the door's folder (mode 0600); what has another one is dropped and counted.
+
+A client in the folder is not connected: to one that is, Linux sends until the *sender's* memory is used up, so a client
+that reads nothing kept all answers from all others. One that is not has room for ten answers (`max_dgram_qlen`).
 """
 
 from __future__ import annotations
@@ -91,14 +94,16 @@ class ClientSocket:
             self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         else:
             self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self._commands = commands
         try:
             self._socket.setblocking(False)
             if self._secret:
-                self._socket.connect((LOOPBACK, port))
+                self._socket.connect((LOOPBACK, port))  # answers of others are none
                 return
+            with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as probe:
+                probe.connect(commands)
             self._socket.bind(own)
             os.chmod(own, 0o600)
-            self._socket.connect(commands)
         except OSError:
             self._socket.close()
             raise
@@ -111,7 +116,10 @@ class ClientSocket:
 
     def send(self, data: bytes) -> None:
         """Raises BlockingIOError while the queue is full, OSError where nobody is there."""
-        self._socket.send(self._secret + data)
+        if self._secret:
+            self._socket.send(self._secret + data)
+        else:
+            self._socket.sendto(data, self._commands)
 
     def recv(self, size: int) -> bytes:
         """An answer. Raises BlockingIOError where there is none, OSError where nobody is there."""

@@ -28,6 +28,7 @@ from teleop.door.ticks import from_plain
 REPEAT = 0.2  # s until a command that is not answered is sent again
 STOP_REPEAT = 0.05
 TIMEOUT = 2.0  # s until it is lost
+ROOM = 0.002  # s between two looks whether a full queue has room: five in a tick of the rig
 PLANNING = 60.0  # s for the answer to a command that the rig has first to plan
 ALIVE = 0.25  # s between two words about who is there
 LOOK = 0.01  # s between two looks at the ring
@@ -48,7 +49,7 @@ class DoorClient:
         self._number, self._decoded, self._beside = 0, {}, None
         self._outbox: deque[bytes] = deque()
         self._sticks: dict[str, bytes] = {}  # the newest of each stream that could not leave yet
-        self._writing = False
+        self._writing: asyncio.TimerHandle | None = None  # the next attempt to send what could not leave yet
         self._seen: dict[str, float] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
@@ -71,8 +72,8 @@ class DoorClient:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
         self._loop.remove_reader(self._socket)
-        if self._writing:
-            self._loop.remove_writer(self._socket)
+        if self._writing is not None:
+            self._writing.cancel()
         self._socket.close()
         with suppress(OSError):
             os.unlink(self.address.client(os.getpid()))
@@ -265,21 +266,20 @@ class DoorClient:
         return True
 
     def _watch(self) -> None:
-        if not self._writing:
-            self._writing = True
-            self._loop.add_writer(self._socket, self._flush)
+        if self._writing is None:
+            self._writing = self._loop.call_later(ROOM, self._flush)
 
     def _flush(self) -> None:
+        self._writing = None
         while self._outbox:
             if not self._sent(self._outbox[0]):
-                return
+                return self._watch()
             self._outbox.popleft()
         for session, data in list(self._sticks.items()):
             if not self._sent(data):
-                return
+                return self._watch()
             del self._sticks[session]
-        self._writing = False
-        self._loop.remove_writer(self._socket)
+        return None
 
     def _receive(self) -> None:
         while True:

@@ -58,6 +58,22 @@ def _took(client: object, answers: list[bytes]) -> bool:
     return True
 
 
+def test_a_client_that_reads_nothing_keeps_no_answer_from_others(commands: CommandSocket, tmp_path: Path) -> None:
+    deaf, other = (ClientSocket(str(tmp_path / name), str(tmp_path / "door")) for name in ("deaf", "other"))
+    deaf.send(b"the first of many")
+    [datagram] = received(commands)
+    for _ in range(2000):  # more than the memory of any socket takes
+        commands.answer(b"x" * 200, datagram.address)
+    other.send(b"stop")
+    [datagram] = received(commands)
+    commands.answer(b"stopped", datagram.address)
+    answers: list[bytes] = []
+    wait_until(lambda: _took(other, answers), "the answer")
+    assert answers == [b"stopped"]
+    for each in (deaf, other):
+        each.close()
+
+
 def test_only_this_user_can_read_where_it_is_and_who_is_gone_disturbs_nobody(
     commands: CommandSocket, tmp_path: Path
 ) -> None:
