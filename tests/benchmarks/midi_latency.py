@@ -1,4 +1,4 @@
-"""From a MIDI message to its command at the door, and what a controller, timecode and Foxglove cost: processor time.
+"""From a MIDI message to its command at the door, and what a controller and timecode cost: processor time.
 
 `python tests/benchmarks/midi_latency.py`; all beside a rig on a virtual clock in one process, as shares of one core.
 """
@@ -16,6 +16,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 from ltc_sound import encoded, is_installed
+from midi_sender import running
 from remote_bench import remote_bench
 from served_bench import beside_a_rig
 
@@ -23,6 +24,7 @@ from teleop.config.exchange.midi import MidiSection
 from teleop.exchange.midi import server
 from teleop.exchange.served import Served
 from teleop.exchange.timecode.ltc import LtcDecoder
+from teleop.exchange.timecode.mtc import MtcDecoder
 
 SECTION = {"type": "midi", "port": "desk", "controls": [{"sends": "cc 60", "jog": "tilt", "step": 0.01}]}
 PRESSES = 100
@@ -95,9 +97,21 @@ def sound() -> str:
     return f"{100 * spent / 10:.2f} % of a core"
 
 
+def quarter_frames() -> str:
+    """Of MIDI timecode at 25 frames a second: 100 messages a second."""
+    messages = [(at, message.bytes()) for at, message in running(90000, 250, 1, 0.0)]
+    decoder, readings = MtcDecoder(), 0
+    began = time.process_time()
+    for at, message in messages:
+        readings += decoder.take(message, at) is not None
+    spent = time.process_time() - began
+    return f"{100 * spent / 10:.3f} % of a core, a reading every {10 / readings * 1000:.0f} ms"
+
+
 def main() -> None:
     print("MIDI message to door:", latency())
     print("LTC at 48 kHz:", sound())
+    print("MIDI timecode:", quarter_frames())
     print("control process, the tick beside its state:", cost_of_a_tick())
 
 
