@@ -17,6 +17,7 @@ import tempfile
 import time
 from contextlib import suppress
 from pathlib import Path
+from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
@@ -51,17 +52,25 @@ def watched(port: int, seconds: float) -> list[float]:
     return ages
 
 
-def shares(console: RealConsole, port: int, seconds: float, watches: bool) -> tuple[float, float, list[float]]:
-    """Of a core, for the control process and its gateway, while pan moves; and what `watched` has."""
+class Turn(NamedTuple):
+    """Shares of a core, and what `watched` has."""
+
+    control: float
+    gateway: float
+    ages: list[float]
+
+
+def turn(console: RealConsole, port: int, seconds: float, watches: bool) -> Turn:
+    """While pan moves."""
     control, gateway = console._process.pid, console.gateway
     console.request("api/command", {"do": "goto", "axes": {"pan": 90}, "seconds": seconds})
     before = processor_time(control), processor_time(gateway)
     ages = watched(port, seconds) if watches else []
     if not watches:
         time.sleep(seconds)
-    found = (processor_time(control) - before[0]) / seconds, (processor_time(gateway) - before[1]) / seconds, ages
+    spent = processor_time(control) - before[0], processor_time(gateway) - before[1]
     console.request("api/command", {"do": "goto", "axes": {"pan": 0}, "seconds": 2, "wait": True})
-    return found
+    return Turn(spent[0] / seconds, spent[1] / seconds, ages)
 
 
 def foxglove(seconds: float) -> None:
@@ -70,14 +79,13 @@ def foxglove(seconds: float) -> None:
         tempfile.TemporaryDirectory() as folder,
         real_exchange(Path(folder), f"{{type: foxglove, listen: '127.0.0.1:{port}'}}") as console,
     ):
-        turns = [(shares(console, port, seconds, False), shares(console, port, seconds, True)) for _ in range(TURNS)]
-    ages = sorted(age for _, with_client in turns for age in with_client[2])
-    (control, gateway), (control_with, gateway_with) = (
-        tuple(statistics.mean(turn[which][process] for turn in turns) for process in range(2)) for which in range(2)
-    )
-    print(
-        f"Foxglove: a tick is {ages[len(ages) // 2]:.1f} ms old at the client, p99 {ages[int(0.99 * len(ages))]:.1f} ms"
-    )
+        turns = [(turn(console, port, seconds, False), turn(console, port, seconds, True)) for _ in range(TURNS)]
+    ages = sorted(age for _, watching in turns for age in watching.ages)
+    middle, late = ages[len(ages) // 2], ages[int(0.99 * len(ages))]
+    alone, watching = ([pair[which] for pair in turns] for which in range(2))
+    gateway, gateway_with = (statistics.mean(each.gateway for each in found) for found in (alone, watching))
+    control, control_with = (statistics.mean(each.control for each in found) for found in (alone, watching))
+    print(f"Foxglove: a tick is {middle:.1f} ms old at the client, p99 {late:.1f} ms")
     print(f"  gateway: {gateway:.1%} of a core without a client, {gateway_with:.1%} with one")
     print(f"  control process: {control:.1%} without, {control_with:.1%} with: ratio {control_with / control:.2f}")
 
