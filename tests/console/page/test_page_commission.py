@@ -59,7 +59,8 @@ def moving(visit, console):
 
 
 def ends(console, why):
-    console.at("shown")
+    until(lambda: console.shown["stage"] in ("shown", "asking"))
+    assert console.shown["stage"] == "shown", STALLED  # the motion was over before the page was
     trouble = console.shown["trouble"]
     assert console.wire_rests
     stalled = STALLED in trouble or "does not answer" in trouble  # and the gimbal is simulated in this process
