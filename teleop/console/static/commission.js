@@ -47,7 +47,11 @@ function left() {
 export function watchCommission() {
   document.addEventListener("visibilitychange", () => document.hidden && left());
   window.addEventListener("pagehide", left);
-  setInterval(() => mine.peek() && commission.peek()?.moves && ping(), ALIVE);
+  setInterval(() => {
+    if (!mine.peek() || !commission.peek()?.moves) return;
+    if (document.hidden) stop(); // it began to move after the page was hidden
+    else ping();
+  }, ALIVE);
 }
 
 export function Commission() {
