@@ -271,15 +271,20 @@ class DoorClient:
 
     def _flush(self) -> None:
         self._writing = None
+        if not self._all_sent():
+            self._watch()
+
+    def _all_sent(self) -> bool:
+        """Whether all that waited has left."""
         while self._outbox:
             if not self._sent(self._outbox[0]):
-                return self._watch()
+                return False
             self._outbox.popleft()
         for session, data in list(self._sticks.items()):
             if not self._sent(data):
-                return self._watch()
+                return False
             del self._sticks[session]
-        return None
+        return True
 
     def _receive(self) -> None:
         while True:

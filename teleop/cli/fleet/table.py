@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
-from threading import Event, Thread
+from functools import partial
 from time import sleep
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from teleop.cli.fleet.options import DEFAULTS, FleetOptions
+from teleop.cli.meanwhile import meanwhile
 from teleop.cli.screens.folded import complain
 from teleop.studio.rig_state import LOST
 
 if TYPE_CHECKING:
+    from threading import Event
+
     from teleop.studio.fleet import Fleet
 
 EVERY = 0.1  # s between two pictures of the table
@@ -37,27 +38,15 @@ def fleet_table(
             for problem in fleet.problems:
                 complain(f"teleop: {problem}")
             return 0
-        with _clocks_kept(fleet):
+        with meanwhile(partial(_look_at_clocks, fleet), "clocks"):
             return _lines(fleet) if options.json else _live(fleet)
 
 
-@contextmanager
-def _clocks_kept(fleet: Fleet) -> Iterator[None]:
-    """The clocks are looked at meanwhile, beside the table: a rig that does not answer holds no picture up."""
-    over = Event()
-
-    def look() -> None:
+def _look_at_clocks(fleet: Fleet, over: Event) -> None:
+    """Beside the table: a rig that does not answer holds no picture up."""
+    fleet.measure_clocks()
+    while not over.wait(CLOCKS_EVERY):
         fleet.measure_clocks()
-        while not over.wait(CLOCKS_EVERY):
-            fleet.measure_clocks()
-
-    thread = Thread(target=look, daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        over.set()
-        thread.join()
 
 
 def _print(fleet: Fleet, as_json: bool) -> None:

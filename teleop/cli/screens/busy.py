@@ -6,9 +6,11 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from threading import Event, Thread
+from functools import partial
+from threading import Event
 from typing import TextIO
 
+from teleop.cli.meanwhile import meanwhile
 from teleop.core.plain import plain
 
 PATIENCE = 0.5  # s without a word, and between two
@@ -25,14 +27,8 @@ def busy(what: str, stream: TextIO | None = None, patience: float = PATIENCE) ->
     if stream is None or stream.closed or not stream.isatty() or os.environ.get("TERM", "dumb") == "dumb":
         yield
         return
-    over = Event()
-    thread = Thread(target=_tell, args=(what, stream, patience, over), name="busy", daemon=True)
-    thread.start()
-    try:
+    with meanwhile(partial(_tell, what, stream, patience), "busy"):
         yield
-    finally:
-        over.set()
-        thread.join()
 
 
 def _tell(what: str, stream: TextIO, patience: float, over: Event) -> None:

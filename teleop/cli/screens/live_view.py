@@ -149,6 +149,8 @@ class Plain:
 
 def new_messages(messages: Sequence[Message], last: Message | None) -> Sequence[Message]:
     """Those that came after `last`, newest first. One that comes again takes the place of the one before."""
-    if last is None or last in messages:
-        return messages if last is None else messages[: messages.index(last)]
+    if last is None:
+        return messages
+    if last in messages:
+        return messages[: messages.index(last)]
     return [message for message in messages if message.time > last.time]

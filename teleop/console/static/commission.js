@@ -39,18 +39,20 @@ export function pressedKey(event) {
   return true;
 }
 
+/** Whether a step moves that this page has let go. */
+const holds = () => mine.peek() && commission.peek()?.moves;
+
 /** A page that nobody sees holds nothing. */
 function left() {
-  if (mine.peek() && commission.peek()?.moves) stop();
+  if (holds()) stop();
 }
 
 export function watchCommission() {
   document.addEventListener("visibilitychange", () => document.hidden && left());
   window.addEventListener("pagehide", left);
   setInterval(() => {
-    if (!mine.peek() || !commission.peek()?.moves) return;
-    if (document.hidden) stop(); // it began to move after the page was hidden
-    else ping();
+    if (document.hidden) left(); // it may have begun to move after the page was hidden
+    else if (holds()) ping();
   }, ALIVE);
 }
 
